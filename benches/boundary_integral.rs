@@ -6,8 +6,9 @@
 
 use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 
-use motile::boundary_integral::{BoundaryIntegral, Forcing, Geometry, PeriodicCalculus, Settings, TensionPlacement};
-use motile::ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+use motile::motile_base::{Drive, FlowSample, Region, Vec2};
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
 use motile_timing::PlainPair;
 
 /// How often each row is timed.
@@ -62,7 +63,7 @@ impl Row {
     }
 }
 
-fn evaluation(name: &str, region: Geometry, nodes: usize, ratio: f64, droplets: usize) -> Row {
+fn evaluation(name: &str, region: Region, nodes: usize, ratio: f64, droplets: usize) -> Row {
     let settings = Settings { nodes, ..Settings::default() };
     let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
@@ -89,7 +90,7 @@ fn evaluation(name: &str, region: Geometry, nodes: usize, ratio: f64, droplets: 
 }
 
 /// A thousand samples on a square that holds the droplet.
-fn samples(name: &str, region: Geometry) -> Row {
+fn samples(name: &str, region: Region) -> Row {
     let mut solver = BoundaryIntegral::new(region, 1.0, Settings::default()).expect("a valid scene");
     let mut markers = markers(64, Some(100.0), 1);
     solver.velocities(&mut markers).expect("a valid scene");
@@ -108,22 +109,22 @@ fn transform_pair(n: usize) -> Row {
 }
 
 fn main() {
-    let square = |side| Geometry::Box { lengths: [side, side] };
-    let channel = || Geometry::Channel { length: 12.0, width: 3.0, forcing: Forcing::default() };
+    let square = |side| Region::Box { lengths: [side, side] };
+    let channel = || Region::Channel { length: 12.0, width: 3.0, drive: Drive::default() };
     let mut rows = vec![transform_pair(120), transform_pair(240)];
     for nodes in [64, 128, 256] {
         for ratio in [1.0, 100.0] {
-            rows.push(evaluation("free space", Geometry::Plane, nodes, ratio, 1));
+            rows.push(evaluation("free space", Region::Plane, nodes, ratio, 1));
             rows.push(evaluation("box 6", square(6.0), nodes, ratio, 1));
             rows.push(evaluation("channel 12 x 3", channel(), nodes, ratio, 1));
         }
     }
     for ratio in [1.0, 100.0] {
-        rows.push(evaluation("free space", Geometry::Plane, 64, ratio, 10));
+        rows.push(evaluation("free space", Region::Plane, 64, ratio, 10));
         rows.push(evaluation("box 10.4", square(10.4), 64, ratio, 10));
     }
     rows.extend([
-        samples("free space", Geometry::Plane),
+        samples("free space", Region::Plane),
         samples("box 6", square(6.0)),
         samples("channel 12 x 3", channel()),
     ]);

@@ -5,21 +5,24 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
-use motile::ib_core::{AnyKernel, Body, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
+use motile::elastic_solids::mesh::fitted_strip;
+use motile::elastic_solids::{NeoHookean, Solid};
+use motile::ib_core::{AnyKernel, ImmersedBoundary, Transfer};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Body, Hydrodynamics};
+use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField};
-use motile::{GridMethod, Method, Setup};
 use motile_timing::{PlainPair, print_ratios};
 
 /// A body in a box of n x n cells.
 fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let grid = Grid::periodic(n, n, 6.0 / n as f64).expect("a good grid");
     let solver = PeriodicStokes::new(grid, 1.0).expect("a good viscosity");
-    let discretisation = ImmersedBoundary::new(solver, AnyKernel::BSpline4).discretisation();
+    let view = ImmersedBoundary::new(solver, AnyKernel::BSpline4).fluid_view();
     let count = body.marker_count();
     let (mut positions, mut forces) = (vec![Vec2::ZERO; count], vec![Vec2::ZERO; count]);
     body.write_markers(&mut positions);
-    body.write_forces(&discretisation, &mut forces).expect("a good state");
+    body.write_forces(&view, &mut forces).expect("a good state");
     let given = forces.clone();
     let (mut density, velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
     let mut velocities = vec![Vec2::ZERO; count];
@@ -28,7 +31,7 @@ fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let (spreading, interpolating) = (transfer.clone(), transfer.clone());
     let mut pair = PlainPair::new(n, n);
     let mut pair = || pair.run();
-    let mut force = || body.write_forces(black_box(&discretisation), &mut forces).expect("a good state");
+    let mut force = || body.write_forces(black_box(&view), &mut forces).expect("a good state");
     let mut locate = || transfer.locate(black_box(&positions));
     let mut spread = || spreading.spread(black_box(&given), &mut density).expect("lists that fit");
     let mut interpolate = || interpolating.interpolate(black_box(&velocity), &mut velocities).expect("lists that fit");

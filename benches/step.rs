@@ -9,7 +9,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::elastic_solids::Moduli;
 use motile::prelude::*;
-use motile::{AnyFlow, Contrast};
+use motile::setup::AnyFlow;
 use motile_timing::{PlainPair, print_ratios};
 
 /// A step small enough that thousands of them stay in the same regime.
@@ -58,12 +58,11 @@ fn scenes(c: &mut Criterion) {
     }
     for spacing in [0.1, 0.05] {
         let (setup, cells) = on_grid(Region::Box { lengths: [6.0, 6.0] }, spacing);
-        let sharp = viscous(&setup);
-        measure(c, "ratio 100, sharp", &sharp, cells);
-        let grid = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(spacing) };
-        measure(c, "ratio 100, arithmetic", &Setup { method: Method::Grid(grid), ..sharp }, cells);
+        let method = Method::Grid(GridMethod::uncorrected(spacing));
+        measure(c, "ratio 100, arithmetic", &Setup { method, ..viscous(&setup) }, cells);
     }
     let (setup, cells) = on_grid(between_walls(6.0, 5.4), 0.1);
+    let setup = Setup { method: Method::Layers(LayersMethod::of_spacing(0.1)), ..setup };
     let shear = Moduli::from_thesis_spring_constant(1e5).expect("good moduli").shear();
     let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
     measure(c, "elastic channel", &Setup { solids, ..setup }, cells);

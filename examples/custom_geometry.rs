@@ -7,12 +7,14 @@
 
 use std::process::ExitCode;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::{Channel, SolidError};
-use motile::ib_core::Scene;
-use motile::{Built, ChannelShape, Method, Setup};
-use motile_examples::{ElasticFlags, SceneFlags, WatchedRun, say};
+use motile::motile_scene::Scene;
+use motile::setup::{Built, Setup};
+use motile_examples::{ElasticFlags, SceneFlags};
+use motile_output::run::say;
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
@@ -36,12 +38,11 @@ fn branch(period: f64, width: f64) -> ChannelShape {
 
 /// The scene of a description, with walls of another shape than those it names.
 fn build_with(setup: &Setup, shape: &Channel) -> Result<Built> {
-    let Method::Grid(grid) = &setup.method else { bail!("elastic walls need a grid") };
     let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
     let droplets = vec![scene.add(setup.droplet(&setup.droplets[0])?)];
     let (walls, top) = (&setup.solids, 0.5 * setup.region.lengths()[1]);
-    let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
-    let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
+    let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(setup)?)?, setup)?;
+    let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(setup)?)?, setup)?;
     let solids = vec![scene.add(lower), scene.add(upper)];
     Ok(Built { scene, droplets, solids, rigid_bodies: Vec::new(), shells: Vec::new() })
 }
@@ -59,6 +60,7 @@ enum Case {
 
 /// A droplet in an elastic channel of any shape.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 4,476 steps, 8,953 evaluations of the flow.")]
 struct Flags {
     /// Geometry
     #[arg(long, value_enum, default_value_t = Case::Closure)]
@@ -93,7 +95,7 @@ fn swim(Flags { case, scene: flags }: &Flags) -> Result<()> {
     }
 
     // The run and its results.
-    let mut run = WatchedRun::new(built, &setup, flags, "custom_geometry")?;
+    let mut run = flags.watch(built, &setup, "custom_geometry")?;
     run.go(None)?;
     let summary = run.summary()?;
     run.finish(&summary)

@@ -11,11 +11,12 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::{ExchangeSetup, Setup};
-use motile_examples::{AnyRegionFlags, SceneFlags, WatchedRun, not_negative, positive};
+use motile::setup::{ExchangeSetup, Setup};
+use motile_examples::{AnyRegionFlags, SceneFlags, not_negative, positive};
 
 /// An active droplet that exchanges its particles with its inside.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 3,978 steps, 7,957 evaluations of the flow.")]
 struct Flags {
     /// Rate k_on at which particles inside bind to the interface (R0 per time)
     #[arg(long, default_value_t = 0.1, value_parser = not_negative, allow_hyphen_values = true)]
@@ -71,7 +72,7 @@ fn swim(all: &Flags) -> Result<()> {
     all.apply(&mut setup)?;
 
     // The run, with all that watches it.
-    let mut run = WatchedRun::new(setup.build()?, &setup, flags, "exchange")?;
+    let mut run = flags.watch(setup.build()?, &setup, "exchange")?;
     run.go(None)?;
 
     // The results, also of a run that broke off.

@@ -9,12 +9,17 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
-use motile::ib_core::{Body, Handle, Vec2};
-use motile::{
-    Built, DropletShape, GridMethod, Hold, Material, Method, RigidBodySetup, Setup, ShellSetup, SolidOutline,
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Body, Handle};
+use motile::setup::{
+    Built, DropletShape, Hold, LayersMethod, Material, Method, RigidBodySetup, Setup, ShellSetup, SolidOutline,
     SolidSetup,
 };
-use motile_examples::{AnyRegionFlags, Preset, SceneFlags, WatchedRun, not_negative, pair, positive, turning_rate};
+use motile_examples::{AnyRegionFlags, Preset, SceneFlags, not_negative, pair, positive, turning_rate};
+
+/// Radius of the droplet, and the smallest one of a core (R0): the time steps are in proportion to it.
+const RADIUS: f64 = 1.0;
+const LEAST_RADIUS: f64 = 0.02;
 
 /// What is inside the droplet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -62,8 +67,20 @@ impl CoreFlags {
         ] {
             ensure!(used || !given, "--{flag} means nothing to this core: leave it out or give --core shell");
         }
-        let [[x, y], [dx, dy]] = [setup.droplets[0].centre, self.core_offset];
-        let (centre, radius) = ([x + dx, y + dy], self.core_radius);
+        let (radius, [dx, dy]) = (self.core_radius, self.core_offset);
+        ensure!(
+            self.core == Core::None || (LEAST_RADIUS..RADIUS).contains(&radius),
+            "--core-radius {radius}: give from {LEAST_RADIUS}, below which steps are as short as the core is small, to \
+             less than {RADIUS}, the radius of the droplet"
+        );
+        ensure!(
+            self.core == Core::None || dx.hypot(dy) + radius < RADIUS,
+            "--core-offset {dx},{dy} puts the core of radius {radius} out of the droplet of radius {RADIUS}: give one \
+             shorter than {:.4}",
+            RADIUS - radius
+        );
+        let [x, y] = setup.droplets[0].centre;
+        let centre = [x + dx, y + dy];
         match self.core {
             Core::None => {}
             Core::Rigid => {
@@ -95,6 +112,7 @@ impl CoreFlags {
 
 /// A droplet with a nucleus.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 8,867 steps, 17,735 evaluations of the flow.")]
 struct Flags {
     #[command(flatten)]
     core: CoreFlags,
@@ -107,9 +125,9 @@ fn main() -> ExitCode {
 }
 
 fn swim(Flags { core: core_flags, scene: flags }: &Flags) -> Result<()> {
-    // The droplet, on a grid where that is needed, its region and its core.
-    let grid = Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() };
-    let base = (core_flags.core == Core::Disc && flags.method.preset == Preset::Accurate).then_some(grid);
+    // The droplet, as a layer beside a grid where that is needed, its region and its core.
+    let layers = Setup { method: Method::Layers(LayersMethod::default()), ..Setup::default() };
+    let base = (core_flags.core == Core::Disc && flags.method.preset == Preset::Accurate).then_some(layers);
     let mut setup = flags.method.setup(&flags.droplet, base)?;
     flags.region.apply(&mut setup)?;
     core_flags.apply(&mut setup)?;
@@ -117,12 +135,12 @@ fn swim(Flags { core: core_flags, scene: flags }: &Flags) -> Result<()> {
     // The run, with all that watches it.
     let built = setup.build()?;
     let core = core_of(&built);
-    let mut run = WatchedRun::new(built, &setup, flags, "nucleus")?;
+    let mut run = flags.watch(built, &setup, "nucleus")?;
     run.go(None)?;
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let turning = turning_rate(run.records());
+    let turning = turning_rate(&run.table().curve("time", "heading_degrees")?);
     let speed = run.last()?.observables.speed();
     summary.put("turning_rate", turning, "of the heading, in the second half of the run (radians per time)");
     summary.put("track_radius", turning.map(|rate| speed / rate.abs()), "of the track, speed over turning rate (R0)");

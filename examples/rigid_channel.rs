@@ -9,10 +9,11 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::active_interface::{observables::net_flux, trajectory::Evidence};
-use motile_examples::{ChannelFlags, SceneFlags, WatchedRun};
+use motile_examples::{ChannelFlags, SceneFlags};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 4,613 steps, 9,227 evaluations of the flow.")]
 struct Flags {
     #[command(flatten)]
     scene: SceneFlags<ChannelFlags>,
@@ -28,7 +29,7 @@ fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     flags.region.apply(&mut setup)?;
 
     // The run, with all that watches it.
-    let mut run = WatchedRun::new(setup.build()?, &setup, flags, "rigid_channel")?;
+    let mut run = flags.watch(setup.build()?, &setup, "rigid_channel")?;
     run.go(None)?;
 
     // The results, also of a run that broke off.

@@ -9,8 +9,10 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::{ChannelShape, MethodKind, Region, RigidSetup, Setup, SolidOutline};
-use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, WatchedRun, not_negative, positive};
+use motile::elastic_solids::ChannelShape;
+use motile::motile_base::Region;
+use motile::setup::{MethodKind, RigidSetup, Setup, SolidOutline};
+use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, not_negative, positive};
 
 /// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
 const BEHIND: f64 = 0.5;
@@ -32,6 +34,7 @@ enum Case {
 
 /// An active droplet swims between rigid walls of some shape.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 4,545 steps, 9,091 evaluations of the flow.")]
 struct Flags {
     /// The shape
     #[arg(long, value_enum, default_value_t = Case::Sinusoidal)]
@@ -93,8 +96,8 @@ impl Flags {
     fn setup(&self) -> Result<Setup> {
         let flags = &self.scene;
         ensure!(
-            flags.method.method != Some(MethodKind::Grid),
-            "rigid walls of any shape have no grid: leave --method immersed-boundary out"
+            flags.method.method.is_none_or(|kind| kind == MethodKind::Integral),
+            "rigid walls of any shape have no grid: leave --method out or give boundary-integral"
         );
         let (amplitude, width) = (self.amplitude, flags.region.width);
         ensure!(
@@ -144,7 +147,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let length = flags.scene.region.along.length;
 
     // The run, with all that watches it.
-    let mut run = WatchedRun::new(setup.build()?, &setup, &flags.scene, "rigid_geometry")?;
+    let mut run = flags.scene.watch(setup.build()?, &setup, "rigid_geometry")?;
     run.go(None)?;
 
     // The results, also of a run that broke off.

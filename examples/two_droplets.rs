@@ -1,6 +1,6 @@
 //! Two active droplets meet in a periodic box: head-on, side by side, or one behind the other.
 //!
-//! `cargo run --release --example two_droplets` simulates two droplets that swim towards each other, prints where they
+//! `cargo run --release --example two_droplets` simulates two droplets that swim past each other, prints where they
 //! are in the end and how close they came, and writes to `out/two_droplets/`:
 //!
 //! * `final.png`, a picture of the final state;
@@ -14,12 +14,15 @@ use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::{
     ActiveDroplet,
-    curve::polygon_moments,
     observables::{InterfaceState, centroid_velocity},
+    polygon_moments,
 };
-use motile::ib_core::{Every, Handle, System, Vec2};
-use motile::{AnyFlow, Built, DropletSetup, Particles, Region};
-use motile_examples::{DropletFlags, Job, MethodFlags, OutputFlags, Summary, pair, positive, settle_contrast};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Every, Handle, System};
+use motile::setup::{AnyFlow, Built, DropletSetup, Particles};
+use motile_examples::{DropletFlags, MethodFlags, pair, positive};
+use motile_output::run::{Job, OutputFlags, Summary};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
 
 /// How the droplets start.
@@ -35,6 +38,7 @@ enum Meeting {
 
 /// Two active droplets meet in a periodic box.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 4,661 steps, 9,323 evaluations of the flow.")]
 struct Flags {
     /// How the droplets start
     #[arg(long, value_enum, default_value_t = Meeting::HeadOn)]
@@ -42,8 +46,12 @@ struct Flags {
     /// Distance of their centres at the start (R0); without it 4, and side by side half of the box
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     distance: Option<f64>,
+    /// Distance of their paths at the start (R0), across the first one's; without it 2.5 head-on, so that they pass
+    /// each other, and 0 otherwise. Head-on with less than about 1.5 their interfaces come to touch, which ends the run
+    #[arg(long, value_parser = motile_examples::not_negative, allow_hyphen_values = true)]
+    lateral_offset: Option<f64>,
     /// Sides of the box (R0)
-    #[arg(long = "box", value_name = "X,Y", default_value = "12,6", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long = "box", value_name = "X,Y", default_value = "12,8", value_parser = pair, allow_hyphen_values = true)]
     sides: [f64; 2],
     /// Activity of the second droplet; without it that of the first
     #[arg(long, value_parser = motile_examples::activity, allow_hyphen_values = true)]
@@ -77,12 +85,23 @@ fn meet(flags: &Flags) -> Result<()> {
         "--distance {distance}: the droplets or their images overlap, give more than 2 and less than {}",
         along - 2.0
     );
+    let usual = if flags.meeting == Meeting::HeadOn { 2.5 } else { 0.0 };
+    let aside = flags.lateral_offset.unwrap_or(usual);
+    ensure!(
+        flags.lateral_offset.is_none() || flags.meeting != Meeting::SideBySide,
+        "--lateral-offset means nothing side by side: give --distance"
+    );
+    ensure!(
+        aside <= 0.5 * flags.sides[1],
+        "--lateral-offset {aside} is nearer to an image: give at most half of the box, {}",
+        0.5 * flags.sides[1]
+    );
     // Both droplets: where they start and which way they swim.
-    let half = 0.5 * distance;
+    let (half, aside) = (0.5 * distance, 0.5 * aside);
     let (places, second_angle) = match flags.meeting {
-        Meeting::HeadOn => ([[-half, 0.0], [half, 0.0]], 180.0),
+        Meeting::HeadOn => ([[-half, -aside], [half, aside]], 180.0),
         Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
-        Meeting::LeaderAndFollower => ([[-half, 0.0], [half, 0.0]], 0.0),
+        Meeting::LeaderAndFollower => ([[-half, -aside], [half, aside]], 0.0),
     };
     let mut setup = flags.method.setup(&flags.droplet, None)?;
     setup.region = Region::Box { lengths: flags.sides };
@@ -99,15 +118,18 @@ fn meet(flags: &Flags) -> Result<()> {
         ..first.clone()
     };
     setup.droplets = vec![first, second];
-    settle_contrast(&mut setup);
     let Built { mut scene, droplets, .. } = setup.build()?;
     let (droplets, sides) = ([droplets[0], droplets[1]], Vec2::from(flags.sides));
 
     // The run, observed.
     let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
-    let mut table = CsvTable::create(job.directory.join("trajectory.csv"), &names)?;
-    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets, sides)?)?) };
+    let path = job.directory.join("trajectory.csv");
+    let mut table = CsvTable::of_run(path, &names, scene.system_mut(), "two droplets")?;
+    let mut record = |system: &mut System<AnyFlow>| -> Result<()> {
+        let row = look(system, droplets, sides)?;
+        Ok(table.push_state(system, &row)?)
+    };
     let every = Every::StepAfter(job.end / ROWS);
     job.go(&mut scene, vec![(every, &mut record)])?;
 
@@ -132,6 +154,7 @@ fn meet(flags: &Flags) -> Result<()> {
     }
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
+    summary.put("evaluations", scene.system().work().evaluations, "of the flow");
     summary.put("seconds", job.seconds, "of computation");
     summary.put("warnings", job.warnings.clone(), "");
     summary.put("failure", job.failure(), "if the run broke off");

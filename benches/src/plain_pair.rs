@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use fourier::{ComplexTransform, RealTransform};
+use motile_base::{ComplexTransform, RealTransform};
 use num_complex::Complex64;
 
 /// A forward and an inverse real transform as anyone would write them: rows, a transposition, columns.

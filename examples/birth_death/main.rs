@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile_examples::say;
+use motile_output::run::say;
 
 /// Compares closed form, series and simulation of the extinction of a birth-death process.
 #[derive(Debug, Parser)]

@@ -1,12 +1,13 @@
 //! The frame of an example: reads the command line, runs, and ends with one sentence where something is wrong.
 
-use std::{error::Error as _, io::Write as _, process::ExitCode};
+use std::{error::Error as _, process::ExitCode};
 
 use anyhow::Result;
 use clap::{
     Parser,
     error::{ContextKind, ContextValue, ErrorKind},
 };
+use motile_output::run::explained;
 
 /// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
 const MISUSE: u8 = 2;
@@ -15,7 +16,8 @@ const MISUSE: u8 = 2;
 /// the run, ends as one sentence on the error output and an exit code other than zero.
 ///
 /// ```no_run
-/// use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags};
+/// use motile_examples::{BoxFlags, DropletFlags, MethodFlags};
+/// use motile_output::run::OutputFlags;
 ///
 /// /// A droplet swims in a periodic box.
 /// #[derive(clap::Parser)]
@@ -61,21 +63,6 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// Writes a line to the standard output; where nobody listens any more, as behind `head`, that is no reason to fail.
-pub fn say(line: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stdout(), "{line}");
-}
-
-/// An error and its causes, without those that it tells already, in one line.
-#[must_use]
-pub fn explained(error: &anyhow::Error) -> String {
-    one_line(&error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {
-        "" => cause,
-        _ if told.contains(&cause) => told,
-        _ => format!("{told}: {cause}"),
-    }))
 }
 
 /// What is wrong with a command line, in one sentence.

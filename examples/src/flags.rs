@@ -3,15 +3,15 @@
 //! Units are those of Cowley's simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
 //! its Appendix A converts them.
 
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context as _, Result, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use clap::Args;
-use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Exclusion, Region, Setup, Start};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{Built, DropletSetup, Exclusion, Setup, Start};
+use motile_output::run::{OutputFlags, View, WatchedRun};
 
+use crate::MethodFlags;
 use crate::parse::{activity, finite, not_negative, one_of, pair, positive, seed};
-use crate::{CheckpointFlags, MethodFlags};
 
 /// Radius of a droplet, the unit of length.
 pub(crate) const RADIUS: f64 = 1.0;
@@ -210,43 +210,14 @@ pub struct SceneFlags<R: Args> {
     pub output: OutputFlags,
 }
 
-/// What is written where.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
-pub struct OutputFlags {
-    /// Draw no pictures, plots and animations
-    #[arg(long)]
-    pub no_pictures: bool,
-    /// Show no progress
-    #[arg(long)]
-    pub quiet: bool,
-    /// Directory of the results; without it that of the example in out/
-    #[arg(long, value_name = "DIRECTORY")]
-    pub out: Option<PathBuf>,
-    /// Write the scene to this TOML file, for `swimming_droplet --scene`
-    #[arg(long, value_name = "FILE")]
-    pub write_scene: Option<PathBuf>,
-    /// Checkpoints
-    #[command(flatten)]
-    pub checkpoints: CheckpointFlags,
-}
-
-impl OutputFlags {
-    /// Writes the scene file, if one is asked for.
+impl<R: RegionFlags> SceneFlags<R> {
+    /// A run of the scene that was made from `setup`, watching its first droplet. Its results go where the flags say,
+    /// by default to `out/<name>/`.
     ///
     /// # Errors
-    /// A file that cannot be written.
-    pub fn write_scene(&self, setup: &Setup) -> Result<()> {
-        let Some(path) = &self.write_scene else { return Ok(()) };
-        std::fs::write(path, setup.to_toml()?).with_context(|| format!("--write-scene {}", path.display()))
-    }
-
-    /// The directory of the results of example `name`, made if it is not there.
-    ///
-    /// # Errors
-    /// It cannot be made.
-    pub fn directory(&self, name: &str) -> Result<PathBuf> {
-        let directory = self.out.clone().unwrap_or_else(|| Path::new("out").join(name));
-        crate::make_directory(&directory)?;
-        Ok(directory)
+    /// Those of [`WatchedRun::new`]; flags that do not fit together.
+    pub fn watch(&self, built: Built, setup: &Setup, name: &str) -> Result<WatchedRun> {
+        let view = View { spacing: self.method.spacing(setup), region: self.region.caption()? };
+        WatchedRun::new(built, setup, self.method.time, &self.output, name, &view)
     }
 }

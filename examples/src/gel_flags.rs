@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use clap::Args;
 use motile::interior_fields::{Anchoring, DirectorStart, GelMaterial};
-use motile::{DropletSetup, GelSetup};
+use motile::setup::{DropletSetup, GelSetup};
 
 use crate::parse::{finite, not_negative, one_of, positive};
 
@@ -73,7 +73,7 @@ impl GelFlags {
                 *own = seed.unwrap_or(*own);
             }
             DirectorStart::Random { seed: own } => *own = seed.unwrap_or(*own),
-            DirectorStart::Aster | DirectorStart::Vortex => {}
+            _ => {}
         }
         let noiseless = self.noise.is_some() && !matches!(start, DirectorStart::Uniform { .. });
         ensure!(!noiseless, "--noise means nothing without --start uniform: leave it out or give that");

@@ -1,9 +1,10 @@
 //! Command line flags that say how a scene is computed.
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
-use motile::ib_core::{AnyKernel, StepSize};
-use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, RepulsionSetup, Setup};
+use motile::ib_core::AnyKernel;
+use motile::motile_scene::{StepSize, integrator::IntegratorKind};
+use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, RepulsionSetup, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
@@ -19,20 +20,26 @@ pub enum Preset {
 }
 
 /// How the flow is computed.
-pub(crate) const METHODS: [(&str, &str, MethodKind); 2] = [
-    ("boundary-integral", "Without a grid", MethodKind::Integral),
-    ("immersed-boundary", "On a grid", MethodKind::Grid),
+pub(crate) const METHODS: [(&str, &str, MethodKind); 3] = [
+    (MethodKind::Integral.name(), "Without a grid", MethodKind::Integral),
+    (
+        MethodKind::Layers.name(),
+        "Interfaces and surfaces of solids exact, the inside of solids on a grid",
+        MethodKind::Layers,
+    ),
+    (MethodKind::Grid.name(), "On a grid", MethodKind::Grid),
 ];
-/// How a grid treats two viscosities.
-const CONTRASTS: [(&str, &str, Contrast); 2] = [
-    ("sharp", "A jump at the interface", Contrast::Sharp),
-    ("arithmetic", "A smooth viscosity, as in Cowley", Contrast::Arithmetic),
+
+const INTEGRATORS: [(&str, &str, IntegratorKind); 2] = [
+    ("midpoint", "Two stages a step", IntegratorKind::Midpoint),
+    ("runge-kutta-chebyshev", "Long steps of many stages, for stiff solids", IntegratorKind::RungeKuttaChebyshev),
 ];
 
 /// The numerical method.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct MethodFlags {
-    /// How the flow is computed; without it on a grid if a flag of the grid is given, and without a grid otherwise
+    /// How the flow is computed; without it as layers where there are solids, else on a grid if a flag of the grid is
+    /// given, and without a grid otherwise
     #[arg(long, value_parser = one_of(&METHODS))]
     pub method: Option<MethodKind>,
     /// Grid spacing h (R0); without a grid, that of pictures [default: 0.05]
@@ -41,6 +48,9 @@ pub struct MethodFlags {
     /// Time step, 'auto' (half of what is stable), 'adaptive' or 'adaptive:TOLERANCE'; without it the preset's
     #[arg(long, value_parser = time_step, allow_hyphen_values = true)]
     pub dt: Option<StepSize>,
+    /// What takes the steps; without it the scene's, which is the midpoint rule unless a file says otherwise
+    #[arg(long, value_parser = one_of(&INTEGRATORS))]
+    pub integrator: Option<IntegratorKind>,
     /// Time to be simulated
     #[arg(long, default_value_t = 60.0, value_parser = positive, allow_hyphen_values = true)]
     pub time: f64,
@@ -48,13 +58,10 @@ pub struct MethodFlags {
     /// preset's
     #[arg(long, value_parser = kernel)]
     pub kernel: Option<AnyKernel>,
-    /// How a grid treats two viscosities; without it the preset's
-    #[arg(long, value_parser = one_of(&CONTRASTS))]
-    pub contrast_method: Option<Contrast>,
-    /// Nodes of the interface without a grid or beside elastic walls [default: 72]
+    /// Nodes of the interface without a grid or among layers [default: 72]
     #[arg(long, value_parser = nodes, allow_hyphen_values = true)]
     pub nodes: Option<usize>,
-    /// Cells of the concentration without a grid [default: 288]
+    /// Cells of the concentration without a grid or among layers [default: 288]
     #[arg(long, value_parser = cells, allow_hyphen_values = true)]
     pub concentration_cells: Option<usize>,
     /// Strength and range of a short-range repulsion between interfaces, solids and walls; without it there is none
@@ -63,6 +70,9 @@ pub struct MethodFlags {
     /// Gap (R0) below which the run ends
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
     pub least_gap: Option<f64>,
+    /// Hold the scene, which has to be its own mirror image in y = 0, symmetric
+    #[arg(long)]
+    pub mirror_symmetric: bool,
     /// Settings that go together
     #[arg(long, value_enum, default_value_t = Preset::Accurate)]
     pub preset: Preset,
@@ -79,35 +89,47 @@ impl MethodFlags {
             Preset::Thesis => Setup::thesis(),
             Preset::Accurate => Setup::default(),
         });
-        let preset = if self.preset == Preset::Thesis { GridMethod::thesis() } else { GridMethod::default() };
-        let (grid, integral) = match setup.method {
-            Method::Grid(grid) => (grid, IntegralMethod::default()),
-            Method::Integral(integral) => (preset, integral),
-        };
-        setup.method = match self.kind(setup.method.kind()) {
-            MethodKind::Grid => Method::Grid(self.grid(grid)?),
-            MethodKind::Integral => Method::Integral(self.integral(integral)?),
+        setup.method = match (self.kind(setup.method.kind()), setup.method) {
+            (MethodKind::Integral, Method::Integral(base)) => Method::Integral(self.integral(base)?),
+            (MethodKind::Integral, _) => Method::Integral(self.integral(IntegralMethod::default())?),
+            (MethodKind::Layers, Method::Layers(base)) => Method::Layers(self.layers(base)?),
+            (MethodKind::Layers, _) => Method::Layers(self.layers(LayersMethod::default())?),
+            (MethodKind::Grid, Method::Grid(base)) => Method::Grid(self.grid(base)?),
+            (MethodKind::Grid, _) if self.preset == Preset::Thesis => Method::Grid(self.grid(GridMethod::thesis())?),
+            (MethodKind::Grid, _) => Method::Grid(self.grid(GridMethod::default())?),
+            (kind, _) => bail!("--method {}: there are no flags for it, give a scene file", kind.name()),
         };
         setup.step = self.dt.unwrap_or(setup.step);
+        setup.integrator = self.integrator.unwrap_or(setup.integrator);
         let repulsion = self.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
         setup.repulsion = repulsion.or(setup.repulsion);
         setup.least_gap = self.least_gap.or(setup.least_gap);
+        setup.mirror_symmetric |= self.mirror_symmetric;
         if let StepSize::Fixed(dt) = setup.step {
             ensure!(dt <= self.time, "--dt {dt} is longer than --time {}: give a smaller time step", self.time);
         }
         droplet.apply(&mut setup)?;
-        settle_contrast(&mut setup);
+        let differs = setup.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != setup.viscosity));
+        let corrected = matches!(setup.method, Method::Grid(GridMethod { corrected: true, .. }));
+        ensure!(
+            !(differs && corrected),
+            "--method immersed-boundary smears another viscosity inside over the grid: give --method layers, or \
+             --preset thesis"
+        );
         Ok(setup)
     }
 
-    /// How the flow is computed: as `--method` says, or else on a grid if the preset is Cowley's or a flag is given
-    /// that only a grid has a use for, without a grid if one of the nodes is, and as `base` otherwise.
+    /// The method: as `--method` says, or else on a grid if the preset is Cowley's, as layers if `base` is, on a grid
+    /// if a flag is given that only a grid has a use for, without a grid if one of the nodes is, and as `base`
+    /// otherwise.
     fn kind(&self, base: MethodKind) -> MethodKind {
         let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();
-        let for_grid = self.spacing.is_some() || self.kernel.is_some() || self.contrast_method.is_some();
+        let for_grid = self.spacing.is_some() || self.kernel.is_some();
         match self.method {
             Some(kind) => kind,
-            None if self.preset == Preset::Thesis || (for_grid && !for_nodes) => MethodKind::Grid,
+            None if self.preset == Preset::Thesis => MethodKind::Grid,
+            None if base == MethodKind::Layers => base,
+            None if for_grid && !for_nodes => MethodKind::Grid,
             None if for_nodes => MethodKind::Integral,
             None => base,
         }
@@ -120,47 +142,45 @@ impl MethodFlags {
                 "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
             );
         }
-        let spacing = self.spacing.unwrap_or(base.spacing);
-        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * RADIUS);
-        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius 1: give at most 0.25");
-        Ok(GridMethod {
-            spacing,
-            kernel: self.kernel.unwrap_or(base.kernel),
-            contrast: self.contrast_method.unwrap_or(base.contrast),
-            ..base
-        })
+        Ok(GridMethod { spacing: self.grid_spacing(base.spacing)?, kernel: self.kernel.unwrap_or(base.kernel), ..base })
+    }
+
+    fn layers(&self, base: LayersMethod) -> Result<LayersMethod> {
+        let [nodes, cells] = self.resolution([base.nodes, base.cells], 0)?;
+        let spacing = self.grid_spacing(base.spacing)?;
+        Ok(LayersMethod { nodes, cells, spacing, kernel: self.kernel.unwrap_or(base.kernel) })
     }
 
     fn integral(&self, base: IntegralMethod) -> Result<IntegralMethod> {
-        for (flag, given) in [("kernel", self.kernel.is_some()), ("contrast-method", self.contrast_method.is_some())] {
-            ensure!(!given, "--{flag} means nothing without a grid: leave it out or give --method immersed-boundary");
-        }
-        let nodes = self.nodes.unwrap_or(base.nodes);
-        let cells = self.concentration_cells.unwrap_or(base.cells.max(4 * nodes));
+        ensure!(
+            self.kernel.is_none(),
+            "--kernel means nothing without a grid: leave it out or give --method immersed-boundary"
+        );
+        let [nodes, cells] = self.resolution([base.nodes, base.cells], base.cells)?;
+        Ok(IntegralMethod { nodes, cells })
+    }
+
+    fn grid_spacing(&self, base: f64) -> Result<f64> {
+        let spacing = self.spacing.unwrap_or(base);
+        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * RADIUS);
+        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius 1: give at most 0.25");
+        Ok(spacing)
+    }
+
+    /// Nodes and cells; where nodes are given four cells a node, and no fewer than `least`.
+    fn resolution(&self, [nodes, cells]: [usize; 2], least: usize) -> Result<[usize; 2]> {
+        let cells = self.nodes.map_or(cells, |nodes| least.max(4 * nodes));
+        let (nodes, cells) = (self.nodes.unwrap_or(nodes), self.concentration_cells.unwrap_or(cells));
         ensure!(
             cells >= nodes,
             "--concentration-cells {cells} are fewer than the {nodes} nodes: give at least as many"
         );
-        Ok(IntegralMethod { nodes, cells })
+        Ok([nodes, cells])
     }
 
     /// The spacing (R0) of the grid, or of pictures where there is none.
     #[must_use]
     pub fn spacing(&self, setup: &Setup) -> f64 {
-        match setup.method {
-            Method::Grid(grid) => grid.spacing,
-            Method::Integral(_) => self.spacing.unwrap_or(GridMethod::default().spacing),
-        }
-    }
-}
-
-/// Leaves the mobility correction out where an arithmetic contrast of different viscosities has none.
-pub fn settle_contrast(setup: &mut Setup) {
-    let differs = setup.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != setup.viscosity));
-    if let Method::Grid(grid) = &mut setup.method
-        && grid.contrast == Contrast::Arithmetic
-        && differs
-    {
-        grid.corrected = false;
+        setup.method.spacing().or(self.spacing).unwrap_or(GridMethod::default().spacing)
     }
 }

@@ -3,8 +3,9 @@
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use motile::IntegralMethod;
-use motile::ib_core::{AnyKernel, Kernel, StepSize};
+use motile::ib_core::{AnyKernel, Kernel};
+use motile::motile_scene::StepSize;
+use motile::setup::IntegralMethod;
 
 /// Largest error of an adaptive step unless something else is said.
 const TOLERANCE: f64 = 1e-5;
@@ -86,14 +87,6 @@ pub(crate) fn nodes(text: &str) -> Result<usize, String> {
 /// The rule that `text` breaks.
 pub(crate) fn cells(text: &str) -> Result<usize, String> {
     whole(text, IntegralMethod::NODES[0]..=IntegralMethod::MOST_CELLS)
-}
-
-/// A number of steps.
-///
-/// # Errors
-/// The rule that `text` breaks.
-pub(crate) fn steps(text: &str) -> Result<usize, String> {
-    whole(text, 1..=1_000_000_000)
 }
 
 /// A number from zero to a million.

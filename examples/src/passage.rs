@@ -1,11 +1,11 @@
 //! What becomes of a droplet that meets a constriction.
 
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
-use motile::ib_core::{Hydrodynamics, Observer, System};
+use motile::active_interface::{ActiveDroplet, polygon_moments};
+use motile::motile_scene::{Hydrodynamics, Observer, System};
 use serde::Serialize;
 use serde_json::json;
 
-use crate::Summary;
+use motile_output::run::{Decided, Summary};
 
 /// How far back from the furthest it has come a droplet counts as turned back (R0).
 const BACK: f64 = 1.0;
@@ -26,26 +26,28 @@ pub enum Verdict {
     Undecided,
 }
 
-/// Ends a run: what it was to find out is known.
-#[derive(Debug, Clone, Copy, thiserror::Error)]
-#[error("the run has shown what it was to show")]
-pub struct Decided;
-
 /// Follows the first droplet of a scene to the far end of a constriction, or wherever else it goes. To be called after
 /// every step; ends the run by the error [`Decided`].
 #[derive(Debug, Clone)]
 pub struct Passage {
     far_end: f64,
+    /// When the droplet was first looked at.
+    start: f64,
+    /// Its latest places, as far back as it has to rest.
     track: Vec<(f64, f64)>,
     furthest: f64,
     verdict: Verdict,
 }
 
+/// Name of the record of a passage: start, furthest x, and the track.
+const RECORD: &str = "passage";
+
 impl Passage {
     /// For a constriction that ends at `far_end` (R0), on the right of a droplet that starts on its left.
     #[must_use]
     pub fn new(far_end: f64) -> Self {
-        Self { far_end, track: Vec::new(), furthest: f64::NEG_INFINITY, verdict: Verdict::Undecided }
+        let (start, furthest, verdict) = (f64::NAN, f64::NEG_INFINITY, Verdict::Undecided);
+        Self { far_end, start, track: Vec::new(), furthest, verdict }
     }
 
     /// The verdict.
@@ -62,12 +64,13 @@ impl Passage {
 
     /// Takes the centroid at a time into account.
     pub fn follow(&mut self, time: f64, x: f64) {
+        let (near, long) = REST;
+        self.start = if self.track.is_empty() { time } else { self.start };
         self.furthest = self.furthest.max(x);
         self.track.push((time, x));
-        let (near, long) = REST;
-        let rested = time - self.track[0].0 >= long && {
-            let since = self.track.partition_point(|(t, _)| *t < time - long);
-            let late = self.track[since..].iter().map(|(_, x)| *x);
+        self.track.drain(..self.track.partition_point(|(t, _)| *t < time - long));
+        let rested = time - self.start >= long && {
+            let late = self.track.iter().map(|(_, x)| *x);
             let (low, high) = late.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
             high - low < near
         };
@@ -94,10 +97,19 @@ impl<H: Hydrodynamics> Observer<H> for Passage {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let (_, droplet) = system.bodies::<ActiveDroplet>().next().ok_or("a scene without a droplet")?;
         let x = polygon_moments(droplet.markers())?.centroid.x;
-        // A second look at the same time, where a run starts.
-        if self.track.last().is_none_or(|(time, _)| *time < system.time()) {
-            self.follow(system.time(), x);
+        let (time, kept) = (system.time(), &mut system.record_mut(RECORD).numbers);
+        if let (true, [start, furthest, track @ ..]) = (self.track.is_empty(), kept.as_slice()) {
+            // From before the checkpoint that the run goes on from.
+            (self.start, self.furthest) = (*start, *furthest);
+            self.track = track.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
         }
+        // A second look at the same time, where a run starts.
+        if self.track.last().is_none_or(|(last, _)| *last < time) {
+            self.follow(time, x);
+        }
+        kept.clear();
+        kept.extend([self.start, self.furthest]);
+        kept.extend(self.track.iter().flat_map(|(time, x)| [time, x]));
         if self.verdict == Verdict::Undecided { Ok(()) } else { Err(Decided.into()) }
     }
 }

@@ -2,7 +2,8 @@
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{Region, Setup};
+use motile::motile_base::Region;
+use motile::setup::Setup;
 
 use crate::flags::RADIUS;
 use crate::parse::positive;

@@ -3,11 +3,12 @@
 use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::{ChannelShape, IntegralMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup, Surface};
+use motile::setup::{LayersMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup};
 
 use crate::parse::{one_of, pair, positive};
-use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
+use crate::{AlongFlags, Preset, RegionFlags, SceneFlags};
 
 /// Spring constant of Cowley's softest walls.
 const SOFT: f64 = 1e4;
@@ -30,11 +31,6 @@ const MESHES: [(&str, &str, MeshKind); 2] = [
     ("equilateral", "Equilateral triangles where the shape allows it", MeshKind::Equilateral),
     ("unstructured", "An even mesh that is no lattice", MeshKind::Unstructured),
 ];
-/// How the walls' surfaces meet the fluid.
-const SURFACES: [(&str, &str, Surface); 2] = [
-    ("layer", "As layers, exact in films; only the inside of the walls is on the grid", Surface::Layer),
-    ("plain", "Smeared over the grid, as in Cowley", Surface::Plain),
-];
 
 /// A channel with elastic walls, periodic in x.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -54,7 +50,8 @@ pub struct ElasticFlags {
     /// How the points of the walls are arranged; without it the preset's
     #[arg(long, value_parser = one_of(&MESHES))]
     pub mesh: Option<MeshKind>,
-    /// Spacing of the points of the walls (R0); without it twice that of the grid, and that where surfaces are plain
+    /// Spacing of the points of the walls (R0); without it twice that of the grid, and that of the grid with --method
+    /// immersed-boundary
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub mesh_spacing: Option<f64>,
     /// Thickness of each wall (R0)
@@ -63,9 +60,6 @@ pub struct ElasticFlags {
     /// Moduli of stretching (force) and bending (force times R0^2) of a skin on the walls; without it there is none
     #[arg(long, value_name = "STRETCHING,BENDING", value_parser = pair, allow_hyphen_values = true)]
     pub skin: Option<[f64; 2]>,
-    /// How the walls' surfaces meet the fluid; without it the preset's
-    #[arg(long, value_parser = one_of(&SURFACES))]
-    pub surface: Option<Surface>,
     /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
     #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
@@ -86,12 +80,10 @@ impl SceneFlags<ElasticFlags> {
             method.method != Some(MethodKind::Integral),
             "elastic walls need a grid: leave --method boundary-integral out"
         );
-        // Of the droplet beside surfaces that are layers.
-        let nodes = method.nodes;
-        let method = MethodFlags { method: Some(MethodKind::Grid), nodes: None, ..method.clone() };
-        let mut setup = method.setup(droplet, None)?;
-        if let (Some(nodes), Method::Grid(grid)) = (nodes, &mut setup.method) {
-            grid.layers = IntegralMethod { nodes, cells: 4 * nodes };
+        let layers = Setup { method: Method::Layers(LayersMethod::default()), ..Setup::default() };
+        let mut setup = method.setup(droplet, (method.preset == Preset::Accurate).then_some(layers))?;
+        if let Method::Grid(grid) = &mut setup.method {
+            grid.corrected = false;
         }
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
@@ -100,12 +92,10 @@ impl SceneFlags<ElasticFlags> {
             }
             solid.mesh = walls.mesh.unwrap_or(solid.mesh);
             solid.mesh_spacing = walls.mesh_spacing;
-            solid.surface = walls.surface.unwrap_or(solid.surface);
             solid.skin = walls.skin.map(|[stretching, bending]| SkinSetup { stretching, bending });
         }
-        let plain = setup.solids.iter().any(|solid| solid.surface == Surface::Plain);
-        ensure!(!plain || nodes.is_none(), "--nodes means nothing with plain surfaces: leave it out");
-        walls.check_mesh(if plain { 1.0 } else { 2.0 } * method.spacing(&setup))?;
+        let times = if setup.method.kind() == MethodKind::Grid { 1.0 } else { 2.0 };
+        walls.check_mesh(times * method.spacing(&setup))?;
         walls.along.apply(&mut setup, x, walls.width + 2.0 * walls.wall_thickness)?;
         if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
             let AlongFlags { length, lateral_offset, .. } = walls.along;
@@ -146,7 +136,7 @@ impl ElasticFlags {
         Ok(())
     }
 
-    fn material(&self) -> Result<motile::Material> {
+    fn material(&self) -> Result<motile::setup::Material> {
         let shear = match self.shear_modulus {
             Some(shear) => shear,
             None => Moduli::from_thesis_spring_constant(self.stiffness.unwrap_or(SOFT))?.shear(),
@@ -157,9 +147,9 @@ impl ElasticFlags {
              neo-hookean"
         );
         Ok(match self.material {
-            Material::Springs => motile::Material::Springs { shear },
+            Material::Springs => motile::setup::Material::Springs { shear },
             Material::NeoHookean => {
-                motile::Material::NeoHookean { shear, bulk: self.bulk_modulus.unwrap_or(2.0 * shear) }
+                motile::setup::Material::NeoHookean { shear, bulk: self.bulk_modulus.unwrap_or(2.0 * shear) }
             }
         })
     }
@@ -169,7 +159,7 @@ impl RegionFlags for ElasticFlags {
     fn caption(&self) -> Result<String> {
         let (length, width, material) = (self.along.length, self.width, self.material()?);
         let name = match material {
-            motile::Material::Springs { .. } => "springs",
+            motile::setup::Material::Springs { .. } => "springs",
             _ => "neo-Hookean",
         };
         // A product such as 3/16 h k need not be written to the last digit.

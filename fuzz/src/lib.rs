@@ -4,12 +4,15 @@
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
 use elastic_solids::mesh::{GmshMesh, equilateral_block};
-use motile::{ChannelShape, IntegralMethod, Method, Setup};
-use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
+use motile::elastic_solids::ChannelShape;
+use motile::setup::{IntegralMethod, Method, Setup};
+use motile_scene::{Scene, checkpoint::Checkpoint};
+use ib_core::{BSpline, ImmersedBoundary};
 use stokes_grid::{Grid, PeriodicStokes};
-use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags, SceneFlags};
+use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, SceneFlags};
+use motile_output::run::OutputFlags;
 
-type Small = Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>>;
+type Small = Scene<ImmersedBoundary<PeriodicStokes, BSpline<4>>>;
 
 /// A scene that checkpoints are resumed in.
 ///
@@ -19,7 +22,7 @@ type Small = Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>>;
 pub fn scene() -> Small {
     let make = || -> Result<Small, Box<dyn std::error::Error>> {
         let solver = PeriodicStokes::new(Grid::periodic(16, 16, 0.25)?, 10.0)?;
-        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+        let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));
         let markers = Curve::circle(1.0)?.markers(32)?;
         let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
         let tension = ContractileTension::thesis(10.0, -2.0, 10.0, 100.0)?;
@@ -95,7 +98,7 @@ pub fn flags(bytes: &[u8]) {
         Some(Region::Elastic(walls)) => {
             let shape = ChannelShape::Straight { width: walls.width };
             let (droplet, region, method) = (droplet.clone(), walls.clone(), method.clone());
-            SceneFlags { droplet, region, method, output }.setup(&shape, 0.0, None).map(|_| ())
+            SceneFlags { droplet, region, method, output }.setup(&shape, 0.0).map(|_| ())
         }
     };
     if checked.is_ok() && method.spacing(&setup) > 0.02 {
@@ -129,7 +132,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             files.clone().into_iter().chain(contents).collect()
         }
         "gmsh" => {
-            let strip = |columns, rows| equilateral_block(ib_core::Vec2::ZERO, columns, rows, 0.5);
+            let strip = |columns, rows| equilateral_block(motile_base::Vec2::ZERO, columns, rows, 0.5);
             let meshes = [strip(2, 2), strip(4, 3)].into_iter().flatten();
             let texts = meshes.flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text());
             texts.map(String::into_bytes).collect()

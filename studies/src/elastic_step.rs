@@ -8,11 +8,16 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Args;
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{AnyKernel, Body, Hydrodynamics, Transfer, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, StaggeredField, StokesSolver};
-use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
-use motile_examples::{positive, say};
+use motile::ib_core::{AnyKernel, Transfer};
+use motile::motile_base::Region;
+use motile::motile_base::{Drive, Vec2};
+use motile::motile_scene::{Body, Hydrodynamics};
+use motile::setup::{Built, DropletSetup, LayersMethod, Material, Method, Setup, SolidSetup};
+use motile::stokes_grid::{ChannelStokes, Grid, StaggeredField, StokesSolver};
+use motile_examples::positive;
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -40,19 +45,19 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
     let setup = Setup {
         region: Region::Channel { length: lx, width: height, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(flags.spacing)),
+        method: Method::Layers(LayersMethod::of_spacing(flags.spacing)),
         droplets: vec![DropletSetup::active(-4.0)],
         solids: walls.into_iter().map(|wall| SolidSetup { mesh_spacing: flags.mesh_spacing, ..wall }).collect(),
         ..Setup::default()
     };
     let Built { mut scene, solids: walls, .. } = setup.build()?;
     (0..10).try_for_each(|_| scene.step(0.01))?;
-    let discretisation = scene.system().hydrodynamics().discretisation();
+    let view = scene.system().hydrodynamics().fluid_view();
     let markers = scene.system_mut().evaluate()?.clone();
 
     let cells = [lx, height].map(|length| (length / flags.spacing).round() as usize);
     let grid = Grid::channel(cells[0], cells[1], flags.spacing)?;
-    let mut solver = ChannelStokes::new(grid, discretisation.viscosity)?;
+    let mut solver = ChannelStokes::new(grid, view.viscosity)?;
     let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
     let (mut density, mut velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
     let mut velocities = vec![Vec2::ZERO; markers.len()];
@@ -81,7 +86,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         for wall in &walls {
             let wall = scene.body_mut(*wall)?;
             let count = wall.marker_count();
-            wall.write_forces(&discretisation, &mut forces[..count])?;
+            wall.write_forces(&view, &mut forces[..count])?;
         }
         Ok(())
     })?;
@@ -102,7 +107,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     median("whole step of two", &mut || Ok(scene.step(1e-3)?))?;
     say(&table);
     if flags.write {
-        let inputs = [&tables::RUNS[..7], &["crates/elastic-solids", "studies/src/elastic_step.rs"]].concat();
+        let inputs = [&tables::RUNS[..8], &["crates/elastic-solids", "studies/src/elastic_step.rs"]].concat();
         let mut command = format!("elastic_step --spacing {}", flags.spacing);
         if let Some(spacing) = flags.mesh_spacing {
             command += &format!(" --mesh-spacing {spacing}");

@@ -4,8 +4,10 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::{Built, DropletSetup, ExchangeSetup, Exclusion, IntegralMethod, Method, Particles, Region, Setup, Start};
-use motile_examples::{positive, say};
+use motile::motile_base::Region;
+use motile::setup::{Built, DropletSetup, ExchangeSetup, Exclusion, IntegralMethod, Method, Particles, Setup, Start};
+use motile_examples::positive;
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -82,7 +84,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     say(&table);
     if flags.write {
-        let code = [&tables::RUNS[..7], &["crates/interior-fields/src", "studies/src/exchange.rs"]].concat();
+        let code = [&tables::RUNS[..8], &["crates/interior-fields/src", "studies/src/exchange.rs"]].concat();
         tables::write("exchange", "exchange --write", &code, &[table])?;
     }
     Ok(())

@@ -9,11 +9,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::ib_core::body::Guest;
-use motile::ib_core::{Body, Hydrodynamics, Vec2};
 use motile::interior_fields::{DirectorStart, GelInDroplet, GelMaterial};
-use motile::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
-use motile_examples::say;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Body, Guest, Hydrodynamics};
+use motile::setup::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -56,7 +56,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     say(&cost);
     if flags.write {
-        let inputs = [&tables::RUNS[..7], &["crates/interior-fields", "studies/src/gel.rs"]].concat();
+        let inputs = [&tables::RUNS[..8], &["crates/interior-fields", "studies/src/gel.rs"]].concat();
         tables::write("gel", "gel --write", &inputs, &[swimmers, cost])?;
     }
     Ok(())
@@ -97,7 +97,7 @@ fn parts(spacing: f64) -> Result<Vec<(&'static str, f64)>> {
     (0..10).try_for_each(|_| scene.step(1e-3))?;
     let (handle, gel) = scene.system().bodies::<GelInDroplet>().next().context("no gel")?;
     let (mut gel, droplet) = (gel.clone(), scene.body(droplets[0])?.clone());
-    let medium = scene.system().hydrodynamics().discretisation();
+    let view = scene.system().hydrodynamics().fluid_view();
     let mut forces = vec![Vec2::ZERO; gel.marker_count()];
     let mut rate = vec![0.0; gel.state_len()];
     let here = scene.system_mut().evaluate()?;
@@ -107,14 +107,14 @@ fn parts(spacing: f64) -> Result<Vec<(&'static str, f64)>> {
         (
             "mesh and elements",
             median(|| {
-                gel.see(&droplet);
+                gel.update_host(&droplet);
                 Ok(())
             })?,
         ),
-        ("gel's forces", median(|| Ok(gel.write_forces(&medium, &mut forces)?))?),
+        ("gel's forces", median(|| Ok(gel.write_forces(&view, &mut forces)?))?),
     ];
     let rates = median(|| {
-        gel.see_motion(&droplet, &outer);
+        gel.host_moved(&droplet, &outer);
         gel.rate(&velocities, &mut rate);
         Ok(())
     })?;

@@ -12,12 +12,9 @@ mod gel;
 mod hard_cases;
 mod instructions;
 mod nucleus;
-mod results;
-mod run_pool;
 mod scaling;
 mod steady_states;
 mod step_cost;
-mod sweep;
 mod tables;
 mod threads;
 mod time_steps;
@@ -44,7 +41,6 @@ enum Study {
     WorkPrecision(work_precision::Flags),
     StepCost(step_cost::Flags),
     SteadyStates(steady_states::Flags),
-    Sweep(sweep::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
     HardCases(hard_cases::Flags),
@@ -67,7 +63,6 @@ fn main() -> ExitCode {
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::StepCost(flags) => step_cost::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
-        Study::Sweep(flags) => sweep::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
         Study::HardCases(flags) => hard_cases::run(flags),

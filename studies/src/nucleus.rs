@@ -6,9 +6,11 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::ib_core::Vec2;
-use motile::{Built, DropletSetup, IntegralMethod, Method, Region, RigidBodySetup, Setup};
-use motile_examples::{explained, positive, say};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::setup::{Built, DropletSetup, IntegralMethod, Method, RigidBodySetup, Setup};
+use motile_examples::positive;
+use motile_output::run::{explained, say};
 use motile_tests::validation::Table;
 use steady_states::{Parameter, Profile, SteadyState};
 
@@ -67,7 +69,7 @@ fn found(of: &Scene, time: f64) -> Result<SteadyState> {
     scene.run(time).go()?;
     let (seen, disc) = (scene.observe(droplet)?, scene.observe(nucleus)?);
     // About its centroid, on its way along x.
-    let back = seen.velocity.normalize_or(Vec2::X) * Vec2::new(1.0, -1.0);
+    let back = seen.velocity.try_normalize().unwrap_or(Vec2::X) * Vec2::new(1.0, -1.0);
     let moved = |x: Vec2| back.rotate(x - seen.centroid);
     let body = scene.body(droplet)?;
     let markers: Vec<Vec2> = body.markers().iter().map(|x| moved(*x)).collect();
@@ -93,7 +95,7 @@ fn values(state: &SteadyState) -> Result<Vec<String>> {
         if straight { "0".to_owned() } else { format!("{turning:+.5}") },
         if straight { "straight".to_owned() } else { format!("{:.3}", seen.speed / turning.abs()) },
         format!("{:.4}", offset.length()),
-        format!("{:+.4}", velocity.normalize_or(Vec2::X).perp_dot(offset)),
+        format!("{:+.4}", velocity.try_normalize().unwrap_or(Vec2::X).perp_dot(offset)),
         format!("{film:.3}"),
         format!("{:+.4}", leading.re),
         format!("{:.4}", leading.im),
@@ -145,7 +147,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     say(&branch);
     if flags.write {
         let own = ["crates/elastic-solids", "crates/steady-states/src", "studies/src/nucleus.rs"];
-        let code = [&tables::RUNS[..7], &own].concat();
+        let code = [&tables::RUNS[..8], &own].concat();
         tables::write("nucleus", "nucleus --write", &code, &[table, branch])?;
     }
     Ok(())

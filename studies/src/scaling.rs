@@ -12,10 +12,14 @@ use std::time::Duration;
 use allocation_counter::measure;
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::elastic_solids::{Solid, mesh::fitted_strip};
-use motile::ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
+use motile::elastic_solids::Solid;
+use motile::elastic_solids::mesh::fitted_strip;
+use motile::ib_core::{BSpline, ImmersedBoundary, Transfer};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Body, Hydrodynamics};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver};
-use motile_examples::{positive, say};
+use motile_examples::positive;
+use motile_output::run::say;
 use motile_timing::{PlainPair, Turns};
 use serde_json::{Value, json};
 
@@ -40,7 +44,7 @@ const SPACING: f64 = 1.0;
 const ASPECT: f64 = 4.0;
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    motile_examples::make_directory(&flags.out)?;
+    motile_output::run::make_directory(&flags.out)?;
     let budget = Duration::from_secs_f64(flags.seconds);
     say(format_args!(
         "{:>6} {:>10} {:>10} {:>8} {:>10} {:>12} {:>10}",
@@ -103,8 +107,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let (mut solid, mut transfer) = (None, None);
     let mut density = StaggeredField::zeros(grid);
     let velocity = StaggeredField::zeros(grid);
-    let discretisation =
-        ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, CubicQuadratic::default()).discretisation();
+    let view = ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, BSpline::<4>).fluid_view();
     let mut forces = Vec::new();
     let mut positions = Vec::new();
     let used = measure(|| {
@@ -114,7 +117,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
             forces = vec![Vec2::new(1.0, 0.5); solid.marker_count()];
             solid.write_markers(&mut positions);
         }
-        let mut new = Transfer::new(grid, CubicQuadratic::default());
+        let mut new = Transfer::new(grid, BSpline::<4>);
         new.locate(&positions);
         transfer = Some(new);
     });
@@ -126,7 +129,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let mut locate = || moving.locate(black_box(&positions));
     let mut spread = || drop(fixed.spread(&other, black_box(&mut density)));
     let mut interpolate = || drop(transfer.interpolate(black_box(&velocity), &mut velocities));
-    let mut force = || drop(black_box(solid.write_forces(&discretisation, &mut forces)));
+    let mut force = || drop(black_box(solid.write_forces(&view, &mut forces)));
     let turns = Turns::measure(budget, &mut [&mut locate, &mut spread, &mut interpolate, &mut force]);
     let per_marker = |work: usize| 1e9 * turns.least(work) / markers as f64;
     let [locate, spread, interpolate, force] = [0, 1, 2, 3].map(per_marker);

@@ -9,9 +9,10 @@ mod swimmers;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use motile::stokes_grid::Drive;
-use motile::{DropletSetup, IntegralMethod, Method, Region, Setup};
-use motile_examples::say;
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
+use motile_output::run::say;
 
 use crate::tables;
 

@@ -22,14 +22,15 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use motile_examples::say;
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 /// What every run of a droplet depends on.
-pub(crate) const RUNS: [&str; 8] = [
-    "crates/fourier",
+pub(crate) const RUNS: [&str; 9] = [
+    "crates/motile-base",
     "crates/stokes-grid",
     "crates/stokes-layers",
+    "crates/motile-scene",
     "crates/ib-core",
     "crates/boundary-integral",
     "crates/active-interface",

@@ -7,11 +7,13 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{Hydrodynamics, Scene};
-use motile::stokes_grid::Drive;
-use motile::{ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
-use motile_examples::say;
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::{Hydrodynamics, Scene, integrator::Dynamics as _};
+use motile::setup::{DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup};
+use motile_output::run::say;
 
 /// Compares one thread with several.
 #[derive(Debug, Args)]
@@ -44,7 +46,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let shear = Moduli::from_thesis_spring_constant(1e5)?.shear();
     let elastic = Setup {
         region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(spacing)),
+        method: Method::Layers(LayersMethod::of_spacing(spacing)),
         droplets: vec![DropletSetup::active(-4.0)],
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
         ..Setup::default()

@@ -9,16 +9,21 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
+use motile::active_interface::{ActiveDroplet, observables::centroid_velocity, polygon_moments};
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{
-    Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
+use motile::motile_base::Region;
+use motile::motile_base::{Drive, Vec2};
+use motile::motile_scene::{
+    Handle, Hydrodynamics, Scene, StepSize,
+    checkpoint::Checkpoint,
+    integrator::{Dynamics as _, Integrator, Midpoint, RungeKuttaChebyshev},
 };
-use motile::stokes_grid::Drive;
-use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup, SolidSetup,
+use motile::setup::{
+    AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup,
 };
-use motile_examples::{positive, say};
+use motile_examples::positive;
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -64,7 +69,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         say(&table);
         if flags.write {
             let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-            let inputs = [&tables::RUNS[..7], &["crates/elastic-solids", "studies/src/time_steps.rs"]].concat();
+            let inputs = [&tables::RUNS[..8], &["crates/elastic-solids", "studies/src/time_steps.rs"]].concat();
             let command = format!("time_steps --study {name} --write");
             tables::write(&format!("time-steps-{name}"), &command, &inputs, &[table])?;
         }
@@ -75,15 +80,15 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 /// The activity of the droplet between stiff walls.
 const ACTIVITY: f64 = -2.0;
 
-type Channel<I> = Scene<AnyFlow, I>;
+type Channel = Scene<AnyFlow>;
 
 /// Cowley's stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
-fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
+fn channel(integrator: impl Integrator, activity: f64) -> Result<(Channel, Handle<ActiveDroplet>)> {
     let shear = Moduli::from_thesis_spring_constant(1e6)?.shear();
     let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
     let setup = Setup {
         region: Region::Channel { length: 6.0, width: 5.0, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        method: Method::Layers(LayersMethod::of_spacing(0.1)),
         viscosity: 10.0,
         droplets: vec![DropletSetup::active(activity)],
         solids: walls,
@@ -102,8 +107,8 @@ struct Cost {
     seconds: f64,
 }
 
-fn timed<H: Hydrodynamics, I: Integrator>(
-    (mut scene, droplet): (Scene<H, I>, Handle<ActiveDroplet>),
+fn timed<H: Hydrodynamics>(
+    (mut scene, droplet): (Scene<H>, Handle<ActiveDroplet>),
     until: f64,
     step: StepSize,
 ) -> Result<Cost> {
@@ -163,7 +168,7 @@ fn stiff_walls(until: f64) -> Result<Table> {
 const REFERENCE: f64 = 0.125;
 
 /// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
-fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool> {
+fn is_stable(integrator: impl Integrator, dt: f64, steps: usize) -> Result<bool> {
     let (mut scene, droplet) = channel(integrator, 0.0)?;
     let start = scene.body(droplet)?.markers().to_vec();
     for _ in 0..steps {
@@ -212,7 +217,7 @@ fn free(setup: &Setup, stabilised: bool) -> Result<Scene<AnyFlow>> {
     Ok(scene)
 }
 
-fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
+fn speed(scene: &mut Scene<AnyFlow>) -> Result<f64> {
     let markers = scene.system_mut().evaluate()?;
     Ok(centroid_velocity(markers.positions(), markers.velocities())?.length())
 }
@@ -221,10 +226,7 @@ fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
 const KEPT: usize = 150;
 
 /// The limit of a steady swimmer, what sets it, and the largest step by which its speed is kept.
-fn steady_limit<I: Integrator>(
-    make: impl Fn() -> Result<Scene<AnyFlow, I>>,
-    steady: &Checkpoint,
-) -> Result<(f64, String, f64)> {
+fn steady_limit(make: impl Fn() -> Result<Scene<AnyFlow>>, steady: &Checkpoint) -> Result<(f64, String, f64)> {
     let resumed = || -> Result<_> {
         let mut scene = make()?;
         scene.resume(steady)?;
@@ -283,7 +285,7 @@ fn after(setup: &Setup, stabilised: bool, dt: f64) -> Result<[Vec<f64>; 2]> {
     let (_, droplet) = scene.system().bodies::<ActiveDroplet>().next().context("a swimmer")?;
     let numbers = droplet.particle_numbers();
     let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-    let positions = droplet.markers().iter().flat_map(Vec2::to_array).collect();
+    let positions = droplet.markers().iter().copied().flat_map(Vec2::to_array).collect();
     Ok([positions, numbers.iter().map(|number| number / mean).collect()])
 }
 

@@ -15,9 +15,11 @@ mod solids;
 mod two_droplets;
 
 use clap::{Args, ValueEnum};
-use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::{DropletSetup, GridMethod, Method, Region, Setup};
-use motile_examples::say;
+use motile::ib_core::{AnyKernel, Kernel};
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, GridMethod, Method, Setup};
+use motile_output::run::say;
 use motile_tests::validation::growth::Mode;
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
 use motile_tests::validation::swimmers::{LongRun, long_run, speeds, steady, transient};
@@ -47,9 +49,7 @@ enum Study {
     Lateral,
     Regimes,
     ContrastShapes,
-    ContrastTables,
     ContrastClose,
-    ContrastField,
     ContrastIterations,
     ContrastDecay,
     ContrastRuns,
@@ -91,7 +91,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 37] = [
+    let studies: [(Study, Run); 35] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -110,9 +110,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::Lateral, channels::sideways),
         (Study::Regimes, channels::regimes),
         (Study::ContrastShapes, contrast::shapes),
-        (Study::ContrastTables, contrast::tables),
         (Study::ContrastClose, contrast::close),
-        (Study::ContrastField, contrast::field),
         (Study::ContrastIterations, contrast::iterations),
         (Study::ContrastDecay, contrast::decay),
         (Study::ContrastRuns, contrast::runs),

@@ -5,10 +5,12 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::ib_core::{Every, Warnings};
-use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
-use motile_examples::{positive, say};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::{Every, Warnings};
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile_examples::positive;
+use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -76,12 +78,12 @@ fn setup(&(channel, activity, [inside, outside], spacing): &Scene) -> Setup {
 }
 
 /// The speed in the end, and the causes of the warnings on the way.
-fn speed(setup: &Setup, time: f64) -> Result<(f64, Vec<&'static str>)> {
+fn speed(setup: &Setup, time: f64) -> Result<(f64, Vec<String>)> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut warnings = Warnings::default();
     scene.run(time).observe(Every::Steps(1), &mut warnings).go()?;
     let droplet = *droplets.first().context("no droplet")?;
-    let causes = warnings.worst().iter().map(|(_, warning)| warning.cause).collect();
+    let causes = warnings.worst().iter().map(|(_, warning)| warning.cause.to_string()).collect();
     Ok((scene.observe(droplet)?.velocity.length(), causes))
 }
 
@@ -107,7 +109,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         tables::write(
             "warnings",
             "warnings --write",
-            &[&tables::RUNS[..7], &["studies/src/warnings.rs"]].concat(),
+            &[&tables::RUNS[..8], &["studies/src/warnings.rs"]].concat(),
             &[table],
         )?;
     }

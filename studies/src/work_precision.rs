@@ -20,12 +20,11 @@ mod shapes;
 mod studies;
 mod swimmers;
 
-use crate::results::write_results;
-use crate::run_pool::RunPool;
 use crate::tables;
 use anyhow::{Context, Result};
 use clap::Args;
-use motile_examples::{OutputFlags, Summary, say};
+use motile_output::run::{OutputFlags, Summary, say, write_results};
+use motile_output::sweep::RunPool;
 
 use crate::work_precision::front::Point;
 use crate::work_precision::settings::Settings;
@@ -90,7 +89,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         figure.write(&directory, study.name())?;
         if flags.write {
             let pictures = tables::root().join("docs/images/work_precision");
-            motile_examples::make_directory(&pictures)?;
+            motile_output::run::make_directory(&pictures)?;
             let path = pictures.join(format!("{}.svg", study.name()));
             std::fs::copy(directory.join(format!("{}.svg", study.name())), &path)
                 .with_context(|| format!("writing {}", path.display()))?;

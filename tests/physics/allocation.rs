@@ -1,19 +1,20 @@
 //! A step in steady state allocates nothing, in every kind of scene.
 
 use allocation_counter::measure;
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{Integrator, RungeKuttaChebyshev, Scene};
-use motile::{AnyFlow, ChannelShape, Contrast, GelSetup, GridMethod, Material, Method, Setup, SolidSetup, Surface};
-use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
+use motile::motile_scene::{Scene, integrator::RungeKuttaChebyshev};
+use motile::setup::{AnyFlow, GelSetup, GridMethod, Material, Method, Setup, SolidSetup};
+use motile_tests::validation::scene::{by_layers, on_grid, open_channel, without_grid};
 
 const DT: f64 = 0.002;
 
-fn allocations<I: Integrator>(scene: Scene<AnyFlow, I>) -> u64 {
+fn allocations(scene: Scene<AnyFlow>) -> u64 {
     allocations_after(5, scene)
 }
 
 /// Those of as many steps as were taken before.
-fn allocations_after<I: Integrator>(steps: usize, mut scene: Scene<AnyFlow, I>) -> u64 {
+fn allocations_after(steps: usize, mut scene: Scene<AnyFlow>) -> u64 {
     // The first steps make plans.
     (0..steps).for_each(|_| scene.step(DT).expect("a good scene"));
     measure(|| (0..steps).for_each(|_| scene.step(DT).expect("a good scene"))).count_total
@@ -23,7 +24,7 @@ fn allocations_after<I: Integrator>(steps: usize, mut scene: Scene<AnyFlow, I>) 
 fn elastic() -> Setup {
     let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
     let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
-    Setup { region: open_channel(6.0, 5.4), solids, ..on_grid(0.1) }
+    Setup { region: open_channel(6.0, 5.4), solids, ..by_layers(0.1) }
 }
 
 /// The same scene with gels inside the droplets.
@@ -41,21 +42,19 @@ fn viscous(mut setup: Setup) -> Setup {
 #[test]
 fn steps_allocate_nothing() {
     assert_eq!(measure(|| drop(std::hint::black_box(vec![1.0; 10]))).count_total, 1);
-    let smooth = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(0.2) };
-    let smooth = Setup { method: Method::Grid(smooth), ..Setup::default() };
+    let smooth = Setup { method: Method::Grid(GridMethod::uncorrected(0.2)), ..Setup::default() };
     let coarse = GridMethod { spacing: 0.2, ..GridMethod::thesis() };
     let thesis = Setup { method: Method::Grid(coarse), ..Setup::thesis() };
-    let sharp = Method::Grid(GridMethod { contrast: Contrast::Sharp, ..coarse });
     let scenes = [
         ("grid", on_grid(0.2)),
-        ("grid, contrast", viscous(on_grid(0.2))),
-        ("grid, arithmetic contrast", viscous(smooth)),
+        ("layers, contrast", viscous(by_layers(0.2))),
+        ("grid, contrast", viscous(smooth.clone())),
         ("grid, gel", filled(on_grid(0.2))),
-        ("grid, gel, contrast", viscous(filled(on_grid(0.2)))),
+        ("grid, gel, contrast", viscous(filled(smooth))),
+        ("layers, gel, contrast", viscous(filled(by_layers(0.2)))),
         ("integrals", without_grid(32, 128)),
         ("integrals, contrast", viscous(without_grid(32, 128))),
         ("thesis", thesis.clone()),
-        ("thesis, sharp contrast", viscous(Setup { method: sharp, ..thesis.clone() })),
         ("thesis, contrast", viscous(thesis)),
     ];
     for (name, base) in scenes {
@@ -68,8 +67,7 @@ fn steps_allocate_nothing() {
 
 #[test]
 fn steps_between_elastic_walls_allocate_nothing() {
-    let mut plain = elastic();
-    plain.solids.iter_mut().for_each(|wall| wall.surface = Surface::Plain);
+    let plain = Setup { method: Method::Grid(GridMethod::uncorrected(0.2)), ..elastic() };
     for setup in [elastic(), viscous(elastic()), plain.clone(), viscous(plain)] {
         assert_eq!(allocations(setup.build().unwrap().scene), 0, "{:?}", setup.droplets[0].viscosity);
     }

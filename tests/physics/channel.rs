@@ -1,7 +1,7 @@
 //! Channels with no-slip walls against boundary-integral values.
 
-use motile::ib_core::CubicQuadratic;
-use motile::{DropletSetup, Setup};
+use motile::ib_core::BSpline;
+use motile::setup::{DropletSetup, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, channel, order};
@@ -12,7 +12,7 @@ const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
 fn point_forces_are_second_order() {
     for (name, drive) in channel::drives() {
         let errors: Vec<f64> =
-            SPACINGS.iter().map(|&h| channel::point_forces(&CubicQuadratic::default(), h, drive).unwrap()).collect();
+            SPACINGS.iter().map(|&h| channel::point_forces(&BSpline::<4>, h, drive).unwrap()).collect();
         assert!((order(&SPACINGS, &errors) - 2.0).abs() < 0.1, "{name}: {errors:?}");
         assert!(errors[1] < 6e-3, "{name}: {errors:?}");
     }
@@ -20,7 +20,7 @@ fn point_forces_are_second_order() {
 
 #[test]
 fn fixed_shapes_are_second_order() {
-    let kernel = CubicQuadratic::default();
+    let kernel = BSpline::<4>;
     for (name, drive) in channel::drives() {
         for (case, height) in
             [(Case::Circle, 0.0), (Case::Circle, 0.3), (Case::EllipseUniform, 0.0), (Case::EllipseGradient, 0.0)]

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::ib_core::{MarkerBody, MarkerKind, Repulsion, Scene, StepSize, Vec2};
-use motile::{AnyFlow, IntegralMethod, Method};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{MarkerBody, MarkerKind, Scene, StepSize, gap::Repulsion};
+use motile::setup::{AnyFlow, IntegralMethod, Method};
 use motile_tests::validation::scene::{flow, open_channel};
 
 const FORCE: f64 = 2.0;

@@ -1,9 +1,10 @@
 //! Stiff elastic walls against rigid ones, without a grid.
 
-use motile::active_interface::curve::polygon_moments;
+use motile::active_interface::polygon_moments;
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::{Built, ChannelShape, DropletSetup, Material, Setup, SolidSetup};
-use motile_tests::validation::scene::{on_grid, open_channel};
+use motile::setup::{Built, DropletSetup, Material, Setup, SolidSetup};
+use motile_tests::validation::scene::{by_layers, open_channel};
 
 /// Where a droplet has swum to along a channel at t = 3.
 fn place(setup: &Setup) -> f64 {
@@ -20,7 +21,7 @@ fn error(activity: f64, width: f64, h: f64) -> f64 {
     let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
     // Walls as stiff as these are not compressed so that finer surfaces would fold.
     let solids = walls.into_iter().map(|wall| SolidSetup { finer_surface: Some(true), ..wall }).collect();
-    place(&Setup { region: open_channel(6.0, width + 3.0), droplets, solids, ..on_grid(h) }) / place(&rigid) - 1.0
+    place(&Setup { region: open_channel(6.0, width + 3.0), droplets, solids, ..by_layers(h) }) / place(&rigid) - 1.0
 }
 
 /// As far as the droplet swims in the narrow film at width 2, where the grid alone is 4 % off.

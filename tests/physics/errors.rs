@@ -1,8 +1,10 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
-use motile::ib_core::{Body, Every, FlowError, FlowSample, SceneError, StepSize, System, Vec2, Warnings};
-use motile::{AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
-use motile_tests::validation::scene::{on_grid, open_channel};
+use motile::motile_base::Region;
+use motile::motile_base::{FlowSample, Vec2};
+use motile::motile_scene::{Body, FlowError, SceneError, StepSize};
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile_tests::validation::scene::{by_layers, on_grid, open_channel};
 
 #[test]
 fn wrong_numbers_are_refused() {
@@ -60,8 +62,10 @@ fn activities_beyond_measure_are_named() {
 
 #[test]
 fn places_that_are_not_finite_are_not_sampled() {
-    for base in [on_grid(0.2), Setup::default()] {
-        for viscosity in [None, Some(1000.0)] {
+    for (base, viscosities) in
+        [(on_grid(0.2), [None, None]), (by_layers(0.2), [None, Some(1000.0)]), (Setup::default(), [None, Some(1000.0)])]
+    {
+        for viscosity in viscosities {
             let droplets = vec![DropletSetup { viscosity, ..DropletSetup::default() }];
             let mut scene = Setup { droplets, ..base.clone() }.build().unwrap().scene;
             for bad in [f64::NAN, f64::INFINITY] {
@@ -72,25 +76,6 @@ fn places_that_are_not_finite_are_not_sampled() {
             }
         }
     }
-}
-
-/// A film that drains below what markers resolve ends the run before velocities are wild.
-#[test]
-fn a_film_beside_another_viscosity_that_is_not_resolved_ends_the_run() {
-    let droplets = vec![DropletSetup { viscosity: Some(1000.0), ..DropletSetup::active(-8.0) }];
-    let setup = Setup { region: open_channel(6.0, 2.2), droplets, ..on_grid(0.1) };
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let (mut fastest, mut warnings) = (0.0_f64, Warnings::default());
-    let mut look = |system: &mut System<AnyFlow>| {
-        fastest = fastest.max(system.observe(droplets[0]).map_err(|e| e.to_string())?.speed());
-        warnings.look(system);
-        Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
-    };
-    let error = scene.run(20.0).observe(Every::Steps(1), &mut look).go().unwrap_err();
-    let SceneError::Flow { source: FlowError::Film { body: 0, gap, least }, .. } = error else { panic!("{error}") };
-    assert!(gap < least && gap > 0.5 * least && (least - 0.025).abs() < 1e-3, "{gap} {least}");
-    assert!(fastest < 0.5, "{fastest}");
-    assert!(warnings.worst().iter().any(|(_, warning)| warning.cause == "thin film"), "{warnings:?}");
 }
 
 #[test]

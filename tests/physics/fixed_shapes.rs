@@ -1,12 +1,12 @@
 //! Velocities on fixed shapes against boundary-integral values: the order of the method with the mobility correction.
 
-use motile::ib_core::{CubicQuadratic, kernel::Peskin4};
+use motile::ib_core::{BSpline, Peskin4};
 use motile_tests::validation::{Case, fixed_shapes, order};
 
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
 
 fn maxima(corrected: bool, case: Case) -> Vec<f64> {
-    let error = |&h: &f64| fixed_shapes::errors(&CubicQuadratic::default(), corrected, h, case);
+    let error = |&h: &f64| fixed_shapes::errors(&BSpline::<4>, corrected, h, case);
     SPACINGS.iter().map(|h| error(h).expect("a case of the reference table").maximum).collect()
 }
 

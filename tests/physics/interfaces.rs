@@ -1,6 +1,6 @@
 //! Scenes of interfaces alone: against exact rates and reference values, several droplets, the seam of a box.
 
-use motile::{Built, DropletSetup, Setup};
+use motile::setup::{Built, DropletSetup, Setup};
 use motile_tests::validation::growth::{Mode, rate_in_plane_limit};
 use motile_tests::validation::interfaces::{passing, relax};
 use motile_tests::validation::scene::{open_channel, reference, without_grid};

@@ -1,6 +1,6 @@
 //! Growth rates of small perturbations against linear theory (Cowley (2.18), (2.19)), the box's effect removed.
 
-use motile::{DropletSetup, Setup};
+use motile::setup::{DropletSetup, Setup};
 use motile_tests::validation::growth::{Mode, rate, rate_in_region};
 use motile_tests::validation::scene::on_grid;
 

@@ -13,6 +13,7 @@ mod gel;
 mod headings;
 mod interfaces;
 mod linear_theory;
+mod mirror;
 mod near_walls;
 mod nested;
 mod net_forces;

@@ -1,12 +1,10 @@
 //! Droplets that meet walls: nothing tunnels, nothing is lost.
 
-use motile::active_interface::{
-    ActiveDroplet,
-    curve::{polygon_area, polygon_moments},
-};
-use motile::ib_core::{StepSize, gap::wall_gap};
-use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, DropletShape, Region, Setup};
+use motile::active_interface::{ActiveDroplet, polygon_area, polygon_moments};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::{StepSize, gap::wall_gap};
+use motile::setup::{Built, DropletSetup, DropletShape, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// Gap between a droplet and the walls at y = -height and height.

@@ -2,29 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use motile::ib_core::{AnyKernel, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Markers, Vec2};
+use motile::ib_core::{AnyKernel, ImmersedBoundary};
+use motile::motile_base::Region;
+use motile::motile_base::{FlowSample, Vec2};
+use motile::motile_scene::{FlowError, Hydrodynamics, Markers};
+use motile::setup::{AnyFlow, Built, DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
-use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, DropletShape, GridMethod, IntegralMethod, Material, Method, Region,
-    Setup, SetupError, SolidSetup, Surface,
-};
 use motile_tests::validation::contrast::Droplet;
 use motile_tests::validation::scene::{flow, open_channel};
 
-use crate::net_forces::means;
+use crate::net_forces::{beside_a_point, layers, means};
 
 const REGIONS: [fn() -> Region; 2] = [|| Region::Box { lengths: [6.0; 2] }, || open_channel(6.0, 4.0)];
 /// Viscosities of the outer and of the inner droplet; the exterior one is 1.
 const VISCOSITIES: [[f64; 2]; 4] = [[10.0, 1.0], [0.1, 5.0], [100.0, 10.0], [20.0, 20.0]];
-
-/// The flow that a description of these droplets on a grid comes to.
-fn on_grid(region: Region, [outer, inner]: [f64; 2], h: f64) -> AnyFlow {
-    let around = DropletSetup { viscosity: Some(outer), ..DropletSetup::passive(1.0) };
-    let shape = DropletShape::Round { radius: 0.4 };
-    let within = DropletSetup { viscosity: Some(inner), shape, centre: [0.35, 0.15], ..DropletSetup::passive(1.0) };
-    let (method, droplets) = (Method::Grid(GridMethod::of_spacing(h)), vec![around, within]);
-    Setup { region, method, viscosity: 1.0, droplets, ..Setup::default() }.flow().expect("a valid scene")
-}
 
 fn integral(region: Region) -> AnyFlow {
     flow(region, Method::Integral(IntegralMethod { nodes: 160, cells: 640 }), 1.0, 1e-10).expect("a valid scene")
@@ -50,13 +41,12 @@ fn droplets_in_droplets_move_as_they_should() {
     for region in REGIONS {
         for viscosities in VISCOSITIES {
             for pull in [Vec2::ZERO, Vec2::new(2.0, -1.0)] {
-                let solved = |mut flow: AnyFlow| {
-                    let mut markers = scene(viscosities, pull);
+                let solved = |mut flow: AnyFlow, mut markers: Markers| {
                     flow.velocities(&mut markers).unwrap();
                     means(&markers)
                 };
-                let exact = solved(integral(region()));
-                let found = solved(on_grid(region(), viscosities, 0.1));
+                let exact = solved(integral(region()), scene(viscosities, pull));
+                let found = solved(layers(region(), 0.1), beside_a_point(scene(viscosities, pull)));
                 let fastest = exact[0].length().max(exact[1].length());
                 for (exact, found) in exact.iter().zip(found) {
                     let error = (found - exact).length() / fastest;
@@ -73,21 +63,21 @@ fn droplets_in_droplets_move_as_they_should() {
 #[test]
 fn an_interface_that_is_none_moves_with_the_fluid() {
     for region in REGIONS {
-        let solved = |mut flow: AnyFlow| {
-            let mut markers = scene([0.1; 2], Vec2::ZERO);
+        let solved = |mut flow: AnyFlow, mut markers: Markers| {
             let inner = markers.groups()[1].range.clone();
             markers.forces_mut()[inner].fill(Vec2::ZERO);
             flow.velocities(&mut markers).unwrap();
             means(&markers)[1]
         };
-        let exact = solved(integral(region()));
-        let error = (solved(on_grid(region(), [0.1; 2], 0.1)) - exact).length() / exact.length();
+        let exact = solved(integral(region()), scene([0.1; 2], Vec2::ZERO));
+        let found = solved(layers(region(), 0.1), beside_a_point(scene([0.1; 2], Vec2::ZERO)));
+        let error = (found - exact).length() / exact.length();
         println!("{:?}: {error:e}", region());
         assert!(error < 1e-5, "{:?}: {error:e}", region());
     }
 }
 
-/// On a grid alone the error would count by the ratio of viscosities.
+/// A grid of one viscosity does not know of them.
 #[test]
 fn a_grid_alone_refuses_them() {
     let solver = PeriodicStokes::new(Grid::periodic(60, 60, 0.1).unwrap(), 1.0).unwrap();
@@ -102,14 +92,15 @@ fn the_flow_in_each_fluid() {
     let points = [[0.35, 0.15], [0.3, 0.1], [-0.5, 0.0], [-0.4, 0.3], [1.9, 0.4], [-1.5, -1.2]].map(Vec2::from);
     for region in REGIONS {
         for viscosities in VISCOSITIES {
-            let sample = |mut flow: AnyFlow| {
-                let mut markers = scene(viscosities, Vec2::ZERO);
+            let sample = |(mut flow, mut markers): (AnyFlow, Markers)| {
                 flow.velocities(&mut markers).unwrap();
                 let mut seen = [FlowSample::default(); 6];
                 flow.sample(&markers, &points, &mut seen).unwrap();
                 seen
             };
-            let [exact, found] = [integral(region()), on_grid(region(), viscosities, 0.025)].map(sample);
+            let alone = || scene(viscosities, Vec2::ZERO);
+            let flows = [(integral(region()), alone()), (layers(region(), 0.025), beside_a_point(alone()))];
+            let [exact, found] = flows.map(sample);
             let fastest = exact.iter().map(|seen| seen.velocity.length()).fold(0.0, f64::max);
             let range = exact.iter().map(|seen| (seen.pressure - exact[5].pressure).abs()).fold(0.0, f64::max);
             for (k, (exact_here, found_here)) in exact.iter().zip(&found).enumerate() {
@@ -127,9 +118,9 @@ fn the_flow_in_each_fluid() {
 /// around a passive one, and that around one more, swims alike on the grid and without.
 #[test]
 fn a_swimmer_around_droplets() {
-    let methods =
-        [Method::Grid(GridMethod::of_spacing(0.1)), Method::Integral(IntegralMethod { nodes: 64, cells: 256 })];
-    let [on_grid, exact] = methods.map(|method| {
+    let of_layers = LayersMethod { nodes: 64, cells: 256, ..LayersMethod::of_spacing(0.1) };
+    let methods = [Method::Layers(of_layers), Method::Integral(IntegralMethod { nodes: 64, cells: 256 })];
+    let [of_layers, exact] = methods.map(|method| {
         let passive = |radius, place, viscosity| DropletSetup {
             viscosity: Some(viscosity),
             centre: [place, 0.1],
@@ -146,14 +137,13 @@ fn a_swimmer_around_droplets() {
         let seen = [0, 1, 2].map(|k| scene.observe(droplets[k]).unwrap());
         seen.map(|seen| seen.speed())
     });
-    for (found, exact) in on_grid.iter().zip(exact) {
+    for (found, exact) in of_layers.iter().zip(exact) {
         println!("{found} {exact}: {:e}", found / exact - 1.0);
-        assert!((found / exact - 1.0).abs() < 1e-4, "{on_grid:?} {exact:?}");
+        assert!((found / exact - 1.0).abs() < 1e-4, "{of_layers:?} {exact:?}");
     }
 }
 
-/// In a channel as wide as it a droplet that is a layer starts beside films, as without a grid; where solids are no
-/// layers, interfaces in one another are refused before any work.
+/// In a channel as wide as it a droplet that is a layer starts beside films, as without a grid.
 #[test]
 fn layers_start_beside_films() {
     let inner = DropletSetup {
@@ -163,7 +153,7 @@ fn layers_start_beside_films() {
     };
     let droplets = vec![DropletSetup { viscosity: Some(10.0), ..DropletSetup::active(-2.0) }, inner];
     let speeds =
-        [Method::Grid(GridMethod::of_spacing(0.1)), Method::Integral(IntegralMethod::default())].map(|method| {
+        [Method::Layers(LayersMethod::of_spacing(0.1)), Method::Integral(IntegralMethod::default())].map(|method| {
             let setup =
                 Setup { region: open_channel(6.0, 2.0), method, droplets: droplets.clone(), ..Setup::default() };
             let Built { mut scene, droplets, .. } = setup.build().unwrap();
@@ -171,9 +161,4 @@ fn layers_start_beside_films() {
             scene.observe(droplets[0]).unwrap().speed()
         });
     assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-3, "{speeds:?}");
-
-    let walls = SolidSetup::walls(&ChannelShape::Straight { width: 3.0 }, &Material::Springs { shear: 1000.0 });
-    let solids = walls.into_iter().map(|wall| SolidSetup { surface: Surface::Plain, ..wall }).collect();
-    let plain = Setup { region: open_channel(6.0, 5.0), solids, droplets, ..Setup::default() };
-    assert!(matches!(plain.check(), Err(SetupError::Value { .. })));
 }

@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 
 use motile::elastic_solids::{BendingMeasure, Shell};
-use motile::ib_core::{Checkpoint, FlowSample, Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, Vec2};
-use motile::{
-    Built, DropletSetup, DropletShape, Exclusion, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
-    Region, RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
+use motile::motile_base::Region;
+use motile::motile_base::{FlowSample, Vec2};
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, checkpoint::Checkpoint};
+use motile::setup::{
+    Built, DropletSetup, DropletShape, Exclusion, Hold, IntegralMethod, LayersMethod, Material, Method, Particles,
+    RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
 };
 use motile_tests::validation::scene::flow;
 
@@ -274,12 +276,11 @@ fn moved(setup: &Setup) -> [Vec2; 2] {
 #[test]
 fn an_elastic_core_tends_to_a_rigid_one_with_its_stiffness() {
     let (centre, radius) = ([0.1, 0.15], 0.45);
-    let layers = IntegralMethod { nodes: 32, cells: 128 };
-    let bare = Setup { method: Method::Integral(layers), ..Setup::default() };
+    let integral = IntegralMethod { nodes: 32, cells: 128 };
+    let bare = Setup { method: Method::Integral(integral), ..Setup::default() };
     let rigid = Setup { rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }], ..bare.clone() };
     let exact = moved(&rigid);
-    // On a grid too: layers alone.
-    let method = Method::Grid(GridMethod { layers, ..GridMethod::of_spacing(0.1) });
+    let method = Method::Layers(LayersMethod { nodes: 32, cells: 128, ..LayersMethod::of_spacing(0.1) });
     let layered = moved(&Setup { method, ..rigid });
     let apart = |found: [Vec2; 2]| found.iter().zip(&exact).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     assert!(apart(layered) < 1e-4 * exact[0].length(), "{layered:?} {exact:?}");
@@ -327,8 +328,8 @@ fn shells_keep_their_area() {
 /// On the way pictures are taken of one of them, and it is saved and resumed.
 #[test]
 fn cells_resume_bit_by_bit_and_looking_changes_nothing() {
-    let layers = IntegralMethod { nodes: 32, cells: 64 };
-    for method in [Method::Integral(layers), Method::Grid(GridMethod { layers, ..GridMethod::of_spacing(0.2) })] {
+    let layers = LayersMethod { nodes: 32, cells: 64, ..LayersMethod::of_spacing(0.2) };
+    for method in [Method::Integral(IntegralMethod { nodes: 32, cells: 64 }), Method::Layers(layers)] {
         let setup = Setup {
             method,
             step: StepSize::Fixed(0.01),

@@ -3,8 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::{ConstantTension, ContractileTension, Exchange, ExcludedVolume};
-use motile::boundary_integral::{BoundaryIntegral, Geometry, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Settings};
 use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
+use motile::motile_base::Region;
+use motile::motile_scene::integrator::Dynamics as _;
 use motile::prelude::*;
 use motile_tests::validation::scene::{on_grid, without_grid};
 
@@ -89,7 +91,7 @@ impl Mode {
 /// symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
 fn quotient(mode: Mode, activity: f64, markers: usize, spacing: f64) -> f64 {
     let nodes = markers / 2;
-    let flow = BoundaryIntegral::new(Geometry::Plane, VISCOSITY, Settings { nodes, ..Settings::default() })
+    let flow = BoundaryIntegral::new(Region::Plane, VISCOSITY, Settings { nodes, ..Settings::default() })
         .expect("a scene that works");
     let mut scene = Scene::new(flow);
     let circle = Curve::circle(1.0).expect("a scene that works").markers(markers).expect("a scene that works");

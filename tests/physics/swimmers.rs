@@ -1,7 +1,7 @@
 //! Steady and transient swimmers against boundary-integral values.
 
-use motile::ib_core::StepSize;
-use motile::{DropletSetup, GridMethod, Method, Setup};
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::scene::{on_grid, reference};
 use motile_tests::validation::swimmers::{SteadyErrors, long_run, steady, transient};
 

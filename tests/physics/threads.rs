@@ -1,8 +1,10 @@
 //! The bits of a run do not depend on the number of threads (feature `rayon`).
 
+use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::ib_core::Scene;
-use motile::{AnyFlow, ChannelShape, DropletSetup, Material, Region, Setup, SolidSetup};
+use motile::motile_base::Region;
+use motile::motile_scene::{Scene, integrator::Dynamics as _};
+use motile::setup::{AnyFlow, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// State and velocities, bitwise, after three steps on that many threads.
@@ -37,7 +39,8 @@ fn elastic_walls_of_many_points() {
         region: open_channel(12.0, 5.0),
         droplets: vec![DropletSetup::active(-4.0)],
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
-        ..on_grid(1.0 / 60.0)
+        method: Method::Grid(GridMethod::uncorrected(1.0 / 60.0)),
+        ..Setup::default()
     };
     let expected = bits(1, &setup);
     assert!(expected.len() > 120_000, "enough points for several threads");

@@ -1,8 +1,10 @@
 //! Nothing depends on the units of length, time and force.
 
-use motile::ib_core::StepSize;
-use motile::stokes_grid::Drive;
-use motile::{ChannelShape, Material, Method, Region, RepulsionSetup, Setup, SolidSetup};
+use motile::elastic_solids::ChannelShape;
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{Material, Method, RepulsionSetup, Setup, SolidSetup};
 use motile_tests::units::Units;
 
 #[derive(Debug, Clone, Copy)]
@@ -43,9 +45,9 @@ fn setup(units: Units, scene: Scene) -> Setup {
     let (region, method, droplets) = match scene {
         Scene::Integral => (channel(6.0, 2.6), Method::default(), alone(-3.0, None)),
         Scene::Grid => (square(5.0), units.grid(0.1), alone(-4.0, None)),
-        Scene::Pair => (square(6.0), units.grid(0.1), pair(Some(30.0))),
+        Scene::Pair => (square(6.0), units.layers(0.1), pair(Some(30.0))),
         Scene::PairWithoutGrid => (Region::Plane, Method::default(), pair(None)),
-        Scene::Solids => (channel(5.0, 5.0), units.grid(0.1), alone(-4.0, None)),
+        Scene::Solids => (channel(5.0, 5.0), units.layers(0.1), alone(-4.0, None)),
     };
     let solids = if matches!(scene, Scene::Solids) { walls(units) } else { Vec::new() };
     let repulsion = repulsion.filter(|_| droplets.len() == 2);

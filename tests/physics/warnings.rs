@@ -2,17 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use motile::ib_core::{Every, Warnings};
-use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, DropletShape, GridMethod, Method, Particles, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::{Every, Warnings};
+use motile::setup::{Built, DropletSetup, DropletShape, GridMethod, Method, Particles, Setup};
 
 /// The causes that a run of `setup` warns of, in the order of their names.
-fn causes(setup: &Setup, time: f64) -> Vec<&'static str> {
+fn causes(setup: &Setup, time: f64) -> Vec<String> {
     let Built { mut scene, .. } = setup.build().expect("a valid setup");
     let mut warnings = Warnings::default();
     scene.run(time).observe(Every::Steps(1), &mut warnings).go().expect("a run");
     assert!(warnings.worst().iter().all(|(_, warning)| warning.excess > 1.0), "{warnings:?}");
-    let mut causes: Vec<_> = warnings.worst().iter().map(|(_, warning)| warning.cause).collect();
+    let mut causes: Vec<_> = warnings.worst().iter().map(|(_, warning)| warning.cause.to_string()).collect();
     causes.sort_unstable();
     causes
 }
@@ -52,7 +53,7 @@ fn thin_films_edges_and_small_droplets_are_told() {
     let small = Setup { droplets: vec![small], method: grid(0.1), ..Setup::default() };
     assert_eq!(causes(&small, 0.2), ["droplet not resolved"]);
     let unbalanced = Setup { droplets: vec![DropletSetup::contractile(-10.0, 9.0)], ..Setup::default() };
-    assert!(causes(&unbalanced, 0.1).contains(&"tension without a plateau"));
+    assert!(causes(&unbalanced, 0.1).contains(&"tension without a plateau".to_owned()));
 }
 
 /// A film between droplets is seen before the first step and after one was moved by hand.

@@ -1,7 +1,7 @@
 //! Swimmers without a grid against independent values and against the grid.
 
-use motile::ib_core::Hydrodynamics;
-use motile::{Built, DropletSetup, GridMethod, Method, Setup};
+use motile::motile_scene::Hydrodynamics;
+use motile::setup::{Built, DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::scene::reference;
 use motile_tests::validation::swimmers::steady;
 

@@ -1,9 +1,10 @@
 //! What a scene computes: only what it needs.
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, hydrodynamics::FlowWork};
+use motile::ib_core::{BSpline, ImmersedBoundary};
+use motile::motile_scene::{FlowWork, Hydrodynamics, Scene};
+use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
-use motile::{GridMethod, Method, Setup};
 use motile_tests::validation::scene::on_grid;
 
 #[test]
@@ -40,7 +41,7 @@ fn the_thesis_preset_is_not_corrected() {
 #[test]
 fn a_passive_droplet_has_no_transport() {
     let solver = PeriodicStokes::new(Grid::periodic(40, 40, 0.1).unwrap(), 1.0).unwrap();
-    let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+    let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));
     let curve = Curve::ellipse(1.2, 1.0 / 1.2).unwrap();
     let droplet = scene.add(ActiveDroplet::passive(&curve.markers(128).unwrap(), 1.0).unwrap());
     scene.step(0.01).unwrap();

@@ -1,16 +1,21 @@
 //! What can be copied, and that copies go on by themselves.
 
+use motile::Recommendation;
 use motile::active_interface::trajectory::TrajectoryRecorder;
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus};
-use motile::elastic_solids::{Channel, Mesher, Outline, Solid, TriangleMesh};
-use motile::ib_core::gap::{Boundary, SolidGap};
-use motile::ib_core::{
-    AnyKernel, Checkpoint, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Midpoint, RungeKuttaChebyshev,
-    SmearedContrast, Transfer, Vec2,
+use motile::elastic_solids::mesh::TriangleMesh;
+use motile::elastic_solids::{Channel, Mesher, Outline, Solid};
+use motile::ib_core::{AnyKernel, ImmersedBoundary, ImmersedLayers, SmearedContrast, Transfer};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{
+    Hydrodynamics, MarkerKind, Markers,
+    checkpoint::Checkpoint,
+    gap::{Boundary, SolidGap},
+    integrator::{Midpoint, RungeKuttaChebyshev},
 };
+use motile::setup::{DropletSetup, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, RealFft2, TwoPhaseStokes};
-use motile::{DropletSetup, Recommendation, Setup, SolidSetup};
 
 fn is_clone<T: Clone>() {}
 
@@ -42,7 +47,7 @@ fn markers(axis: f64) -> Markers {
 #[test]
 fn a_copy_of_a_flow_goes_on_by_itself() {
     let solver = PeriodicStokes::new(Grid::periodic(48, 48, 0.125).expect("a grid"), 1.0).expect("a viscosity");
-    let mut flow = ImmersedBoundary::new(solver, AnyKernel::BSpline4);
+    let mut flow = ImmersedLayers::new(solver, AnyKernel::BSpline4, 64, 1e-6).expect("layers");
     flow.velocities(&mut markers(1.1)).expect("a flow");
     // The iterations start from the last solution, which the copy has too.
     let mut copy = flow.clone();

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-use motile::ib_core::{Checkpoint, Scene};
-use motile::{AnyFlow, GridMethod, Method, Setup};
+use motile::motile_scene::{Scene, checkpoint::Checkpoint};
+use motile::setup::{AnyFlow, GridMethod, Method, Setup};
 
 /// Where the program that is killed finds the path of its checkpoint.
 const PATH: &str = "MOTILE_KILLED_RUN";

@@ -6,19 +6,18 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings};
-use motile::elastic_solids::{
-    Mesher, Moduli, NeoHookean, Outline, Solid,
-    material::{MooneyRivlin, SaintVenantKirchhoff},
-    mesh::{equilateral_block, equilateral_strip, fitted_strip},
+use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::elastic_solids::ChannelShape;
+use motile::elastic_solids::mesh::{equilateral_block, equilateral_strip, fitted_strip};
+use motile::elastic_solids::{Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, Solid};
+use motile::ib_core::{BSpline, ImmersedBoundary, SmearedContrast};
+use motile::motile_base::{Drive, Region, Vec2};
+use motile::motile_scene::{Scene, StepSize, gap::Repulsion};
+use motile::setup::{
+    Axis, Built, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion,
+    Material, Method, Particles, RepulsionSetup, Setup, SolidOutline, SolidSetup, Squeezed, Start,
 };
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
-use motile::{
-    Axis, Built, ChannelShape, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Material, Method, Particles, Region, RepulsionSetup, Setup, SolidOutline, SolidSetup, Squeezed,
-    Start,
-};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
 use proptest::prelude::*;
 
 /// A constructor: good values of its parameters, whether each may be zero or negative, and whether it takes values.
@@ -47,7 +46,7 @@ fn settings() -> Settings {
 }
 
 fn coarse() -> Setup {
-    Setup { method: Method::Grid(GridMethod::of_spacing(0.25)), ..Setup::default() }
+    Setup { method: Method::Grid(GridMethod::uncorrected(0.25)), ..Setup::default() }
 }
 
 /// Whether a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it
@@ -140,16 +139,16 @@ fn makers() -> Vec<Maker> {
         }),
         maker("SmearedContrast tolerance", &[1e-6], "+", |v| {
             let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
-            SmearedContrast::with_tolerance(solver, CubicQuadratic::default(), v[0]).is_ok()
+            SmearedContrast::with_tolerance(solver, BSpline::<4>, v[0]).is_ok()
         }),
         maker("Repulsion", &[1.0, 0.2], "++", |v| Repulsion::new(v[0], v[1]).is_ok()),
         maker("Scene::with_least_gap", &[0.1], "-", |v| {
             let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
-            Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default())).with_least_gap(v[0]).is_ok()
+            Scene::new(ImmersedBoundary::new(solver, BSpline::<4>)).with_least_gap(v[0]).is_ok()
         }),
         maker("StepSize::Fixed and the time of a run", &[0.01, 0.02], "+0", |v| {
             let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
-            let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+            let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));
             scene.run(v[1]).step_size(StepSize::Fixed(v[0])).most_steps(10).go().is_ok()
         }),
         maker("StepSize::Adaptive", &[1e-4], "+", |v| {
@@ -210,15 +209,15 @@ fn makers() -> Vec<Maker> {
             .is_ok()
         }),
         maker("Region::Box", &[4.0, 4.0], "++", |v| {
-            BoundaryIntegral::new(Geometry::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+            BoundaryIntegral::new(Region::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
         }),
         maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
-            let region = Geometry::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            let region = Region::Channel { length: v[0], width: v[1], drive: Drive::Flux(v[2]) };
             BoundaryIntegral::new(region, 1.0, settings()).is_ok()
         }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
             let settings = Settings { tolerance: v[1], ..settings() };
-            let flow = BoundaryIntegral::new(Geometry::Plane, v[0], settings);
+            let flow = BoundaryIntegral::new(Region::Plane, v[0], settings);
             flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),

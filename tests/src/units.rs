@@ -1,6 +1,6 @@
 //! Descriptions of the same scenes in other units.
 
-use motile::{DropletSetup, DropletShape, Exclusion, GridMethod, Method, Particles};
+use motile::setup::{DropletSetup, DropletShape, Exclusion, GridMethod, LayersMethod, Method, Particles};
 
 /// A unit of length, of time and of force: what they are of those of the scene.
 #[derive(Debug, Clone, Copy)]
@@ -49,5 +49,11 @@ impl Units {
     #[must_use]
     pub fn grid(self, spacing: f64) -> Method {
         Method::Grid(GridMethod::of_spacing(spacing * self.length))
+    }
+
+    /// Layers beside a grid of a spacing given in the units of the default scene.
+    #[must_use]
+    pub fn layers(self, spacing: f64) -> Method {
+        Method::Layers(LayersMethod::of_spacing(spacing * self.length))
     }
 }

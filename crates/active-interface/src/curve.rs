@@ -1,4 +1,4 @@
-//! Closed curves to start an interface from, and the polygon through its markers.
+//! Closed curves from which the markers of an interface are made, and the polygon through the markers.
 
 mod crossing;
 mod equidistant;
@@ -6,12 +6,13 @@ pub(crate) mod polygon;
 mod spline;
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
+use std::ops::Deref;
+use std::sync::Arc;
 
-use ib_core::Vec2;
-use ib_core::input::{all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
+use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
 
 use crate::InterfaceError;
-use crate::function::Function;
 pub(crate) use crossing::CrossingFinder;
 pub use crossing::first_crossing;
 use equidistant::equidistant;
@@ -19,22 +20,24 @@ pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter}
 use polygon::{edges, raw_area, raw_perimeter};
 use spline::PeriodicSpline;
 
-/// Fewest markers of an interface.
+/// Fewest markers of an interface: the reconstruction of the concentration at a marker spans six segments, which must
+/// be different ones.
 pub(crate) const MINIMUM_MARKERS: usize = 8;
 
-/// Most markers of an interface.
+/// Most markers of an interface: a bound on the memory that a wrong spacing takes.
 const MAXIMUM_MARKERS: usize = 1_000_000;
 
-/// Largest ratio of the distances between neighbours in a list of markers.
+/// Largest ratio of the distances between neighbouring markers. Transport and forces are of second order in slowly
+/// varying spacing; neighbours that differ by more than this are a mistake in a list of points.
 const MAXIMUM_UNEVENNESS: f64 = 4.0;
 
-/// Points that a smooth curve is checked and measured on.
+/// Samples on which a smooth curve is checked and measured; with the extrapolation over four strides, round-off.
 const SAMPLES: usize = 8192;
 
 /// A closed curve without self-crossings, from which the markers of an interface are made.
 ///
-/// Curves run counter-clockwise: one that is given clockwise is turned around. All checks are made where a curve is
-/// made, so that every curve is finite, closed, simple and encloses an area.
+/// Curves run counter-clockwise: one that is given clockwise is turned around. Every curve is checked where it is made:
+/// it is finite, closed, simple and encloses an area.
 ///
 /// ```
 /// use active_interface::Curve;
@@ -44,7 +47,7 @@ const SAMPLES: usize = 8192;
 /// let first = (markers[1] - markers[0]).length();
 /// let other = (markers[101] - markers[100]).length();
 /// assert!((first - other).abs() < 1e-12 * first);
-/// assert!((active_interface::curve::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
+/// assert!((active_interface::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -59,15 +62,22 @@ pub struct Curve {
 
 #[derive(Debug, Clone)]
 enum Shape {
-    Circle(f64),
+    /// Half axes along x and y (length); equal for a circle.
     Ellipse(f64, f64),
-    Fourier { radius: f64, cosines: Vec<f64>, sines: Vec<f64> },
+    Fourier {
+        radius: f64,
+        cosines: Vec<f64>,
+        sines: Vec<f64>,
+    },
     Parametric(Function<Vec2>),
     Spline(PeriodicSpline),
-    Polygon { points: Vec<Vec2>, ends: Vec<f64> },
+    Polygon {
+        points: Vec<Vec2>,
+        ends: Vec<f64>,
+    },
 }
 
-/// Radius divided by its mean at the polar angle `angle`.
+/// Radius over its mean at the polar angle `angle`.
 fn fourier_factor(cosines: &[f64], sines: &[f64], angle: f64) -> f64 {
     let wave = |amplitudes: &[f64], f: fn(f64) -> f64| -> f64 {
         amplitudes.iter().zip(1u32..).map(|(amplitude, k)| amplitude * f(f64::from(k) * angle)).sum()
@@ -76,13 +86,9 @@ fn fourier_factor(cosines: &[f64], sines: &[f64], angle: f64) -> f64 {
 }
 
 impl Shape {
-    /// The point at the fraction `t` of the parameter, t in [0, 1].
+    /// Point at the fraction `t` of the parameter, t in [0, 1].
     fn point(&self, t: f64) -> Vec2 {
         match self {
-            Self::Circle(radius) => {
-                let (s, c) = (TAU * t).sin_cos();
-                Vec2::new(c, s) * *radius
-            }
             Self::Ellipse(a, b) => {
                 let (s, c) = (TAU * t).sin_cos();
                 Vec2::new(a * c, b * s)
@@ -102,10 +108,9 @@ impl Shape {
         }
     }
 
-    /// Signed area where there is a formula.
+    /// Signed area (length squared) where there is a formula.
     fn area(&self) -> Option<f64> {
         match self {
-            Self::Circle(radius) => Some(PI * radius * radius),
             Self::Ellipse(a, b) => Some(PI * a * b),
             Self::Fourier { radius, cosines, sines } => {
                 let squares: f64 = cosines.iter().chain(sines).map(|amplitude| amplitude * amplitude).sum();
@@ -124,7 +129,8 @@ impl Curve {
     /// # Errors
     /// A radius that is not positive.
     pub fn circle(radius: f64) -> Result<Self, InterfaceError> {
-        Self::build(Shape::Circle(positive("the radius", radius)?))
+        positive("the radius", radius)?;
+        Self::build(Shape::Ellipse(radius, radius))
     }
 
     /// The ellipse (a cos t, b sin t) with the half axes a along x and b along y (length).
@@ -138,7 +144,7 @@ impl Curve {
     /// The curve r(theta) = R (1 + sum over k >= 1 of a_k cos k theta + b_k sin k theta) about the origin, with
     /// `cosines` = a_1, a_2, ... and `sines` = b_1, b_2, ... (no dimension) and the radius R (length).
     ///
-    /// Its area is pi R^2 (1 + sum (a_k^2 + b_k^2) / 2).
+    /// The area inside is pi R^2 (1 + sum (a_k^2 + b_k^2) / 2).
     ///
     /// # Errors
     /// A radius R that is not positive, amplitudes that are not finite or so large that r is not positive everywhere.
@@ -225,14 +231,14 @@ impl Curve {
         if area.abs() < 1e-6 * perimeter * perimeter {
             return Err(InterfaceError::NoArea { area, length: perimeter });
         }
-        let simple_by_form = matches!(shape, Shape::Circle(_) | Shape::Ellipse(..) | Shape::Fourier { .. });
+        let simple_by_form = matches!(shape, Shape::Ellipse(..) | Shape::Fourier { .. });
         if !simple_by_form && let Some((first, second)) = first_crossing(&every(&samples, 4))? {
             return Err(InterfaceError::SelfCrossing { first, second });
         }
         Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::ZERO, area: area.abs(), perimeter })
     }
 
-    /// This curve, as it lies, turned about the origin by `angle` (radians, counter-clockwise).
+    /// Turns the curve, as it lies, about the origin by `angle` (radians, counter-clockwise).
     #[must_use]
     pub fn rotated(mut self, angle: f64) -> Self {
         self.rotation += angle;
@@ -240,26 +246,26 @@ impl Curve {
         self
     }
 
-    /// This curve moved by `displacement` (length).
+    /// Moves the curve by `displacement` (length).
     #[must_use]
     pub fn translated(mut self, displacement: Vec2) -> Self {
         self.translation += displacement;
         self
     }
 
-    /// The area inside (length squared).
+    /// Area inside (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// The length of the curve.
+    /// Length of the curve (length).
     #[must_use]
     pub fn perimeter(&self) -> f64 {
         self.perimeter
     }
 
-    /// The point at the fraction `t` of the curve's own parameter, t in [0, 1], counter-clockwise.
+    /// Point (length) at the fraction `t` of the curve's own parameter, t in [0, 1], counter-clockwise.
     #[must_use]
     pub fn point(&self, t: f64) -> Vec2 {
         let t = t.clamp(0.0, 1.0);
@@ -269,7 +275,7 @@ impl Curve {
 
     /// `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
     ///
-    /// All chords between neighbours are equal, to 1e-12 of their length. The polygon through the markers is scaled
+    /// Chords between neighbours are equal, to 1e-12 of their length. The polygon through the markers is scaled
     /// about its centroid so that its area is that of the curve; the markers then lie outside the curve by about
     /// (spacing)^2 times its curvature / 12.
     ///
@@ -281,7 +287,7 @@ impl Curve {
         within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
         finite("the rotation", self.rotation)?;
         all_points_finite("the translation", &[self.translation])?;
-        let mut markers = if let Shape::Circle(_) = self.shape {
+        let mut markers = if matches!(self.shape, Shape::Ellipse(a, b) if a == b) {
             (0..count).map(|k| self.point(k as f64 / count as f64)).collect()
         } else {
             equidistant(|t| self.point(t), count)?
@@ -311,8 +317,8 @@ impl Curve {
     }
 }
 
-/// Points as they are given as the markers of an interface: checked, and turned around where they run clockwise (the
-/// first stays the first).
+/// Markers of an interface from points (length): checked, and turned around where they run clockwise (the first stays
+/// the first).
 ///
 /// # Errors
 /// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more
@@ -362,6 +368,30 @@ fn extrapolate(quantity: impl Fn(usize) -> f64) -> f64 {
         factor *= 4.0;
     }
     column[0]
+}
+
+/// Function of one number that a user gives, shared between clones.
+#[derive(Clone)]
+pub(crate) struct Function<T>(Arc<dyn Fn(f64) -> T + Send + Sync>);
+
+impl<T> Function<T> {
+    pub(crate) fn new(function: impl Fn(f64) -> T + Send + Sync + 'static) -> Self {
+        Self(Arc::new(function))
+    }
+}
+
+impl<T> Deref for Function<T> {
+    type Target = dyn Fn(f64) -> T + Send + Sync;
+
+    fn deref(&self) -> &Self::Target {
+        self.0.as_ref()
+    }
+}
+
+impl<T> fmt::Debug for Function<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Function")
+    }
 }
 
 #[cfg(test)]

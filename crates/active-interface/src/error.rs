@@ -1,22 +1,22 @@
-//! What can go wrong with an interface.
+//! Errors of interfaces and of what is computed on them.
 
-use ib_core::input::{InputError, all_finite};
+use motile_base::{InputError, all_finite};
 
-/// An error of this crate, with the offending values and the remedy.
+/// An error of this crate; its message has the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterfaceError {
     /// A number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// An entry of a list that must be positive is not.
+    /// An entry that is not positive in a list of positive numbers.
     #[error("entry {index} of {name} is {value}: all entries must be positive and finite")]
     EntryNotPositive {
-        /// The list.
+        /// Name of the list.
         name: &'static str,
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
     /// A curve whose end is not its start.
@@ -36,13 +36,13 @@ pub enum InterfaceError {
     /// A polygon that crosses itself, so that its moments of area are not those of a shape.
     #[error("the second moments of area of the polygon are not positive: it crosses itself")]
     Crossed,
-    /// Two successive points of a curve coincide.
+    /// Two successive points of a curve that coincide.
     #[error("points {index} and the next one of the curve coincide: remove one of them")]
     CoincidentPoints {
         /// The first of the two.
         index: usize,
     },
-    /// Points of very different distances.
+    /// Points whose distances are too uneven.
     #[error(
         "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \
          them evenly, for instance by Curve::through_points"
@@ -50,7 +50,7 @@ pub enum InterfaceError {
     UnevenSpacing {
         /// Longest over shortest distance.
         ratio: f64,
-        /// What is allowed.
+        /// Largest ratio allowed.
         bound: f64,
     },
     /// A curve that encloses no area.
@@ -58,18 +58,18 @@ pub enum InterfaceError {
     NoArea {
         /// Signed area (length squared).
         area: f64,
-        /// Length.
+        /// Length of the curve (length).
         length: f64,
     },
     /// A curve in polar form whose radius is not positive everywhere.
     #[error("the radius is {radius:.3e} at the polar angle {angle:.4}: make the amplitudes of the modes smaller")]
     RadiusNotPositive {
-        /// Where (radians).
+        /// Polar angle (radians).
         angle: f64,
         /// The radius there (length).
         radius: f64,
     },
-    /// An iteration did not converge.
+    /// An iteration that did not converge.
     #[error("{what} stopped at a residual of {residual:.1e}, above {tolerance:e}: {remedy}")]
     NoConvergence {
         /// The iteration.
@@ -78,7 +78,7 @@ pub enum InterfaceError {
         residual: f64,
         /// Residual asked for.
         tolerance: f64,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A tension law without a plateau has drawn the particles together to a point.
@@ -90,35 +90,35 @@ pub enum InterfaceError {
         /// Part of the particles on the fullest segment.
         part: f64,
     },
-    /// There are no particles to borrow from.
-    #[error("the particle numbers add up to {total}, so no redistribution makes them positive")]
+    /// Negative particle numbers without as many particles elsewhere to make up for them.
+    #[error("the particle numbers add up to {total}: give numbers with a positive sum, or a smaller time step")]
     NoParticles {
-        /// Their sum.
+        /// Sum of the particle numbers.
         total: f64,
     },
-    /// A list that must increase does not.
+    /// An entry that is not above the one before it in an increasing list.
     #[error("entry {index} of {name} is {value}, not above the one before it: all entries must increase")]
     NotIncreasing {
-        /// The list.
+        /// Name of the list.
         name: &'static str,
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
-    /// The points do not determine what is fitted to them.
-    #[error("{what} cannot be fitted to {points} points that lie as these do")]
+    /// Points that do not determine what is fitted to them.
+    #[error("{points} points that lie as these do determine no fit of {what}: give more of them, or a longer part")]
     NoFit {
-        /// What is fitted.
+        /// Model of the fit.
         what: &'static str,
         /// Number of points.
         points: usize,
     },
 }
 
-ib_core::input::debug_as_explanation!(InterfaceError);
+motile_base::debug_as_explanation!(InterfaceError);
 
-/// Whether all entries are finite and each is above the one before it.
+/// Checks that all entries are finite and each is above the one before it.
 pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
     all_finite(name, values)?;
     match values.windows(2).position(|pair| pair[1] <= pair[0]) {
@@ -127,7 +127,7 @@ pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), Inter
     }
 }
 
-/// Whether all entries are positive and finite.
+/// Checks that all entries are positive and finite.
 pub(crate) fn all_positive(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
     match values.iter().position(|&value| !(value > 0.0 && value.is_finite())) {
         None => Ok(()),

@@ -1,13 +1,13 @@
 //! Exchange of particles between an interface and the inside of its droplet.
 
-use ib_core::input::{not_negative, positive};
+use motile_base::{not_negative, positive};
 
 use crate::InterfaceError;
 
-/// Rates at which particles go from the inside of a droplet to its interface and back, `dc/dt = ... + k_on C - k_off
-/// c`, c the concentration on the interface (particles per length), C that inside beside it (particles per area).
-/// Whitfield and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11 (2016) e0162474, have
-/// such a model.
+/// Rates of binding to the interface of a droplet and unbinding into its inside, `dc/dt = ... + k_on C - k_off c`, c
+/// the concentration on the interface (particles per length), C that inside beside it (particles per area). Whitfield
+/// and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11 (2016) e0162474, have such a
+/// model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exchange {
     binding: f64,
@@ -37,8 +37,9 @@ impl Exchange {
         self.unbinding
     }
 
-    /// The concentration inside (particles per area) that is at rest with one on the interface (particles per length),
-    /// `C = k_off c/k_on`; `None` where nothing binds and so all particles leave the interface.
+    /// Concentration inside (particles per area) in equilibrium with the concentration c = `on` of the interface
+    /// (particles per length), `C = k_off c/k_on`; `None` where nothing binds, so that all particles leave the
+    /// interface.
     #[must_use]
     pub fn concentration_at_rest(&self, on: f64) -> Option<f64> {
         match (self.binding > 0.0, self.unbinding > 0.0) {
@@ -49,7 +50,7 @@ impl Exchange {
     }
 }
 
-/// A well-mixed inside: its particles have the same concentration everywhere, as with fast diffusion.
+/// Particles inside a droplet, well mixed: of one concentration everywhere, as with fast diffusion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pool {
     pub(crate) exchange: Exchange,
@@ -74,8 +75,8 @@ impl Pool {
         self.rate(lengths.iter().sum()) * self.number - self.exchange.unbinding * on
     }
 
-    /// Adds `factor` times the rates, `factor` a time, to the numbers of the segments; returns what is to be added to
-    /// that inside.
+    /// Adds `factor` (time) times the rates of exchange to the numbers of the segments; returns the change of the
+    /// number inside.
     pub(crate) fn add(&self, factor: f64, lengths: &[f64], numbers: &[f64], inside: f64, out: &mut [f64]) -> f64 {
         let unit = factor * self.exchange.binding * inside / self.area;
         let mut loss = 0.0;
@@ -87,26 +88,25 @@ impl Pool {
         loss
     }
 
-    /// The factor of the diffusion that is to be solved for, between [`Pool::before`] and [`Pool::after`].
-    pub(crate) fn diffusion_factor(&self, factor: f64) -> f64 {
-        factor / (1.0 + factor * self.exchange.unbinding)
-    }
-
-    /// The right side of the diffusion of the numbers.
+    /// Solves a step of exchange and diffusion, both implicit over the time `factor` f, for the numbers on the segments
+    /// and inside; `diffuse(f, numbers)` solves one of diffusion alone. The sum of all numbers is kept.
     ///
-    /// With the numbers n and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` is solved by `n = a + b P`,
-    /// where b is `f k_on l/(A (1 + f k_off))`, as numbers that go with the lengths l do not diffuse, and a is what
-    /// diffuses.
-    pub(crate) fn before(&self, factor: f64, numbers: &mut [f64]) {
-        let part = 1.0 / (1.0 + factor * self.exchange.unbinding);
-        numbers.iter_mut().for_each(|number| *number *= part);
-    }
-
-    /// The numbers on and inside after the diffusion, of which the sum is what it was.
-    pub(crate) fn after(&self, factor: f64, lengths: &[f64], numbers: &mut [f64], inside: &mut f64) {
+    /// With the numbers n on the segments and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` has the solution
+    /// `n = a + b P`, where b is `f k_on l/(A (1 + f k_off))`, as numbers in proportion to the lengths l do not
+    /// diffuse, and a solves the diffusion of `r/(1 + f k_off)` over the time `f/(1 + f k_off)`.
+    pub(crate) fn solve(
+        &self,
+        factor: f64,
+        lengths: &[f64],
+        numbers: &mut [f64],
+        inside: &mut f64,
+        diffuse: impl FnOnce(f64, &mut [f64]),
+    ) {
         let Exchange { binding, unbinding } = self.exchange;
-        let left: f64 = numbers.iter().sum();
         let part = 1.0 / (1.0 + factor * unbinding);
+        numbers.iter_mut().for_each(|number| *number *= part);
+        diffuse(factor / (1.0 + factor * unbinding), numbers);
+        let left: f64 = numbers.iter().sum();
         let perimeter: f64 = lengths.iter().sum();
         let number = (*inside + factor * unbinding * left) / (1.0 + factor * self.rate(perimeter) * part);
         let bound = factor * binding * number * part / self.area;

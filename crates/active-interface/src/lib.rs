@@ -8,19 +8,20 @@
 //! gamma = gamma0 - zeta_dmu c - Pi(c)             (2.39)
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
-//! [`ActiveDroplet`] is that droplet as a body of a scene ([`ib_core::Body`]). The parts it is made of, each usable by
-//! itself, work on plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
+//! [`ActiveDroplet`] is that droplet as a body of a scene ([`motile_scene::Body`]). The parts it is made of, each
+//! usable by itself, work on plain slices of markers ([`Vec2`](motile_base::Vec2)) and numbers:
 //!
-//! * [`curve`]: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
+//! * **Shapes**: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
 //!   crossings; area, moments and perimeter of polygons, exact.
-//! * [`concentration`]: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
+//! * **Particles**: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
 //!   along the interface without losing any.
-//! * [`tension`]: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
+//! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
 //! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_pool`].
-//! * [`observables`]: [`observe`] for all [`Observables`] at once, and a function for each; fluxes along a channel.
-//! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for what the
-//!   droplet does across a channel.
-//! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`units`]: [`Units`] to convert to SI.
+//! * [`observables`]: [`observables::observe`] for all of them at once, and a function for each; fluxes along a
+//!   channel.
+//! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for the
+//!   regime of its motion across a channel.
+//! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`Units`] converts to SI.
 //!
 //! # Conventions
 //!
@@ -30,12 +31,12 @@
 //!
 //! # Example
 //!
-//! How strongly does a polarised droplet push the fluid? Make it, and take the moments of its forces:
+//! The stresslet of a polarised droplet, from the moments of its forces:
 //! ```
-//! use active_interface::observables::{Frame, force_moments};
+//! use active_interface::{ContractileTension, Curve, InitialConcentration, InterfaceError, Tension};
+//! use active_interface::observables::{Convention, Frame, force_moments};
 //! use active_interface::theory::{LinearTheory, RoundDroplet};
-//! use active_interface::{ContractileTension, Convention, Curve, InitialConcentration, InterfaceError, Tension};
-//! use ib_core::Vec2;
+//! use motile_base::Vec2;
 //!
 //! let markers = Curve::circle(1.0)?.markers(250)?;
 //! let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
@@ -67,24 +68,26 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
-pub mod concentration;
-pub mod curve;
-pub mod droplet;
+mod concentration;
+mod curve;
+mod droplet;
 mod error;
 mod exchange;
-mod function;
+mod interface;
 pub mod observables;
-pub mod tension;
+mod tension;
 pub mod theory;
 pub mod trajectory;
 mod tridiagonal;
-pub mod units;
+mod units;
 
-pub use concentration::{Flux, InitialConcentration};
-pub use curve::Curve;
-pub use droplet::{ActiveDroplet, Motion};
+pub use concentration::{Flux, InitialConcentration, Repair, SplitMix64};
+pub use curve::{
+    AreaMoments, Curve, first_crossing, markers_from_points, polygon_area, polygon_moments, polygon_perimeter,
+};
+pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;
 pub use exchange::Exchange;
-pub use observables::{Convention, Observables, observe};
+pub use interface::Motion;
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
-pub use units::Units;
+pub use units::{Quantity, Units};

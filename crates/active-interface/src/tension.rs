@@ -5,7 +5,7 @@ mod excluded_volume;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use ib_core::input::{finite, not_negative};
+use motile_base::{finite, not_negative};
 
 use crate::InterfaceError;
 pub use excluded_volume::ExcludedVolume;
@@ -13,23 +13,23 @@ pub use excluded_volume::ExcludedVolume;
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
 ///
-/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The one on slices is recompiled for
-/// every law, so that a `dyn Tension` costs one indirect call a slice.
+/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. [`Tension::values`] is compiled for every
+/// law, so that a `dyn Tension` costs one indirect call a slice.
 pub trait Tension: Debug + Send + Sync {
-    /// gamma(c) (force).
+    /// Tension gamma(c) (force) at the concentration `c` (particles per length).
     fn value(&self, c: f64) -> f64;
 
-    /// d gamma / d c (force times length).
+    /// Slope d gamma / d c (force times length) at the concentration `c` (particles per length).
     fn slope(&self, c: f64) -> f64;
 
-    /// Writes gamma of every concentration.
+    /// Writes the tension (force) of every concentration (particles per length).
     fn values(&self, concentrations: &[f64], tensions: &mut [f64]) {
         for (tension, &c) in tensions.iter_mut().zip(concentrations) {
             *tension = self.value(c);
         }
     }
 
-    /// What may go wrong with this law whatever the resolution, and the remedy, for a warning ([`ib_core::Warning`]).
+    /// Warning, with its remedy, of a flaw of this law that no resolution mends ([`motile_scene::Warning`]).
     fn warning(&self) -> Option<String> {
         None
     }
@@ -86,7 +86,7 @@ impl ContractileTension {
     /// Cowley's law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
     ///
     /// # Errors
-    /// As [`ContractileTension::new`].
+    /// Those of [`ContractileTension::new`].
     pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
         Self::new(bare, activity, ExcludedVolume::thesis(strength, mean_concentration))
     }
@@ -137,7 +137,7 @@ impl Tension for ContractileTension {
     }
 }
 
-/// A law that is shared, or chosen at run time, is a law.
+// Laws that are shared, or chosen at run time, are laws too.
 macro_rules! laws_behind_pointers {
     ($($pointer:ident),*) => {$(
         impl<T: Tension + ?Sized> Tension for $pointer<T> {

@@ -1,14 +1,14 @@
-//! Analytic solutions: the linear theory of a round droplet in free space, the squirmer.
+//! Analytic solutions: the linear theory of a round droplet in unbounded fluid, the squirmer.
 
 pub mod fits;
 mod squirmer_flow;
 
-use ib_core::input::{at_least, finite, not_negative, positive};
+use motile_base::{at_least, finite, not_negative, positive};
 
 use crate::InterfaceError;
 pub use squirmer_flow::SquirmerFlow;
 
-/// What the linear theory of a round droplet needs to know.
+/// Parameters of the linear theory of a round droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundDroplet {
     /// Radius R0 (length).
@@ -46,7 +46,7 @@ pub struct RoundDroplet {
 pub struct LinearTheory(RoundDroplet);
 
 impl LinearTheory {
-    /// The theory of this droplet.
+    /// Linear theory of this droplet.
     ///
     /// # Errors
     /// A radius, viscosity or concentration that is not positive, a negative diffusivity, values that are not finite.
@@ -61,7 +61,7 @@ impl LinearTheory {
         Ok(Self(droplet))
     }
 
-    /// The droplet.
+    /// Parameters of the droplet.
     #[must_use]
     pub fn droplet(&self) -> &RoundDroplet {
         &self.0
@@ -73,8 +73,8 @@ impl LinearTheory {
 
     /// Growth rate (1/time) of mode k >= 1 of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)).
     ///
-    /// In a periodic box it is smaller: for k = 2 and equal viscosities 0.4179 gamma/(eta R0) instead of 0.5 in a box
-    /// of 6 R0.
+    /// In a periodic box the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4179
+    /// gamma/(eta R0) instead of 0.5.
     #[must_use]
     pub fn shape_growth_rate(&self, k: u32) -> f64 {
         -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
@@ -108,8 +108,8 @@ impl LinearTheory {
         Ok(-self.0.activity * amplitude / (4.0 * self.viscosity_sum()))
     }
 
-    /// The flow due to c = c0 + concentration_amplitude cos(k theta) and r = R0 + radius_amplitude cos(k theta), to
-    /// first order in both, eqs. (2.9) to (2.15).
+    /// Flow due to the concentration c = c0 + concentration_amplitude cos(k theta) (particles per length) and the
+    /// radius r = R0 + radius_amplitude cos(k theta) (length), to first order in both amplitudes, eqs. (2.9) to (2.15).
     ///
     /// # Errors
     /// k = 0, amplitudes that are not finite.
@@ -163,7 +163,8 @@ pub struct ModeFlow {
 }
 
 impl ModeFlow {
-    /// The coefficients of eqs. (2.12) to (2.15): alpha and beta inside, alpha and beta outside.
+    /// Coefficients of eqs. (2.12) to (2.15): alpha and beta inside, alpha and beta outside (velocity over the power of
+    /// r in the formulas above).
     #[must_use]
     pub fn coefficients(&self) -> [f64; 4] {
         [self.alpha_inside, self.beta_inside, self.alpha_outside, self.beta_outside]

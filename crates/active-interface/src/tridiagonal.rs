@@ -1,4 +1,4 @@
-//! Cyclic tridiagonal systems: what implicit diffusion and smoothing along a closed curve come down to.
+//! Cyclic tridiagonal systems, which implicit diffusion and smoothing along a closed curve lead to.
 
 use std::ops::{Add, Mul};
 
@@ -70,7 +70,7 @@ pub(crate) struct CirculantTridiagonal {
 }
 
 impl CirculantTridiagonal {
-    /// The operator with these coefficients.
+    /// The operator with these coefficients, factorised.
     fn new(diagonal: f64, off: f64) -> Self {
         // off (E + 1/E) + diagonal = (1 - root E)(1 - root / E) / scale, |root| < 1
         let root = -2.0 * off / (diagonal + diagonal.signum() * (diagonal * diagonal - 4.0 * off * off).sqrt());

@@ -1,11 +1,12 @@
-//! From the units of a calculation to SI.
+//! Conversion between the units of a calculation and SI.
 
-use ib_core::input::{finite, positive};
+use motile_base::{finite, positive};
 
 use crate::InterfaceError;
 
-/// What is converted.
+/// Physical quantity of a number that is converted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Length, in m.
     Length,
@@ -28,19 +29,24 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Its SI unit, as it is written.
+    /// SI unit of the quantity, as it is written.
     #[must_use]
     pub fn unit(self) -> &'static str {
+        self.dimension().0
+    }
+
+    /// SI unit, and the powers of length, viscosity and tension whose product has the dimension of the quantity.
+    fn dimension(self) -> (&'static str, [i32; 3]) {
         match self {
-            Self::Length => "m",
-            Self::Time => "s",
-            Self::Speed => "m/s",
-            Self::Viscosity => "Pa s",
-            Self::Tension => "N/m",
-            Self::Stress => "Pa",
-            Self::Concentration => "1/m",
-            Self::Activity => "N",
-            Self::Diffusivity => "m^2/s",
+            Self::Length => ("m", [1, 0, 0]),
+            Self::Time => ("s", [1, 1, -1]),
+            Self::Speed => ("m/s", [0, -1, 1]),
+            Self::Viscosity => ("Pa s", [0, 1, 0]),
+            Self::Tension => ("N/m", [0, 0, 1]),
+            Self::Stress => ("Pa", [-1, 0, 1]),
+            Self::Concentration => ("1/m", [-1, 0, 0]),
+            Self::Activity => ("N", [1, 0, 1]),
+            Self::Diffusivity => ("m^2/s", [1, -1, 1]),
         }
     }
 }
@@ -52,7 +58,7 @@ impl Quantity {
 /// concentration = 1 / length           activity = tension length            diffusivity = tension length / viscosity
 /// ```
 /// ```
-/// use active_interface::{Units, units::Quantity};
+/// use active_interface::{Units, Quantity};
 /// let units = Units::thesis();
 /// // a speed of 0.15 is 0.15 micrometres a second
 /// assert!((units.to_si(Quantity::Speed, 0.15)? - 0.15e-6).abs() < 1e-20);
@@ -88,23 +94,14 @@ impl Units {
         Self { length: 1e-5, viscosity: 10.0, tension: 1e-5 }
     }
 
-    /// One unit of the quantity, in SI.
+    /// Unit of the quantity in the calculation, in SI.
     #[must_use]
     pub fn unit(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Length => self.length,
-            Quantity::Time => self.viscosity * self.length / self.tension,
-            Quantity::Speed => self.tension / self.viscosity,
-            Quantity::Viscosity => self.viscosity,
-            Quantity::Tension => self.tension,
-            Quantity::Stress => self.tension / self.length,
-            Quantity::Concentration => 1.0 / self.length,
-            Quantity::Activity => self.tension * self.length,
-            Quantity::Diffusivity => self.tension * self.length / self.viscosity,
-        }
+        let [length, viscosity, tension] = quantity.dimension().1;
+        self.length.powi(length) * self.viscosity.powi(viscosity) * self.tension.powi(tension)
     }
 
-    /// A value of the calculation, in SI.
+    /// Value of the calculation, in SI.
     ///
     /// # Errors
     /// A value that is not finite.
@@ -112,7 +109,7 @@ impl Units {
         Ok(finite("the value to convert", value)? * self.unit(quantity))
     }
 
-    /// A value in SI, in the units of the calculation.
+    /// Value in SI, in the units of the calculation.
     ///
     /// # Errors
     /// A value that is not finite.

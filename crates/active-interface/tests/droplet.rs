@@ -3,17 +3,19 @@
 #[cfg(test)]
 mod tests {
     use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
-    use ib_core::{Body, CubicQuadratic, Discretisation, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
+    use ib_core::{BSpline, ImmersedBoundary};
+    use motile_base::Vec2;
+    use motile_scene::{Body, FluidView, Hydrodynamics, Scene};
     use proptest::prelude::*;
     use stokes_grid::{Grid, PeriodicStokes};
 
-    fn flow(cells: usize, h: f64) -> ImmersedBoundary<PeriodicStokes, CubicQuadratic> {
+    fn flow(cells: usize, h: f64) -> ImmersedBoundary<PeriodicStokes, BSpline<4>> {
         let grid = Grid::periodic(cells, cells, h).unwrap();
-        ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0).unwrap(), CubicQuadratic::default())
+        ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0).unwrap(), BSpline::<4>)
     }
 
-    fn discretisation() -> Discretisation {
-        flow(8, 0.5).discretisation()
+    fn fluid_view() -> FluidView {
+        flow(8, 0.5).fluid_view()
     }
 
     /// An active droplet on an ellipse, turned and moved.
@@ -39,8 +41,8 @@ mod tests {
             let curve = Curve::fourier(1.0, &[0.0, bumps[0], bumps[1]], &[0.0, bumps[2], bumps[3]]).unwrap();
             let mut droplet = ActiveDroplet::passive(&curve.markers(40).unwrap(), tension).unwrap();
             let mut forces = vec![Vec2::ZERO; 40];
-            droplet.write_forces(&discretisation(), &mut forces).unwrap();
-            let energy = |markers: &[Vec2]| tension * active_interface::curve::polygon_perimeter(markers).unwrap();
+            droplet.write_forces(&fluid_view(), &mut forces).unwrap();
+            let energy = |markers: &[Vec2]| tension * active_interface::polygon_perimeter(markers).unwrap();
             let step = 1e-6;
             for axis in 0..2 {
                 let shifted = |by: f64| {
@@ -106,7 +108,7 @@ mod tests {
             let after: f64 = body.particle_numbers().iter().sum();
             assert!((after / before - 1.0).abs() < 1e-12);
             assert!(body.particle_numbers().iter().all(|&n| n >= 0.0));
-            let area = active_interface::curve::polygon_area(body.markers()).unwrap();
+            let area = active_interface::polygon_area(body.markers()).unwrap();
             assert!((area / body.initial_area() - 1.0).abs() < 1e-12);
             if motion == Motion::WithFluid {
                 (0..300).for_each(|_| scene.step(0.05).unwrap());

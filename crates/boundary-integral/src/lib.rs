@@ -1,11 +1,11 @@
 //! Stokes flow of fluid interfaces by boundary integrals, without a grid.
 //!
-//! In two-dimensional Stokes flow a scene of droplets has all its forces on curves, so the flow needs to be known on
-//! these curves alone. [`BoundaryIntegral`] computes it to spectral accuracy in the plane, a periodic box or a channel
-//! ([`Geometry`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside and
-//! outside, and implements [`ib_core::Hydrodynamics`], so that a body does not notice which method moves it. Flow,
-//! gradient and pressure are available at any point, at any distance from an interface. The mathematics is in
-//! [`stokes_layers`].
+//! In a scene of droplets all forces act on curves, and in Stokes flow the velocities on these curves follow from the
+//! forces alone. [`BoundaryIntegral`] computes them to spectral accuracy in the plane, a periodic box or a channel
+//! ([`motile_base::Region`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside
+//! and outside. It implements [`motile_scene::Hydrodynamics`], so that bodies are the same with any method. Velocity,
+//! velocity gradient and pressure are available at any point, at any distance from an interface. [`stokes_layers`] has
+//! the equations.
 //!
 //! # Example
 //!
@@ -13,8 +13,9 @@
 //! its tip moves inward.
 //!
 //! ```
-//! use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Geometry, Settings, TensionPlacement};
-//! use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+//! use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+//! use motile_base::{Region, Vec2};
+//! use motile_scene::{Hydrodynamics, MarkerKind, Markers};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let count = 128;
@@ -29,7 +30,7 @@
 //! let [positions, forces, _] = markers.lists_mut();
 //! calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
 //!
-//! let mut flow = BoundaryIntegral::new(Geometry::Plane, 1.0, Settings::default())?;
+//! let mut flow = BoundaryIntegral::new(Region::Plane, 1.0, Settings::default())?;
 //! let report = flow.velocities(&mut markers)?;
 //! assert!((markers.velocities()[0].x + 0.029_016_190).abs() < 1e-8);
 //! assert!(report.iterations < 10);
@@ -37,8 +38,8 @@
 //! # }
 //! ```
 //!
-//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours,
-//! and for pairs farther apart by some microseconds each; it suits some tens of droplets.
+//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours;
+//! each pair of interfaces farther apart costs some microseconds. The method suits some tens of droplets.
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
@@ -47,17 +48,5 @@ mod flow;
 mod wall;
 
 pub use flow::BoundaryIntegral;
-pub use stokes_layers::{Forcing, Geometry, LayerError, PeriodicCalculus, Settings, TensionPlacement};
+pub use stokes_layers::{LayerError, PeriodicCalculus, Settings, TensionPlacement};
 pub use wall::RigidWall;
-
-/// The forcing of a channel as the solvers on grids have it.
-#[must_use]
-pub fn forcing(drive: stokes_grid::Drive) -> Forcing {
-    use stokes_grid::Drive;
-    match drive {
-        Drive::ZeroGradient => Forcing::Gradient(0.0),
-        Drive::Gradient(gradient) => Forcing::Gradient(gradient),
-        Drive::ZeroFlux => Forcing::Flux(0.0),
-        Drive::Flux(flux) => Forcing::Flux(flux),
-    }
-}

@@ -1,33 +1,24 @@
-//! Rigid walls and obstacles at rest.
+//! Rigid walls and obstacles at rest, of any shape.
 
-use fourier::PeriodicSeries;
-use ib_core::Vec2;
-use ib_core::gap::Boundary;
-use ib_core::input::{all_points_finite, not_negative, positive, within};
+use motile_base::{PeriodicSeries, Vec2, all_points_finite, not_negative, positive, within};
+use motile_scene::gap::Boundary;
 use num_complex::Complex64;
 use stokes_layers::{LayerCurve, LayerError};
 
-/// Fewest and most nodes of a wall.
+/// Fewest and most nodes of a wall: sixteen carry waves up to 7, and the matrix of 3000 takes 288 MB.
 const NODES: [f64; 2] = [16.0, 3000.0];
-/// Most points that a wall is given by.
+/// Largest number of points that a wall is given by: its transform takes some 50 MB.
 const MOST_POINTS: f64 = 1_048_576.0;
-/// Corners of the boundary that gaps are measured from, per node.
+/// Corners per node of the boundary that gaps are measured from: as many as the layers have fine nodes.
 const CORNERS: usize = 4;
 
-/// On which side of a wall there is no fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Below,
-    Above,
-    Inside,
-}
-
-/// A rigid no-slip wall or obstacle of any shape, at rest in a channel: a smooth curve by points of equally spaced
+/// A rigid no-slip wall or obstacle at rest in a channel: a smooth curve of any shape through points of equally spaced
 /// parameters.
 ///
 /// ```
-/// use boundary_integral::{BoundaryIntegral, Forcing, Geometry, RigidWall, Settings};
-/// use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
+/// use boundary_integral::{BoundaryIntegral, RigidWall, Settings};
+/// use motile_base::{Drive, FlowSample, Region, Vec2};
+/// use motile_scene::{Hydrodynamics, Markers};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // A wavy channel of length 12 between y = -1.5 - 0.3 cos(2 pi x/12) and its mirror image, in a straight one of
@@ -38,8 +29,8 @@ enum Side {
 ///     RigidWall::above(12.0, 96, side)?,
 ///     RigidWall::post(Vec2::new(3.0, 0.0), 0.5, 48)?,
 /// ];
-/// let geometry = Geometry::Channel { length: 12.0, width: 5.0, forcing: Forcing::Gradient(-1.0) };
-/// let mut flow = BoundaryIntegral::new(geometry, 1.0, Settings::default())?.with_walls(&walls)?;
+/// let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::Gradient(-1.0) };
+/// let mut flow = BoundaryIntegral::new(region, 1.0, Settings::default())?.with_walls(&walls)?;
 /// let mut samples = [FlowSample::default(); 2];
 /// flow.sample(&Markers::new(), &[Vec2::new(-3.0, 0.0), Vec2::new(3.5 + 1e-9, 0.0)], &mut samples)?;
 /// println!("velocity in the middle {:.4}", samples[0].velocity.x);
@@ -50,30 +41,30 @@ enum Side {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidWall {
     points: Vec<Vec2>,
+    /// Advance of the curve in a turn of the parameter (length), with the fluid on its left: to the right for a lower
+    /// side, to the left for an upper one, zero for an obstacle.
     period: Vec2,
     nodes: usize,
-    side: Side,
 }
 
 impl RigidWall {
-    /// The lower side of a channel, `y = height(x)` (length) over one period (length), with so many nodes, equally
-    /// spaced in x.
+    /// A lower side of a channel, `y = height(x)` (length) over one period (length), by nodes equally spaced in x.
     ///
     /// # Errors
     /// A period that is not positive and finite, heights that are not finite, fewer than 16 or more than 3000 nodes.
     pub fn below(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
-        Self::of_line(Side::Below, profile(period, nodes, height)?, period, nodes)
+        Self::line_below(profile(period, nodes, height)?, period, nodes)
     }
 
-    /// The upper side of a channel, `y = height(x)`, as [`RigidWall::below`].
+    /// An upper side of a channel, `y = height(x)` (length), as [`RigidWall::below`].
     ///
     /// # Errors
     /// As for the lower side.
     pub fn above(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
-        Self::of_line(Side::Above, profile(period, nodes, height)?, period, nodes)
+        Self::line_above(profile(period, nodes, height)?, period, nodes)
     }
 
-    /// A round post (lengths).
+    /// A round post with this centre and radius (length).
     ///
     /// # Errors
     /// A radius that is not positive and finite, a centre that is not finite, too few or too many nodes.
@@ -84,21 +75,27 @@ impl RigidWall {
         Self::obstacle((0..nodes).map(|k| centre + radius * Vec2::from_angle(angle(k))).collect(), nodes)
     }
 
-    /// The lower side of a channel through points of one period (length), to the right, at equally spaced values of
-    /// some parameter; the line may overhang.
+    /// A lower side of a channel through points of one period (length), to the right, at equally spaced values of some
+    /// parameter; the line may overhang.
     ///
     /// # Errors
     /// As [`RigidWall::below`]; fewer points than nodes, or more than a million.
     pub fn line_below(points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
-        Self::of_line(Side::Below, points, period, nodes)
+        positive("the period of a wall", period)?;
+        Self::checked(points, Vec2::new(period, 0.0), nodes)
     }
 
-    /// The upper side of a channel, as [`RigidWall::line_below`].
+    /// An upper side of a channel through points, to the right, as [`RigidWall::line_below`].
     ///
     /// # Errors
     /// As for the lower side.
-    pub fn line_above(points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
-        Self::of_line(Side::Above, points, period, nodes)
+    pub fn line_above(mut points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
+        positive("the period of a wall", period)?;
+        reverse(&mut points);
+        if let Some(first) = points.first_mut() {
+            first.x += period;
+        }
+        Self::checked(points, Vec2::new(-period, 0.0), nodes)
     }
 
     /// An obstacle with the fluid around it, through points (length), in either direction, at equally spaced values of
@@ -109,32 +106,21 @@ impl RigidWall {
     pub fn obstacle(mut points: Vec<Vec2>, nodes: usize) -> Result<Self, LayerError> {
         let next = points.iter().cycle().skip(1);
         if points.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() < 0.0 {
-            points.reverse();
+            reverse(&mut points);
         }
-        Self::checked(Side::Inside, points, Vec2::ZERO, nodes)
+        Self::checked(points, Vec2::ZERO, nodes)
     }
 
-    fn of_line(side: Side, mut points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
-        positive("the period of a wall", period)?;
-        let mut direction = 1.0;
-        if side == Side::Above {
-            // The fluid is to the left of the curve.
-            points.reverse();
-            direction = -1.0;
-        }
-        Self::checked(side, points, Vec2::new(direction * period, 0.0), nodes)
-    }
-
-    fn checked(side: Side, points: Vec<Vec2>, period: Vec2, nodes: usize) -> Result<Self, LayerError> {
+    fn checked(points: Vec<Vec2>, period: Vec2, nodes: usize) -> Result<Self, LayerError> {
         within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
         within("the number of points of a wall", points.len() as f64, nodes as f64, MOST_POINTS)?;
         all_points_finite("the points of a wall", &points)?;
-        Ok(Self { points, period, nodes, side })
+        Ok(Self { points, period, nodes })
     }
 
-    /// The same wall with its corners rounded: smoothed over this length by a Gaussian of that standard deviation along
-    /// the line, for points of equal distance. Straight stretches stay where they are, a bend of radius R moves inwards
-    /// by `length^2/(2 R)`. Nodes resolve corners if they are no farther apart than 0.8 times the length.
+    /// Rounds the corners of a wall through points of equal distance, by a Gaussian along the line with the standard
+    /// deviation `length` (length). Straight stretches stay, and a bend of radius R moves inwards by `length^2/(2 R)`.
+    /// Nodes resolve the corners if they are no farther apart than 0.8 times the length.
     ///
     /// # Errors
     /// A length that is negative or not finite.
@@ -165,11 +151,11 @@ impl RigidWall {
         LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }
     }
 
-    /// Adds its sides to a boundary, what is rigid to their left.
+    /// Adds the sides of the wall to a boundary, whose inside on their left is the rigid part.
     pub fn add_to(&self, boundary: &mut Boundary) {
         let stride = (self.points.len() / (CORNERS * self.nodes)).max(1);
         let corners: Vec<Vec2> = self.points.iter().copied().step_by(stride).collect();
-        if self.side == Side::Inside {
+        if self.period == Vec2::ZERO {
             boundary.push_loop(&corners);
             return;
         }
@@ -178,7 +164,15 @@ impl RigidWall {
     }
 }
 
-/// Points of a line over a period, several per node.
+/// Reverses the direction of a curve, whose first point stays: nodes stay where they are, so that the walls of a
+/// channel that is its own mirror image are resolved alike.
+fn reverse(points: &mut [Vec2]) {
+    if let Some(rest) = points.get_mut(1..) {
+        rest.reverse();
+    }
+}
+
+/// Points `(x, height(x))` over a period, several per node.
 fn profile(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Vec<Vec2>, LayerError> {
     positive("the period of a wall", period)?;
     within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;

@@ -2,10 +2,10 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings, forcing};
-use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2, hydrodynamics::SolveReport};
+use boundary_integral::{BoundaryIntegral, Settings};
+use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use scenes::{Ellipse, markers};
-use stokes_grid::Drive;
 
 const COUNT: usize = 256;
 
@@ -18,9 +18,9 @@ struct Solved {
 }
 
 fn solve(period: f64, width: f64, drive: Drive, ellipses: &[Ellipse]) -> Solved {
-    let geometry = Geometry::Channel { length: period, width, forcing: forcing(drive) };
+    let region = Region::Channel { length: period, width, drive };
     let settings = Settings { nodes: 128, tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     let mut markers = markers(ellipses, COUNT);
     let report = solver.velocities(&mut markers).expect("a valid scene");
     Solved { lengths: [period, width], solver, markers, report }
@@ -130,12 +130,9 @@ fn a_thin_film_converges() {
     let shape = Ellipse { viscosity: Some(5.0), ..Ellipse::circle(0.0, 0.45, tension) };
     let run = |nodes: usize| {
         let settings = Settings { nodes, tolerance: 1e-12, ..Settings::default() };
-        let mut solver = BoundaryIntegral::new(
-            Geometry::Channel { length: 8.0, width: 3.0, forcing: Forcing::default() },
-            1.0,
-            settings,
-        )
-        .expect("a valid scene");
+        let mut solver =
+            BoundaryIntegral::new(Region::Channel { length: 8.0, width: 3.0, drive: Drive::default() }, 1.0, settings)
+                .expect("a valid scene");
         let mut markers = markers(&[shape], 512);
         solver.velocities(&mut markers).expect("a valid scene");
         markers.velocities().to_vec()

@@ -4,15 +4,16 @@ mod scenes;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, Geometry, Settings};
-use ib_core::{Hydrodynamics, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, Settings};
+use motile_base::{Region, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use scenes::{Ellipse, markers};
 
 const COUNT: usize = 384;
 
-fn solve(geometry: Geometry, markers: &mut Markers, nodes: usize) {
+fn solve(region: Region, markers: &mut Markers, nodes: usize) {
     let settings = Settings { nodes, tolerance: 1e-14, ..Settings::default() };
-    BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene").velocities(markers).expect("a valid scene");
+    BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene").velocities(markers).expect("a valid scene");
 }
 
 fn largest(a: &[Vec2], b: &[Vec2]) -> f64 {
@@ -24,12 +25,12 @@ fn errors_fall_faster_than_any_power_of_the_nodes() {
     let ellipse = Ellipse { axes: [1.3, 1.0 / 1.3], ..Ellipse::circle(0.0, 0.0, |t| t.cos().exp()) };
     for ratio in [1.0, 100.0, 0.01] {
         let shape = Ellipse { viscosity: Some(ratio), ..ellipse };
-        let geometry = Geometry::Box { lengths: [6.0, 6.0] };
+        let region = Region::Box { lengths: [6.0, 6.0] };
         let mut reference = markers(&[shape], COUNT);
-        solve(geometry, &mut reference, 192);
+        solve(region, &mut reference, 192);
         let errors = [16, 24, 32, 48, 64].map(|nodes| {
             let mut found = markers(&[shape], COUNT);
-            solve(geometry, &mut found, nodes);
+            solve(region, &mut found, nodes);
             largest(found.velocities(), reference.velocities())
         });
         println!("ratio {ratio}: {errors:?}");
@@ -45,10 +46,10 @@ fn a_circle_is_exact_with_few_nodes() {
     // Tension 1 + cos t on a unit circle: a translation by half of 1/(2 (eta_in + eta_out)) and the matching flow.
     let circle = Ellipse { viscosity: Some(4.0), ..Ellipse::circle(0.0, 0.0, |t| 1.0 + t.cos()) };
     let mut reference = markers(&[circle], COUNT);
-    solve(Geometry::Plane, &mut reference, 96);
+    solve(Region::Plane, &mut reference, 96);
     for nodes in [16, 17, 24, 33] {
         let mut found = markers(&[circle], COUNT);
-        solve(Geometry::Plane, &mut found, nodes);
+        solve(Region::Plane, &mut found, nodes);
         let error = largest(found.velocities(), reference.velocities());
         assert!(error < 1e-14, "{nodes}: {error:e}");
     }
@@ -69,8 +70,8 @@ fn forces_of_segments_are_of_second_order_in_the_markers() {
         for (k, force) in segments.forces_mut().iter_mut().enumerate() {
             *force = tangent(k) - tangent((k + count - 1) % count);
         }
-        solve(Geometry::Plane, &mut exact, 64);
-        solve(Geometry::Plane, &mut segments, 64);
+        solve(Region::Plane, &mut exact, 64);
+        solve(Region::Plane, &mut segments, 64);
         let scale = exact.velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
         largest(segments.velocities(), exact.velocities()) / scale
     };

@@ -4,10 +4,10 @@ mod reference;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings, TensionPlacement, forcing};
-use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+use motile_base::{Drive, FlowSample, Region, Vec2};
+use motile_scene::{Hydrodynamics, MarkerKind, Markers};
 use reference::Table;
-use stokes_grid::Drive;
 
 /// Markers of the shape of a table with spectrally accurate forces of the tension 1 + 0.5 cos t.
 fn markers(table: &Table, count: usize) -> Markers {
@@ -28,9 +28,9 @@ fn markers(table: &Table, count: usize) -> Markers {
 }
 
 /// Largest errors at the interface and at the other points.
-fn errors(geometry: Geometry, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
+fn errors(region: Region, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     let settings = Settings { nodes, tolerance, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     // A multiple of eight, so that the points of the reference are markers.
     let count = nodes.next_multiple_of(8) * 2;
     let mut markers = markers(table, count);
@@ -46,9 +46,9 @@ fn errors(geometry: Geometry, table: &Table, nodes: usize, tolerance: f64) -> [f
 
 fn errors_unbounded(table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     if table.period.is_finite() {
-        errors(Geometry::Box { lengths: [table.period, table.period] }, table, nodes, tolerance)
+        errors(Region::Box { lengths: [table.period, table.period] }, table, nodes, tolerance)
     } else {
-        errors(Geometry::Plane, table, nodes, tolerance)
+        errors(Region::Plane, table, nodes, tolerance)
     }
 }
 
@@ -74,8 +74,8 @@ fn ten_times_the_viscosity_inside() {
 fn channel() {
     for table in &reference::CHANNEL {
         let drive = if table.zero_flux { Drive::ZeroFlux } else { Drive::ZeroGradient };
-        let geometry = Geometry::Channel { length: table.period, width: 3.0, forcing: forcing(drive) };
-        let found = errors(geometry, table, 128, 1e-13);
+        let region = Region::Channel { length: table.period, width: 3.0, drive };
+        let found = errors(region, table, 128, 1e-13);
         println!("ellipse {} zero flux {}: {found:?}", table.ellipse, table.zero_flux);
         assert!(found[0] < 1e-11 && found[1] < 1e-11, "{found:?}");
     }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings, TensionPlacement};
-use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+use motile_base::{Region, Vec2};
+use motile_scene::{Hydrodynamics, MarkerKind, Markers};
 
 const COUNT: usize = 128;
 const VISCOSITIES: [[f64; 2]; 3] = [[100.0, 100.0], [1000.0, 10.0], [10.0, 100.0]];
@@ -11,7 +12,7 @@ const VISCOSITIES: [[f64; 2]; 3] = [[100.0, 100.0], [1000.0, 10.0], [10.0, 100.0
 /// Radial and tangential velocities on `R = 1 + bump cos(k t)` with the tension `1 + wave cos(k t)`.
 fn velocities(k: usize, bump: f64, wave: f64, [inside, outside]: [f64; 2]) -> [Vec<f64>; 2] {
     let settings = Settings { tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(Geometry::Plane, outside, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(Region::Plane, outside, settings).expect("a valid scene");
     let mut markers = Markers::new();
     markers.push_group(COUNT, MarkerKind::Interface { viscosity_inside: Some(inside) });
     let angle = |j: usize| TAU * j as f64 / COUNT as f64;

@@ -2,15 +2,16 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, Geometry, Settings};
-use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, Settings};
+use motile_base::{FlowSample, Region, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use scenes::{Ellipse, markers};
 
 const COUNT: usize = 192;
 
-fn solver(geometry: Geometry, nodes: usize) -> BoundaryIntegral {
+fn solver(region: Region, nodes: usize) -> BoundaryIntegral {
     let settings = Settings { nodes, tolerance: 1e-13, ..Settings::default() };
-    BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene")
+    BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene")
 }
 
 /// An interface inside another one, whose inner viscosity it has around it.
@@ -38,7 +39,7 @@ fn three_viscosities_around_one_centre() {
             let outer = Ellipse { viscosity: Some(middle), ..Ellipse::circle(0.0, 0.0, |t| 1.0 + t.cos()) };
             let inner = Ellipse { axes: [rho; 2], viscosity: Some(core), ..Ellipse::circle(0.0, 0.0, |_| 1.0) };
             let mut markers = nested([outer, inner]);
-            solver(Geometry::Plane, 128).velocities(&mut markers).unwrap();
+            solver(Region::Plane, 128).velocities(&mut markers).unwrap();
             let beta = (core - middle) / (core + middle);
             let shape = beta * rho.powi(4);
             let speed = -0.25 / (1.0 + middle * (1.0 + shape) / (1.0 - shape));
@@ -54,12 +55,12 @@ fn three_viscosities_around_one_centre() {
 /// An interface without tension between equal fluids moves with the fluid there, whatever is outside.
 #[test]
 fn an_interface_that_is_none_moves_with_the_fluid() {
-    let channel = Geometry::Channel { length: 6.0, width: 3.0, forcing: boundary_integral::Forcing::Gradient(0.0) };
-    for geometry in [Geometry::Plane, Geometry::Box { lengths: [6.0, 5.0] }, channel] {
+    let channel = Region::Channel { length: 6.0, width: 3.0, drive: motile_base::Drive::ZeroGradient };
+    for region in [Region::Plane, Region::Box { lengths: [6.0, 5.0] }, channel] {
         let outer = Ellipse { viscosity: Some(0.1), axes: [1.1, 0.9], ..Ellipse::circle(0.1, 0.2, |t| 1.0 + t.cos()) };
         let inner = Ellipse { axes: [0.3, 0.2], ..Ellipse::circle(0.4, 0.3, |_| 0.0) };
         let mut markers = nested([outer, inner]);
-        let mut flow = solver(geometry, 96);
+        let mut flow = solver(region, 96);
         flow.velocities(&mut markers).unwrap();
         let mut alone = scenes::markers(&[outer], COUNT);
         flow.velocities(&mut alone).unwrap();
@@ -67,7 +68,7 @@ fn an_interface_that_is_none_moves_with_the_fluid() {
         flow.sample(&alone, &markers.positions()[COUNT..], &mut seen).unwrap();
         let fastest = alone.velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
         for (velocity, sample) in markers.velocities()[COUNT..].iter().zip(&seen) {
-            assert!((velocity - sample.velocity).length() < 1e-10 * fastest, "{geometry:?}");
+            assert!((velocity - sample.velocity).length() < 1e-10 * fastest, "{region:?}");
         }
     }
 }
@@ -76,7 +77,7 @@ fn an_interface_that_is_none_moves_with_the_fluid() {
 /// velocities of another is that of the other on the one, and errors fall with the number of nodes.
 #[test]
 fn reciprocity_and_convergence() {
-    for (geometry, bounds) in [(Geometry::Plane, [1e-4, 1e-8]), (Geometry::Box { lengths: [5.0; 2] }, [1e-4, 1e-8])] {
+    for (region, bounds) in [(Region::Plane, [1e-4, 1e-8]), (Region::Box { lengths: [5.0; 2] }, [1e-4, 1e-8])] {
         let outer = Ellipse { viscosity: Some(20.0), axes: [1.2, 0.9], ..Ellipse::circle(0.0, 0.0, |t| 1.0 + t.cos()) };
         let inner =
             Ellipse { viscosity: Some(0.4), axes: [0.4, 0.5], ..Ellipse::circle(0.55, 0.1, |t| 2.0 - (t + 0.3).sin()) };
@@ -85,7 +86,7 @@ fn reciprocity_and_convergence() {
             for force in &mut markers.forces_mut()[COUNT..] {
                 *force += pull / COUNT as f64 * Vec2::new(1.0, -0.5);
             }
-            solver(geometry, nodes).velocities(&mut markers).unwrap();
+            solver(region, nodes).velocities(&mut markers).unwrap();
             markers
         };
         let [one, other] = [solved(160, 0.0), solved(160, 3.0)];
@@ -99,7 +100,7 @@ fn reciprocity_and_convergence() {
             let coarse = solved(nodes, 3.0);
             let differences = coarse.velocities().iter().zip(other.velocities()).map(|(a, b)| (a - b).length());
             let error = differences.fold(0.0, f64::max) / fastest;
-            assert!(error < bound, "{geometry:?} {nodes}: {error:e}");
+            assert!(error < bound, "{region:?} {nodes}: {error:e}");
         }
     }
 }

@@ -2,11 +2,9 @@
 
 mod scenes;
 
-use boundary_integral::{
-    BoundaryIntegral, Forcing, Geometry, LayerError, PeriodicCalculus, Settings, TensionPlacement,
-};
-use ib_core::input::InputError;
-use ib_core::{FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, LayerError, PeriodicCalculus, Settings, TensionPlacement};
+use motile_base::{Drive, FlowSample, InputError, Region, Vec2};
+use motile_scene::{FlowError, Hydrodynamics, MarkerKind, Markers};
 use scenes::{Ellipse, markers};
 
 fn circle() -> Ellipse {
@@ -14,24 +12,24 @@ fn circle() -> Ellipse {
 }
 
 fn solver() -> BoundaryIntegral {
-    BoundaryIntegral::new(Geometry::Plane, 1.0, Settings::default()).expect("a valid scene")
+    BoundaryIntegral::new(Region::Plane, 1.0, Settings::default()).expect("a valid scene")
 }
 
 #[test]
 fn domains_and_settings() {
-    let channel = |length, width, forcing| Geometry::Channel { length, width, forcing };
+    let channel = |length, width, drive| Region::Channel { length, width, drive };
     let regions = [
-        Geometry::Box { lengths: [0.0, 1.0] },
-        Geometry::Box { lengths: [1.0, f64::NAN] },
-        Geometry::Box { lengths: [1.0, 100.0] },
-        channel(1.0, -1.0, Forcing::default()),
-        channel(4.0, 1.0, Forcing::Flux(f64::INFINITY)),
+        Region::Box { lengths: [0.0, 1.0] },
+        Region::Box { lengths: [1.0, f64::NAN] },
+        Region::Box { lengths: [1.0, 100.0] },
+        channel(1.0, -1.0, Drive::default()),
+        channel(4.0, 1.0, Drive::Flux(f64::INFINITY)),
     ];
-    for geometry in regions {
-        assert!(BoundaryIntegral::new(geometry, 1.0, Settings::default()).is_err(), "{geometry:?}");
+    for region in regions {
+        assert!(BoundaryIntegral::new(region, 1.0, Settings::default()).is_err(), "{region:?}");
     }
     for viscosity in [0.0, -1.0, f64::NAN] {
-        let error = BoundaryIntegral::new(Geometry::Plane, viscosity, Settings::default()).unwrap_err();
+        let error = BoundaryIntegral::new(Region::Plane, viscosity, Settings::default()).unwrap_err();
         assert!(matches!(error, LayerError::Input(InputError::NotPositive { name: "the viscosity", .. })));
     }
     let bad = [
@@ -41,7 +39,7 @@ fn domains_and_settings() {
         Settings { most_iterations: 0, ..Settings::default() },
     ];
     for settings in bad {
-        assert!(BoundaryIntegral::new(Geometry::Plane, 1.0, settings).is_err(), "{settings:?}");
+        assert!(BoundaryIntegral::new(Region::Plane, 1.0, settings).is_err(), "{settings:?}");
     }
     assert!(solver().with_reference_perimeter(-1.0).is_err());
 }
@@ -113,7 +111,7 @@ fn numbers_that_are_not_finite() {
 #[test]
 fn beyond_a_wall() {
     let mut solver = BoundaryIntegral::new(
-        Geometry::Channel { length: 6.0, width: 2.5, forcing: Forcing::default() },
+        Region::Channel { length: 6.0, width: 2.5, drive: Drive::default() },
         1.0,
         Settings::default(),
     )
@@ -147,7 +145,7 @@ fn no_markers_and_no_iterations_left() {
     let report = solver().velocities(&mut Markers::new()).expect("a valid scene");
     assert_eq!(report.iterations, 0);
     let settings = Settings { most_iterations: 2, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(Geometry::Plane, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(Region::Plane, 1.0, settings).expect("a valid scene");
     let mut markers = markers(&[Ellipse { axes: [1.4, 0.7], viscosity: Some(100.0), ..circle() }], 64);
     let error = solver.velocities(&mut markers).unwrap_err();
     assert!(matches!(error, FlowError::NoConvergence { iterations: 2, .. }), "{error}");

@@ -2,8 +2,9 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings, TensionPlacement};
-use ib_core::{Hydrodynamics, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+use motile_base::{Region, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use scenes::{Ellipse, markers};
 
 const COUNT: usize = 96;
@@ -57,9 +58,9 @@ fn ellipse_in_a_box() {
         let ellipse =
             Ellipse { axes: [1.3, 1.0 / 1.3], viscosity: Some(viscosity), ..Ellipse::circle(0.0, 0.0, |_| 1.0) };
         let settings = Settings { nodes: COUNT, tolerance: 1e-11, ..Settings::default() };
-        let geometry = Geometry::Box { lengths: [6.0, 6.0] };
+        let region = Region::Box { lengths: [6.0, 6.0] };
         let mut relaxing = Relaxing {
-            solver: BoundaryIntegral::new(geometry, 1.0, settings).expect("settings"),
+            solver: BoundaryIntegral::new(region, 1.0, settings).expect("settings"),
             calculus: PeriodicCalculus::new(COUNT).expect("enough samples"),
             markers: markers(&[ellipse], COUNT),
         };

@@ -4,10 +4,10 @@ mod scenes;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, Forcing, Geometry, PeriodicCalculus, Settings, forcing};
-use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings};
+use motile_base::{Drive, FlowSample, Region, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use scenes::{Ellipse, markers};
-use stokes_grid::Drive;
 
 const COUNT: usize = 256;
 
@@ -29,9 +29,9 @@ struct Solved {
 }
 
 impl Solved {
-    fn new(geometry: Geometry, ellipses: &[Ellipse], nodes: usize) -> Self {
+    fn new(region: Region, ellipses: &[Ellipse], nodes: usize) -> Self {
         let settings = Settings { nodes, tolerance: 1e-13, ..Settings::default() };
-        let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
+        let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
         let mut markers = markers(ellipses, COUNT);
         solver.velocities(&mut markers).expect("a valid scene");
         Self { solver, markers }
@@ -74,36 +74,36 @@ fn around(ellipse: &Ellipse) -> Vec<Vec2> {
     points
 }
 
-fn converged_at_all_distances(geometry: Geometry) {
+fn converged_at_all_distances(region: Region) {
     for inside in [1.0, 20.0] {
         let ellipses = pair(inside);
         let points = around(&ellipses[0]);
-        let (mut coarse, mut fine) = (Solved::new(geometry, &ellipses, 96), Solved::new(geometry, &ellipses, 160));
+        let (mut coarse, mut fine) = (Solved::new(region, &ellipses, 96), Solved::new(region, &ellipses, 160));
         let [velocity, gradient, pressure] = difference(&coarse.at(&points), &fine.at(&points));
-        println!("{geometry:?} {inside}: {velocity:e} {gradient:e} {pressure:e}");
+        println!("{region:?} {inside}: {velocity:e} {gradient:e} {pressure:e}");
         assert!(velocity < 1e-12 && gradient < 1e-9 && pressure < 1e-10, "{velocity:e} {gradient:e} {pressure:e}");
     }
 }
 
 #[test]
 fn converged_in_free_space() {
-    converged_at_all_distances(Geometry::Plane);
+    converged_at_all_distances(Region::Plane);
 }
 
 #[test]
 fn converged_in_boxes() {
-    converged_at_all_distances(Geometry::Box { lengths: [5.2, 4.6] });
-    converged_at_all_distances(Geometry::Box { lengths: [4.6, 5.8] });
+    converged_at_all_distances(Region::Box { lengths: [5.2, 4.6] });
+    converged_at_all_distances(Region::Box { lengths: [4.6, 5.8] });
 }
 
 #[test]
 fn converged_in_a_channel() {
-    converged_at_all_distances(Geometry::Channel { length: 5.2, width: 4.0, forcing: forcing(Drive::Flux(0.3)) });
+    converged_at_all_distances(Region::Channel { length: 5.2, width: 4.0, drive: Drive::Flux(0.3) });
 }
 
-fn satisfies_the_stokes_equations(geometry: Geometry, gradient_x: f64) {
+fn satisfies_the_stokes_equations(region: Region, gradient_x: f64) {
     let ellipses = pair(20.0);
-    let mut solved = Solved::new(geometry, &ellipses, 128);
+    let mut solved = Solved::new(region, &ellipses, 128);
     let h = 1e-4;
     // Inside the first, inside the second, outside, between the two and at 0.02 from the first.
     let close = around(&ellipses[0]);
@@ -130,13 +130,13 @@ fn satisfies_the_stokes_equations(geometry: Geometry, gradient_x: f64) {
 
 #[test]
 fn stokes_equations() {
-    satisfies_the_stokes_equations(Geometry::Plane, 0.0);
-    satisfies_the_stokes_equations(Geometry::Box { lengths: [5.2, 4.6] }, 0.0);
-    satisfies_the_stokes_equations(Geometry::Box { lengths: [4.6, 5.8] }, 0.0);
-    satisfies_the_stokes_equations(Geometry::Channel { length: 5.2, width: 4.0, forcing: Forcing::default() }, 0.0);
-    let channel = Geometry::Channel { length: 5.2, width: 4.0, forcing: forcing(Drive::Gradient(-0.2)) };
+    satisfies_the_stokes_equations(Region::Plane, 0.0);
+    satisfies_the_stokes_equations(Region::Box { lengths: [5.2, 4.6] }, 0.0);
+    satisfies_the_stokes_equations(Region::Box { lengths: [4.6, 5.8] }, 0.0);
+    satisfies_the_stokes_equations(Region::Channel { length: 5.2, width: 4.0, drive: Drive::default() }, 0.0);
+    let channel = Region::Channel { length: 5.2, width: 4.0, drive: Drive::Gradient(-0.2) };
     satisfies_the_stokes_equations(channel, -0.2);
-    let channel = Geometry::Channel { length: 5.2, width: 4.0, forcing: forcing(Drive::Flux(0.3)) };
+    let channel = Region::Channel { length: 5.2, width: 4.0, drive: Drive::Flux(0.3) };
     let mut solver =
         BoundaryIntegral::new(channel, 1.0, Settings { nodes: 128, tolerance: 1e-13, ..Settings::default() });
     let report =
@@ -145,9 +145,9 @@ fn stokes_equations() {
 }
 
 /// The velocity is continuous and the traction jumps by the force of the interface.
-fn jumps_by_the_force(geometry: Geometry) {
+fn jumps_by_the_force(region: Region) {
     let ellipses = pair(20.0);
-    let mut solved = Solved::new(geometry, &ellipses, 96);
+    let mut solved = Solved::new(region, &ellipses, 96);
     let mut calculus = PeriodicCalculus::new(COUNT).expect("a valid scene");
     let mut tangents = vec![Vec2::ZERO; COUNT];
     calculus.derivative(&solved.markers.positions()[..COUNT], &mut tangents).expect("a valid scene");
@@ -176,15 +176,15 @@ fn jumps_by_the_force(geometry: Geometry) {
 
 #[test]
 fn jump_conditions() {
-    jumps_by_the_force(Geometry::Plane);
-    jumps_by_the_force(Geometry::Box { lengths: [5.2, 4.6] });
-    jumps_by_the_force(Geometry::Channel { length: 5.2, width: 4.0, forcing: Forcing::default() });
+    jumps_by_the_force(Region::Plane);
+    jumps_by_the_force(Region::Box { lengths: [5.2, 4.6] });
+    jumps_by_the_force(Region::Channel { length: 5.2, width: 4.0, drive: Drive::default() });
 }
 
 #[test]
 fn a_resting_droplet_has_the_pressure_of_laplace() {
     let droplet = Ellipse { viscosity: Some(7.0), ..Ellipse::circle(0.2, 0.1, |_| 3.0) };
-    let mut solved = Solved::new(Geometry::Plane, &[droplet], 48);
+    let mut solved = Solved::new(Region::Plane, &[droplet], 48);
     let samples = solved.at(&[Vec2::new(0.0, 0.0), Vec2::new(1.19, 0.1), Vec2::new(1.21, 0.1), Vec2::new(5.0, 3.0)]);
     for (sample, pressure) in samples.iter().zip([3.0, 3.0, 0.0, 0.0]) {
         assert!(sample.velocity.length() < 1e-13);
@@ -196,7 +196,7 @@ fn a_resting_droplet_has_the_pressure_of_laplace() {
 fn the_mean_velocity_of_a_box_is_zero() {
     for (lx, ly) in [(6.0, 6.0), (5.4, 6.6), (7.0, 5.0)] {
         let ellipses = pair(20.0);
-        let mut solved = Solved::new(Geometry::Box { lengths: [lx, ly] }, &ellipses, 128);
+        let mut solved = Solved::new(Region::Box { lengths: [lx, ly] }, &ellipses, 128);
         // The flux through any line across the box is the mean of the velocity: lines that no interface crosses.
         let samples = 64;
         let across = |k: usize| k as f64 / samples as f64;
@@ -210,9 +210,9 @@ fn the_mean_velocity_of_a_box_is_zero() {
 
 #[test]
 fn samples_are_periodic() {
-    let geometry = Geometry::Box { lengths: [5.2, 4.6] };
+    let region = Region::Box { lengths: [5.2, 4.6] };
     let ellipses = pair(20.0);
-    let mut solved = Solved::new(geometry, &ellipses, 96);
+    let mut solved = Solved::new(region, &ellipses, 96);
     let points = around(&ellipses[1]);
     let moved: Vec<Vec2> = points.iter().map(|p| p + Vec2::new(-3.0 * 5.2, 2.0 * 4.6)).collect();
     // Points at 1e-6 from the interface lose digits when they are moved by 15.
@@ -222,26 +222,26 @@ fn samples_are_periodic() {
 
 /// Interfaces far apart see each other by series, samples by direct summation over the nodes: at the markers both must
 /// agree.
-fn far_interfaces_move_with_the_flow(geometry: Geometry) {
+fn far_interfaces_move_with_the_flow(region: Region) {
     let mut ellipses = pair(20.0).to_vec();
     ellipses[1].centre = [5.1, 1.2];
     ellipses.push(Ellipse { centre: [-4.7, -0.8], axes: [0.5, 0.7], viscosity: None, ..ellipses[0] });
     ellipses.push(Ellipse { centre: [9.5, -1.0], axes: [0.3, 0.25], viscosity: Some(3.0), ..ellipses[0] });
-    let mut solved = Solved::new(geometry, &ellipses, 96);
+    let mut solved = Solved::new(region, &ellipses, 96);
     let points: Vec<Vec2> = solved.markers.positions().iter().copied().step_by(17).collect();
     let samples = solved.at(&points);
     for (sample, velocity) in samples.iter().zip(solved.markers.velocities().iter().step_by(17)) {
         // A point on an interface is taken a billionth of a spacing inside.
         let error = (sample.velocity - velocity).length();
-        println!("{geometry:?}: {error:e}");
+        println!("{region:?}: {error:e}");
         assert!(error < 1e-10, "{error:e}");
     }
 }
 
 #[test]
 fn series_and_sums_agree() {
-    far_interfaces_move_with_the_flow(Geometry::Plane);
-    far_interfaces_move_with_the_flow(Geometry::Box { lengths: [17.0, 15.0] });
-    far_interfaces_move_with_the_flow(Geometry::Box { lengths: [16.0, 5.5] });
-    far_interfaces_move_with_the_flow(Geometry::Channel { length: 16.0, width: 5.0, forcing: Forcing::default() });
+    far_interfaces_move_with_the_flow(Region::Plane);
+    far_interfaces_move_with_the_flow(Region::Box { lengths: [17.0, 15.0] });
+    far_interfaces_move_with_the_flow(Region::Box { lengths: [16.0, 5.5] });
+    far_interfaces_move_with_the_flow(Region::Channel { length: 16.0, width: 5.0, drive: Drive::default() });
 }

@@ -4,8 +4,9 @@ mod scenes;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings};
-use ib_core::{Hydrodynamics, Markers, Vec2};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings};
+use motile_base::{Region, Vec2};
+use motile_scene::{Hydrodynamics, Markers};
 use proptest::prelude::*;
 use scenes::{Ellipse, markers};
 
@@ -34,7 +35,7 @@ proptest! {
 
     #[test]
     fn turning_the_scene_turns_the_flow(shape in ellipse(), angle in 0.0..TAU) {
-        let mut solver = BoundaryIntegral::new(Geometry::Plane, 1.0, settings()).unwrap();
+        let mut solver = BoundaryIntegral::new(Region::Plane, 1.0, settings()).unwrap();
         let mut first = markers(&[shape], COUNT);
         solver.velocities(&mut first).unwrap();
         let (sin, cos) = angle.sin_cos();
@@ -50,7 +51,7 @@ proptest! {
 
     #[test]
     fn the_area_does_not_change_and_work_is_dissipated(shape in ellipse()) {
-        let mut solver = BoundaryIntegral::new(Geometry::Box { lengths: [5.0, 6.0] }, 1.0, settings()).unwrap();
+        let mut solver = BoundaryIntegral::new(Region::Box { lengths: [5.0, 6.0] }, 1.0, settings()).unwrap();
         let mut markers = markers(&[shape], COUNT);
         solver.velocities(&mut markers).unwrap();
         let mut tangents = vec![Vec2::ZERO; COUNT];
@@ -66,7 +67,7 @@ proptest! {
     fn flows_of_two_droplets_are_reciprocal(first in ellipse(), mut second in ellipse(), wave in 0.0..TAU) {
         // Lorentz: the work of one set of forces on the flow of another is that of the other on the flow of the first.
         second.centre[0] += 6.0;
-        let mut solver = BoundaryIntegral::new(Geometry::Plane, 1.0, settings()).unwrap();
+        let mut solver = BoundaryIntegral::new(Region::Plane, 1.0, settings()).unwrap();
         let mut one = markers(&[first, second], COUNT);
         let mut two = one.clone();
         let push = |k: usize| (3.0 * TAU * k as f64 / COUNT as f64 + wave).sin();
@@ -101,7 +102,7 @@ proptest! {
 fn markers_may_be_any_number_from_that_of_the_nodes_on() {
     // The same shape and forces by 33, 64, 65 and 127 markers, odd and even nodes.
     for nodes in [32, 33] {
-        let mut solver = BoundaryIntegral::new(Geometry::Plane, 1.0, Settings { nodes, ..settings() }).unwrap();
+        let mut solver = BoundaryIntegral::new(Region::Plane, 1.0, Settings { nodes, ..settings() }).unwrap();
         let shape = Ellipse { viscosity: Some(3.0), ..Ellipse::circle(0.2, 0.1, |t| 1.0 + 0.5 * (t - 0.3).cos()) };
         for count in [33, 64, 65, 127] {
             let mut markers = markers(&[shape], count);

@@ -1,18 +1,18 @@
-//! Channels between two walls.
+//! Channels along x between two walls.
 
 mod shapes;
 mod width;
 
-use ib_core::Vec2;
-use ib_core::input::{finite, within};
+use motile_base::{Vec2, finite, within};
 
+use crate::mesh::TriangleMesh;
 use crate::mesher::segments::Segments;
-use crate::{Interior, Mesher, Outline, SolidError, TriangleMesh};
+use crate::{Interior, Mesher, Outline, SolidError};
 
 pub use shapes::ChannelShape;
 pub use width::{Width, width_between};
 
-/// A channel along x, periodic: the lines that bound it below and above, and islands between them.
+/// A periodic channel along x: the lines that bound it below and above, and islands between them.
 ///
 /// ```
 /// use elastic_solids::{Channel, Mesher, SolidError};
@@ -38,21 +38,21 @@ pub struct Channel {
 /// Meshes of the walls of a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Walls {
-    /// The wall below.
+    /// Mesh of the wall below.
     pub lower: TriangleMesh,
-    /// The wall above.
+    /// Mesh of the wall above.
     pub upper: TriangleMesh,
-    /// The islands, in the order of their addition.
+    /// Meshes of the islands, in the order of their addition.
     pub islands: Vec<TriangleMesh>,
 }
 
-/// Points a period by which it is seen whether lines cross.
+/// Points a period at which lines are sampled to find crossings.
 const SAMPLES: f64 = 2000.0;
-/// Most periods that the sides and islands may be long together.
+/// Largest length of all sides and islands together, in periods: a bound on the samples.
 const LONGEST: f64 = 200.0;
 
 impl Channel {
-    /// The channel between two periodic outlines, which may have corners and overhang.
+    /// Channel between two periodic outlines, which may have corners and overhang.
     ///
     /// # Errors
     /// Outlines without or with different periods, that cross or touch, or the wrong way round.
@@ -60,11 +60,11 @@ impl Channel {
         Self::with_islands(lower, upper, Vec::new())
     }
 
-    /// The same with closed outlines between them.
+    /// Channel between two periodic outlines, with closed outlines as islands between them.
     ///
     /// # Errors
-    /// As [`Channel::new`]; an island that is not closed, or not between the lines; lines more than 200 periods long
-    /// together.
+    /// Those of [`Channel::new`]; an island that is not closed, or not between the lines; lines more than 200 periods
+    /// long together.
     pub fn with_islands(lower: Outline, upper: Outline, islands: Vec<Outline>) -> Result<Self, SolidError> {
         let Some(period) = lower.period() else {
             return Err(SolidError::Unsupported {
@@ -91,22 +91,19 @@ impl Channel {
             .map(|outline| outline.resampled(spacing))
             .collect::<Result<Vec<_>, _>>()?;
         let start = lines[0][0].x;
-        let segments = Segments::new(&lines, Some((start, period)), 2.0 * spacing);
-        if let Some(place) = segments.first_crossing() {
-            return Err(SolidError::Crossing { x: place.x, y: place.y });
-        }
-        // What lies between the lines has one of them above; islands are crossed twice or not at all.
+        let segments = Segments::uncrossed(&lines, Some((start, period)), 2.0 * spacing)?;
+        // A point between the lines has one of them above it; islands are crossed twice or not at all.
         for (number, line) in lines.iter().enumerate().filter(|&(number, _)| number != 1) {
             let mut place = line[0];
             place.x -= period * ((place.x - start) / period).floor();
             if segments.crossings_above(place, Some(number)) % 2 != 1 {
-                return Err(SolidError::NotBetween { x: place.x, y: place.y });
+                return Err(SolidError::NotBetween { place });
             }
         }
         Ok(Self { lower, upper, islands, period })
     }
 
-    /// The channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth
+    /// Channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth
     /// everywhere.
     ///
     /// # Errors
@@ -120,7 +117,7 @@ impl Channel {
         Self::new(Outline::profile(start, period, lower)?, Outline::profile(start, period, upper)?)
     }
 
-    /// The channel with a lower side as given and its mirror image about y = 0 above.
+    /// Channel with this lower side and its mirror image about y = 0 above.
     ///
     /// # Errors
     /// Those of [`Channel::new`].
@@ -129,19 +126,19 @@ impl Channel {
         Self::new(lower, upper)
     }
 
-    /// The line below.
+    /// Line that bounds the channel below.
     #[must_use]
     pub fn lower(&self) -> &Outline {
         &self.lower
     }
 
-    /// The line above.
+    /// Line that bounds the channel above.
     #[must_use]
     pub fn upper(&self) -> &Outline {
         &self.upper
     }
 
-    /// The islands.
+    /// Outlines of the islands.
     #[must_use]
     pub fn islands(&self) -> &[Outline] {
         &self.islands
@@ -153,7 +150,7 @@ impl Channel {
         self.period
     }
 
-    /// The channel wider by `by` (length): the lower line moved down and the upper one up by half of it.
+    /// Channel wider by `by` (length): the lower line moved down and the upper one up by half of it.
     ///
     /// # Errors
     /// A number that is not finite, or so negative that the lines touch.
@@ -180,7 +177,7 @@ impl Channel {
         })
     }
 
-    /// The mesh of the wall from y = `bottom` (length) up to the lower line alone.
+    /// Mesh of the wall from y = `bottom` (length) up to the lower line.
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`].
@@ -188,15 +185,16 @@ impl Channel {
         mesher.mesh(&self.below(bottom)?)
     }
 
-    /// The mesh of the wall from the upper line up to y = `top` (length) alone.
+    /// Mesh of the wall from the upper line up to y = `top` (length): where the channel is its own mirror image about
+    /// y = 0, that of the lower wall down to y = `-top` with y reversed.
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn upper_wall(&self, top: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        mesher.mesh(&self.above(top)?)
+        Ok(mesher.mesh(&self.above(top)?.mirrored()?)?.mirrored())
     }
 
-    /// An island by its number.
+    /// Outline of the island `number`, counted from 0.
     ///
     /// # Errors
     /// [`SolidError::NoSuchIsland`].
@@ -204,7 +202,7 @@ impl Channel {
         self.islands.get(number).ok_or(SolidError::NoSuchIsland { number, found: self.islands.len() })
     }
 
-    /// The wall from y = `bottom` (length) up to the lower line.
+    /// Wall from y = `bottom` (length) up to the lower line.
     ///
     /// # Errors
     /// A height that is not finite.
@@ -212,7 +210,7 @@ impl Channel {
         Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])
     }
 
-    /// The wall from the upper line up to y = `top` (length).
+    /// Wall from the upper line up to y = `top` (length).
     ///
     /// # Errors
     /// A height that is not finite.
@@ -220,7 +218,7 @@ impl Channel {
         Interior::new([self.upper.clone(), self.level(&self.upper, top)?])
     }
 
-    /// The flat outer surface of the wall at a side of the channel.
+    /// Flat outer surface of the wall at a side of the channel.
     fn level(&self, side: &Outline, height: f64) -> Result<Outline, SolidError> {
         Outline::flat(side.start().x, self.period, height)
     }

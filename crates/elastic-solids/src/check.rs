@@ -1,22 +1,22 @@
-//! What every energy and every law of forces must satisfy, as figures: for materials of one's own.
+//! Checks that every energy and every law of forces must pass, as figures: for materials of one's own.
 
 mod moduli;
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, positive, same_length};
+use motile_base::{Vec2, all_points_finite, positive, same_length};
 
 use crate::material::{DeformationGradient, Mat2};
-use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
+use crate::{ElasticForces, EnergyDensity, SolidError};
 
 pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
 
-/// The largest entry of `P - dW/dA` (force per length) at the deformation gradient `deformation`, dW/dA by central
-/// differences of width `step` (dimensionless; at 5e-6 round-off and truncation are about equal).
+/// Largest entry of `P - dW/dA` (force per length) at the deformation gradient `deformation`: the error of the stress P
+/// of an energy density W, dW/dA by central differences of width `step` (no dimension; at 5e-6 round-off and truncation
+/// are about equal).
 ///
 /// ```
 /// use elastic_solids::check::stress_error;
-/// use elastic_solids::material::Mat2;
-/// use elastic_solids::{NeoHookean, SolidError};
+/// use elastic_solids::{Mat2, NeoHookean, SolidError};
 ///
 /// let material = NeoHookean::new(1.0, 2.0)?;
 /// let error = stress_error(&material, Mat2::from_rows_array(&[1.2, 0.3, 0.0, 0.9]), 5e-6)?;
@@ -42,17 +42,18 @@ pub fn stress_error(energy: &dyn EnergyDensity, deformation: Mat2, step: f64) ->
     Ok(largest)
 }
 
-/// What is left of the sum of the elastic forces and of their torque, over the sum of their sizes.
+/// Resultant and torque of the elastic forces over the sum of their magnitudes, both zero but for round-off.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ForceBalance {
-    /// Size of the sum of the forces (dimensionless).
+    /// Magnitude of the sum of the forces (no dimension).
     pub sum: f64,
     /// Torque about the origin (length). Without meaning for a periodic mesh.
     pub torque: f64,
 }
 
-/// The balance of the elastic forces of a mesh with its points at `positions` (length): both are zero to round-off,
-/// whatever the deformation.
+/// Balance of the elastic forces of a mesh with its points at `positions` (length): zero to round-off, whatever the
+/// deformation.
 ///
 /// # Errors
 /// Positions that are not finite; those of [`ElasticForces::add_forces`].
@@ -65,15 +66,15 @@ pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<Forc
     Ok(ForceBalance { sum: forces.iter().sum::<Vec2>().length() / size, torque: torque.abs() / size })
 }
 
-/// The patch test: the largest force on a point inside a mesh under the uniform deformation `X = A s`, over the largest
-/// on its boundary (dimensionless). Zero to round-off for uniform hyperelastic material on any mesh that is not
+/// Patch test: the largest force on a point inside a mesh under the uniform deformation `X = A s`, over the largest on
+/// its boundary (no dimension). It is zero to round-off for uniform hyperelastic material on any mesh that is not
 /// periodic, and for springs on a lattice of equilateral triangles.
 ///
 /// # Errors
 /// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
 pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation: Mat2) -> Result<f64, SolidError> {
     same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
-    let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
+    let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * *s).collect();
     all_points_finite("the deformed points", &positions)?;
     let mut forces = vec![Vec2::ZERO; positions.len()];
     law.add_forces(&positions, &mut forces)?;

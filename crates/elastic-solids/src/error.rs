@@ -1,8 +1,11 @@
-//! What can go wrong with an elastic solid.
+//! Errors of solids, meshes and outlines.
 
-use ib_core::input::{InputError, positive, within};
+use motile_base::{InputError, Vec2, positive, within};
 
-/// An error of this crate, with the offending values and the remedy.
+use crate::material::Mat2;
+
+/// An error of this crate; its message has the offending values and the remedy. Places are positions in the plane
+/// (length).
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
@@ -11,77 +14,65 @@ pub enum SolidError {
     Input(#[from] InputError),
     /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
-        "the deformation gradient [[{a11:.4}, {a12:.4}], [{a21:.4}, {a22:.4}]] has the determinant {jacobian:.3e}: it \
-         must be positive"
+        "the deformation gradient with the columns ({:.4}, {:.4}) and ({:.4}, {:.4}) has the determinant {:.3e}: it \
+         must be positive", .gradient.x_axis.x, .gradient.x_axis.y, .gradient.y_axis.x, .gradient.y_axis.y,
+        .gradient.determinant()
     )]
     NotOrientationPreserving {
-        /// Entry 11.
-        a11: f64,
-        /// Entry 12.
-        a12: f64,
-        /// Entry 21.
-        a21: f64,
-        /// Entry 22.
-        a22: f64,
-        /// Determinant.
-        jacobian: f64,
+        /// Deformation gradient.
+        gradient: Mat2,
     },
-    /// A triangle of points that do not exist.
+    /// A triangle that names a point which does not exist.
     #[error("triangle {triangle} names point {point} of {points}: points are counted from 0")]
     NoSuchPoint {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
-        /// The point it names.
+        /// Index of the point.
         point: usize,
-        /// How many there are.
+        /// Number of points.
         points: usize,
     },
     /// A triangle without area.
-    #[error("triangle {triangle} near ({x:.4}, {y:.4}) has the area {area:.1e}: its points must not lie on a line")]
+    #[error("triangle {triangle} near ({:.4}, {:.4}) has the area {area:.1e}: its points must not lie on a line",
+        .place.x, .place.y)]
     FlatTriangle {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
-        /// x of its first corner (length).
-        x: f64,
-        /// y of its first corner (length).
-        y: f64,
-        /// Its area.
+        /// First corner.
+        place: Vec2,
+        /// Area (length squared).
         area: f64,
     },
     /// A triangle of a periodic mesh whose corners cannot be told from their images.
     #[error("triangle {triangle} is {width:.4} wide, half the period {period} or more: use smaller triangles")]
     TriangleTooWide {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
-        /// Its width (length).
+        /// Width of the triangle (length).
         width: f64,
-        /// The period (length).
+        /// Period of the mesh (length).
         period: f64,
     },
     /// A point that no triangle uses.
-    #[error("point {point} at ({x:.4}, {y:.4}) belongs to no triangle: leave it out")]
+    #[error("point {point} at ({:.4}, {:.4}) belongs to no triangle: leave it out", .place.x, .place.y)]
     LoosePoint {
-        /// Which point.
+        /// Index of the point.
         point: usize,
-        /// Its x (length).
-        x: f64,
-        /// Its y (length).
-        y: f64,
+        /// Position of the point.
+        place: Vec2,
     },
-    /// Two points of triangles at one place: triangles there do not hang together.
+    /// Two points of triangles at one place: the triangles there are not connected.
     #[error(
-        "points {first} and {second} coincide at ({x:.4}, {y:.4}): make them one (in Gmsh: \"Coherence Mesh;\", or the \
-         tool that removes duplicate nodes)"
+        "points {first} and {second} coincide at ({:.4}, {:.4}): make them one (in Gmsh: \"Coherence Mesh;\", or the \
+         tool that removes duplicate nodes)", .place.x, .place.y
     )]
     CoincidentPoints {
-        /// A point.
+        /// Index of a point.
         first: usize,
-        /// The other one.
+        /// Index of the other point.
         second: usize,
-        /// x of the latter (length).
-        x: f64,
-        /// Its y (length).
-        y: f64,
+        /// Position of the latter.
+        place: Vec2,
     },
     /// An edge with more than one triangle on a side.
     #[error(
@@ -89,141 +80,128 @@ pub enum SolidError {
          must not overlap"
     )]
     FoldedMesh {
-        /// A point of the edge.
+        /// Index of an end of the edge.
         first: usize,
-        /// The other point.
+        /// Index of the other end.
         second: usize,
-        /// One of the triangles.
+        /// Index of one of the triangles.
         triangle: usize,
     },
     /// An island that a channel does not have.
     #[error(
-        "island {number} of a channel with {found}: islands are counted from 0, give the number of one that is there"
+        "island {number} of a channel with {found}: islands are counted from 0, give the number of an existing one"
     )]
     NoSuchIsland {
-        /// Its number.
+        /// Number of the island that was asked for.
         number: usize,
-        /// How many there are.
+        /// Number of islands of the channel.
         found: usize,
     },
-    /// Something that cannot be done.
+    /// An operation that is not supported.
     #[error("{what} is not possible: {remedy}")]
     Unsupported {
-        /// What was asked for.
+        /// Operation.
         what: &'static str,
-        /// What to do instead.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A line that does not return to its start.
     #[error(
-        "the outline ends at ({x:.4}, {y:.4}), {gap:.3e} from where it must: close it, or let a profile return to its \
-         first height"
+        "the outline ends at ({:.4}, {:.4}), {gap:.3e} from where it must: close it, or let a profile return to its \
+         first height", .place.x, .place.y
     )]
     OpenOutline {
-        /// x of its end (length).
-        x: f64,
-        /// y of its end (length).
-        y: f64,
-        /// Distance from its start, or from the start of the next period (length).
+        /// End of the line.
+        place: Vec2,
+        /// Distance of the end from the start, or from the start of the next period (length).
         gap: f64,
     },
     /// A side or curve of an outline without length.
-    #[error("a side of the outline at ({x:.4}, {y:.4}) has no length: points that follow each other must differ")]
+    #[error("a side of the outline at ({:.4}, {:.4}) has no length: points that follow each other must differ",
+        .place.x, .place.y)]
     NoLength {
-        /// x of its start (length).
-        x: f64,
-        /// y of its start (length).
-        y: f64,
+        /// Start of the side.
+        place: Vec2,
     },
     /// Corners of a curve that do not increase.
     #[error("corner at {value}: give increasing numbers above {start} and below {end}")]
     CornersOutOfOrder {
-        /// The first one out of order.
+        /// Parameter of the first corner out of order.
         value: f64,
-        /// Start of the curve.
+        /// Parameter at the start of the curve.
         start: f64,
-        /// End of the curve.
+        /// Parameter at the end of the curve.
         end: f64,
     },
     /// A fillet that does not fit.
     #[error(
-        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({x:.4}, {y:.4}): give at most \
-         {maximum:.4}"
+        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({:.4}, {:.4}): give at most \
+         {maximum:.4}", .place.x, .place.y
     )]
     FilletTooLarge {
-        /// The radius (length).
+        /// Radius of the fillet (length).
         radius: f64,
-        /// x of the side's start (length).
-        x: f64,
-        /// y of the side's start (length).
-        y: f64,
-        /// Length of the side.
+        /// Start of the side.
+        place: Vec2,
+        /// Length of the side (length).
         side: f64,
         /// Largest radius that fits there (length).
         maximum: f64,
     },
-    /// Periodic outlines that do not repeat together.
+    /// Periodic outlines of different periods.
     #[error("one outline has the period {first}, another {second}: give them the same")]
     DifferentPeriods {
-        /// A period (length).
+        /// Period of an outline (length).
         first: f64,
-        /// Another (length).
+        /// Period of another one (length).
         second: f64,
     },
-    /// An interior without an end.
+    /// An interior that extends to infinity.
     #[error("there are {lines} periodic outlines: give an even number, the two surfaces of each wall")]
     OpenRegion {
-        /// How many there are.
+        /// Number of periodic outlines.
         lines: usize,
     },
     /// Outlines that cross.
     #[error(
-        "outlines cross or touch near ({x:.4}, {y:.4}): move them apart, or use a smaller spacing where they only come \
-         close"
+        "outlines cross or touch near ({:.4}, {:.4}): move them apart, or use a smaller spacing where they only come \
+         close", .place.x, .place.y
     )]
     Crossing {
-        /// x of the place (length).
-        x: f64,
-        /// y of the place (length).
-        y: f64,
+        /// Place of the crossing.
+        place: Vec2,
     },
     /// A line of a channel on the wrong side of the others.
     #[error(
-        "the line through ({x:.4}, {y:.4}) is not below the upper side of the channel and above the lower one: \
-         exchange or move them"
+        "the line through ({:.4}, {:.4}) is not below the upper side of the channel and above the lower one: \
+         exchange or move them", .place.x, .place.y
     )]
     NotBetween {
-        /// x of a point of it (length).
-        x: f64,
-        /// y of that point (length).
-        y: f64,
+        /// Point of the line.
+        place: Vec2,
     },
     /// A hole that the mesh cannot resolve.
     #[error(
-        "the hole at ({x:.4}, {y:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a \
-         smaller spacing"
+        "the hole at ({:.4}, {:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a \
+         smaller spacing", .place.x, .place.y
     )]
     HoleTooSmall {
-        /// x of a point of its outline (length).
-        x: f64,
-        /// y of that point (length).
-        y: f64,
-        /// Its width (length).
+        /// Point of the outline of the hole.
+        place: Vec2,
+        /// Width of the hole (length).
         width: f64,
         /// Mesh spacing (length).
         spacing: f64,
     },
     /// A wall that the mesh cannot resolve.
     #[error(
-        "the solid at ({x:.4}, {y:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, \
-         round its tip, or use a smaller spacing"
+        "the solid at ({:.4}, {:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, \
+         round its tip, or use a smaller spacing", .place.x, .place.y
     )]
     WallTooThin {
-        /// x of a point of its outline (length).
-        x: f64,
-        /// y of that point (length).
-        y: f64,
-        /// Its thickness (length).
+        /// Point of the outline of the solid.
+        place: Vec2,
+        /// Thickness of the solid there (length).
         thickness: f64,
         /// Mesh spacing (length).
         spacing: f64,
@@ -231,38 +209,36 @@ pub enum SolidError {
     /// A triangulation that failed.
     #[error("the triangulation failed: {what}; use a smaller mesh spacing")]
     MeshingFailed {
-        /// Why.
+        /// Reason.
         what: &'static str,
     },
     /// Text that is not a mesh file.
     #[error("line {line} of the mesh file: {what}")]
     Gmsh {
-        /// The line, counted from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// Fault of the line.
         what: String,
     },
     /// A group of triangles that cannot be written.
     #[error("group {tag} of triangles: {what}")]
     BadGroup {
-        /// Its number.
+        /// Number of the group.
         tag: i32,
-        /// What is wrong with it.
+        /// Fault of the group.
         what: &'static str,
     },
     /// An inverted triangle.
     #[error(
-        "triangle {triangle} near ({x:.4}, {y:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or \
-         mesh spacing, or stiffer material"
+        "triangle {triangle} near ({:.4}, {:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or \
+         mesh spacing, or stiffer material", .place.x, .place.y
     )]
     Inverted {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
-        /// x of its middle (length).
-        x: f64,
-        /// y of its middle (length).
-        y: f64,
-        /// Its deformed over its reference area, negative.
+        /// Centroid of the triangle.
+        place: Vec2,
+        /// Deformed over reference area of the triangle, negative.
         jacobian: f64,
     },
     /// Points that found no equilibrium.
@@ -271,17 +247,17 @@ pub enum SolidError {
          material"
     )]
     NotRelaxed {
-        /// Force left over that at the boundary.
+        /// Residual force over the force at the boundary.
         residual: f64,
     },
 }
 
-ib_core::input::debug_as_explanation!(SolidError);
+motile_base::debug_as_explanation!(SolidError);
 
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
 pub(crate) const MOST_POINTS: f64 = 1e6;
 
-/// `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
+/// Returns `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
 pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, InputError> {
     within(name, positive(name, value)?, 1e-100, 1e100)
 }

@@ -1,9 +1,9 @@
-//! Where a deformed mesh gets its forces from: springs along its edges, hyperelastic material, or a law of your own.
+//! Elastic forces of a deformed mesh: springs along its edges, hyperelastic material, or a law of your own.
 
 mod hyperelastic;
 mod springs;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use crate::material::Mat2;
 use crate::{Moduli, SolidError};
@@ -11,9 +11,10 @@ use crate::{Moduli, SolidError};
 pub use hyperelastic::Hyperelastic;
 pub use springs::Springs;
 
-/// The elastic forces of a deformed mesh, as the gradient of an energy: [`Hyperelastic`] material or [`Springs`].
+/// Elastic forces of a deformed mesh, as minus the gradient of an energy: [`Hyperelastic`] material or [`Springs`].
 ///
-/// Forces sum to zero and give no torque to round-off, whatever the deformation.
+/// The energy does not change when the deformed mesh is moved or turned, so that forces have neither a sum nor a
+/// torque, to round-off.
 pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     /// Number of points of the mesh.
     fn point_count(&self) -> usize;
@@ -24,18 +25,45 @@ pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     /// Lists of the wrong length; an inverted triangle where the energy is not defined for it.
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError>;
 
-    /// The elastic energy E (energy) of the mesh with its points at `positions` (length).
+    /// Elastic energy E (energy) of the mesh with its points at `positions` (length).
     ///
     /// # Errors
-    /// As [`ElasticForces::add_forces`].
+    /// Those of [`ElasticForces::add_forces`].
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError>;
 
     /// First Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient is
     /// `gradient`, where it is defined; `None` for a triangle beyond the last.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2>;
 
-    /// The largest shear and the largest bulk modulus of small strains (force per length).
+    /// Largest shear modulus and largest bulk modulus of small strains (force per length), which bound the time step.
     fn stiffest(&self) -> Moduli;
+}
+
+/// A straight bar between two points of a mesh, across the seam of a periodic one where its points stand there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bar {
+    pub(crate) ends: [u32; 2],
+    /// Addition to x of the second end across the seam (length).
+    pub(crate) shift: f64,
+    /// Length in the reference state (length).
+    pub(crate) length: f64,
+}
+
+impl Bar {
+    /// Vector from the first end to the second (length).
+    #[inline]
+    pub(crate) fn span(&self, positions: &[Vec2]) -> Vec2 {
+        let [from, to] = self.ends.map(|point| positions[point as usize]);
+        Vec2::new(to.x + self.shift - from.x, to.y - from.y)
+    }
+
+    /// Adds `force` to that on the first end, and the opposite force to that on the second.
+    #[inline]
+    pub(crate) fn add_pull(&self, force: Vec2, forces: &mut [Vec2]) {
+        let [from, to] = self.ends.map(|point| point as usize);
+        forces[from] += force;
+        forces[to] -= force;
+    }
 }
 
 #[cfg(test)]

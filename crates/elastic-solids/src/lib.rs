@@ -1,17 +1,16 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
 //! A [`Solid`] is a triangle mesh of its reference state and a law for its forces (Cowley chapter 4): springs along the
-//! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`ib_core::Body`]): its points put
-//! the forces on the fluid and move with it.
+//! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`motile_scene::Body`]): its points
+//! put the forces on the fluid and move with it.
 //!
 //! # Example
 //!
 //! The lower wall of Cowley's constriction, stiffer to the right, held by its lowest row and squeezed by a
 //! twentieth:
 //! ```
-//! use elastic_solids::channel::ChannelShape;
-//! use elastic_solids::{Mesher, Moduli, NeoHookean, Solid, SolidError};
-//! use ib_core::Vec2;
+//! use elastic_solids::{ChannelShape, Mesher, Moduli, NeoHookean, Solid, SolidError};
+//! use motile_base::Vec2;
 //!
 //! let mesh = ChannelShape::THESIS.channel(12.0)?.lower_wall(-2.5, &Mesher::new(0.1)?)?;
 //! println!("{}", mesh.quality());
@@ -32,17 +31,18 @@
 //!
 //! Each is usable by itself:
 //!
-//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Interior`] for what
-//!   lies between them; [`Channel`] for two walls with islands between them, and ready ones in [`channel`].
-//! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how
-//!   even they are.
-//! * **Materials**: [`NeoHookean`] (Cowley's), others in [`material`], or an [`EnergyDensity`] of your own;
-//!   [`Moduli`] converts between constants, Cowley's spring constant among them.
-//! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
+//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Interior`] for the
+//!   solid between them; [`Channel`] for two walls with islands between them, and ready ones, the [`ChannelShape`]s.
+//! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`mesh::TriangleMesh::quality`]
+//!   measures how even they are.
+//! * **Materials**: [`NeoHookean`] (Cowley's), [`MooneyRivlin`], [`SaintVenantKirchhoff`], or an [`EnergyDensity`] of
+//!   your own; [`Moduli`] converts between constants, Cowley's spring constant among them.
+//! * **Forces** of a mesh by themselves ([`ElasticForces`]), and the checks that a law of your own must pass
+//!   ([`check`]).
 //! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`],
 //!   of any outline, that the fluid carries along.
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
-//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`channel::width_between`] walls.
+//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls.
 //!
 //! # Conventions
 //!
@@ -53,26 +53,25 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
-pub mod channel;
+mod channel;
 pub mod check;
 mod error;
-pub mod forces;
-pub mod material;
+mod forces;
+mod material;
 pub mod mesh;
 mod mesher;
 mod outline;
 mod rigid_body;
 mod shell;
 mod skin;
-pub mod solid;
+mod solid;
 
-pub use channel::Channel;
+pub use channel::{Channel, ChannelShape, Walls, Width, width_between};
 pub use error::SolidError;
-pub use forces::ElasticForces;
-pub use material::{EnergyDensity, Moduli, NeoHookean};
-pub use mesh::TriangleMesh;
+pub use forces::{ElasticForces, Hyperelastic, Springs};
+pub use material::{DeformationGradient, EnergyDensity, Mat2, Moduli, MooneyRivlin, NeoHookean, SaintVenantKirchhoff};
 pub use mesher::Mesher;
 pub use outline::{Interior, Outline};
 pub use rigid_body::{RigidBody, RigidBodyMotion};
 pub use shell::{BendingMeasure, Shell};
-pub use solid::Solid;
+pub use solid::{Deformation, Solid, Tether};

@@ -1,23 +1,26 @@
 //! Hyperelastic materials and their moduli.
 
-mod deformation;
+mod matrix;
 mod moduli;
 mod mooney_rivlin;
 mod neo_hookean;
 mod saint_venant_kirchhoff;
 
-pub use deformation::{DeformationGradient, Mat2};
+use crate::SolidError;
+
+pub use matrix::Mat2;
 pub use moduli::Moduli;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
-/// The strain energy density W of a hyperelastic material and its derivative.
+/// Strain energy density W(A) of a hyperelastic material as a function of the deformation gradient A, with its
+/// derivative.
 ///
-/// W is zero and least for a rotation, and does not change when the deformed material is turned. Implement it for a
-/// material of your own: a solid needs nothing else.
+/// W is zero and least for a rotation, and does not change when the deformed material is turned. Implement this trait
+/// for a material of your own: a solid needs nothing else.
 pub trait EnergyDensity: std::fmt::Debug + Send + Sync + 'static {
-    /// Energy density W(A) per reference area (energy per area = force per length in 2D).
+    /// Energy density W(A) per reference area (energy per area, which is force per length in two dimensions).
     fn energy(&self, gradient: &DeformationGradient) -> f64;
 
     /// First Piola-Kirchhoff stress `P = dW/dA` (force per reference length).
@@ -29,6 +32,68 @@ pub trait EnergyDensity: std::fmt::Debug + Send + Sync + 'static {
     /// Cauchy stress `P A^T / J` (force per deformed length), symmetric.
     fn cauchy_stress(&self, gradient: &DeformationGradient) -> Mat2 {
         self.stress(gradient) * gradient.matrix().transpose() / gradient.jacobian()
+    }
+}
+
+/// A deformation gradient `A_ij = dX_i / ds_j` (4.5), X the deformed and s the reference position, with a positive
+/// determinant: material that is not inverted. Dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DeformationGradient {
+    matrix: Mat2,
+    jacobian: f64,
+}
+
+impl DeformationGradient {
+    /// Deformation gradient with the matrix A.
+    ///
+    /// # Errors
+    /// [`SolidError::NotOrientationPreserving`] where the determinant is not positive and finite.
+    pub fn new(matrix: Mat2) -> Result<Self, SolidError> {
+        Self::checked(matrix).ok_or(SolidError::NotOrientationPreserving { gradient: matrix })
+    }
+
+    /// Deformation gradient with the matrix A; `None` where the determinant is not positive and finite.
+    #[inline]
+    pub(crate) fn checked(matrix: Mat2) -> Option<Self> {
+        let jacobian = matrix.determinant();
+        (jacobian > 0.0 && jacobian.is_finite()).then_some(Self { matrix, jacobian })
+    }
+
+    /// Identity, of the undeformed state.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { matrix: Mat2::IDENTITY, jacobian: 1.0 }
+    }
+
+    /// Matrix A (no dimension).
+    #[inline]
+    #[must_use]
+    pub fn matrix(&self) -> Mat2 {
+        self.matrix
+    }
+
+    /// Determinant J = det A, the ratio of deformed and reference area (no dimension).
+    #[inline]
+    #[must_use]
+    pub fn jacobian(&self) -> f64 {
+        self.jacobian
+    }
+
+    /// Cofactor matrix `J A^-T = dJ/dA`.
+    #[inline]
+    #[must_use]
+    pub fn cofactor(&self) -> Mat2 {
+        let [a11, a21, a12, a22] = self.matrix.to_cols_array();
+        Mat2::from_rows_array(&[a22, -a21, -a12, a11])
+    }
+
+    /// Square of the difference of the principal stretches, `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 + A21)^2`: zero for
+    /// a rotation with uniform dilation. The latter form, which is evaluated, is free of cancellation.
+    #[inline]
+    #[must_use]
+    pub fn distortion(&self) -> f64 {
+        let [a11, a21, a12, a22] = self.matrix.to_cols_array();
+        (a11 - a22).powi(2) + (a12 + a21).powi(2)
     }
 }
 

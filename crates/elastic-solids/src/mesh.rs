@@ -6,8 +6,7 @@ pub(crate) mod lattice;
 mod quality;
 mod topology;
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least, positive};
+use motile_base::{Vec2, all_points_finite, at_least, positive};
 
 use crate::SolidError;
 
@@ -17,14 +16,14 @@ pub use gmsh::{GmshMesh, PhysicalGroup};
 pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
 pub use quality::MeshQuality;
 
-/// An edge of a mesh.
+/// Edge of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Edge {
-    /// Its two points.
+    /// Indices of its two points.
     pub points: [usize; 2],
-    /// How many periods to add to x of the second point to stand beside the first: 0, 1 or -1.
+    /// Number of periods to add to x of the second point to stand beside the first: 0, 1 or -1.
     pub periods: i32,
-    /// The triangle to its left, and the one to its right where there is one (none: the edge lies on the boundary).
+    /// Indices of the triangle on its left and of that on its right; `None` for an edge on the boundary.
     pub triangles: (usize, Option<usize>),
 }
 
@@ -32,10 +31,10 @@ pub struct Edge {
 /// clockwise.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BoundaryLoop {
-    /// Its points in order; the last one is joined to the first.
+    /// Indices of its points in order; the last one is joined to the first.
     pub points: Vec<usize>,
-    /// How many periods the loop advances in x before it closes: 1 for the lower surface of a periodic wall, -1 for the
-    /// upper one, 0 for a loop that closes on itself.
+    /// Number of periods by which the loop advances in x before it closes: 1 for the lower surface of a periodic wall,
+    /// -1 for the upper one, 0 for a loop that closes on itself.
     pub periods: i32,
 }
 
@@ -48,7 +47,7 @@ pub struct BoundaryLoop {
 pub struct TriangleMesh {
     points: Vec<Vec2>,
     triangles: Vec<[usize; 3]>,
-    /// Periods to add to x of the second and third corner.
+    /// Numbers of periods to add to x of the second and third corner.
     shifts: Vec<[i8; 2]>,
     period: Option<f64>,
     edges: Vec<Edge>,
@@ -57,21 +56,21 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// From points (length) and triangles, each by the numbers of its three points; clockwise triangles are turned
+    /// Mesh of points (length) and triangles, each by the indices of its three points; clockwise triangles are turned
     /// round.
     ///
     /// # Errors
-    /// No triangle, points that are not finite or in no triangle, numbers beyond the points, triangles without area,
-    /// edges of more than two triangles or of two that lie on the same side.
+    /// No triangle, points that are not finite or in no triangle, indices beyond the points, triangles without area,
+    /// edges of more than two triangles or of two that lie on one side.
     pub fn new(points: Vec<Vec2>, triangles: Vec<[usize; 3]>) -> Result<Self, SolidError> {
         Self::build(points, triangles, None)
     }
 
-    /// A mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a
+    /// Mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a
     /// period are taken across the seam.
     ///
     /// # Errors
-    /// As [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
+    /// Those of [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
     pub fn periodic(points: Vec<Vec2>, triangles: Vec<[usize; 3]>, period: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         Self::build(points, triangles, Some(period))
@@ -101,8 +100,7 @@ impl TriangleMesh {
             let longest = first.length_squared().max(second.length_squared()).max((second - first).length_squared());
             // The negation also catches an area that overflowed.
             if !(area.abs() > 1e-12 * longest && area.is_finite()) {
-                let [x, y] = corners[0].into();
-                return Err(SolidError::FlatTriangle { triangle: number, x, y, area: area.abs() });
+                return Err(SolidError::FlatTriangle { triangle: number, place: corners[0], area: area.abs() });
             }
             if area < 0.0 {
                 triangle.swap(1, 2);
@@ -111,7 +109,7 @@ impl TriangleMesh {
             areas.push(area.abs());
         }
         if let Some(point) = used.iter().position(|used| !used) {
-            return Err(SolidError::LoosePoint { point, x: points[point].x, y: points[point].y });
+            return Err(SolidError::LoosePoint { point, place: points[point] });
         }
         let (edges, twins) = connect(&triangles, &shifts)?;
         let loops = loops(&triangles, &shifts, &twins);
@@ -124,43 +122,43 @@ impl TriangleMesh {
         &self.points
     }
 
-    /// Triangles by the numbers of their points, counter-clockwise.
+    /// Triangles by the indices of their points, counter-clockwise.
     #[must_use]
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 
-    /// Period in x (length), where there is one.
+    /// Period in x (length); `None` for a mesh that does not repeat itself.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// All edges, each once.
+    /// Edges, each once.
     #[must_use]
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// The boundary.
+    /// Loops of the boundary.
     #[must_use]
     pub fn boundary_loops(&self) -> &[BoundaryLoop] {
         &self.loops
     }
 
-    /// Areas of the triangles (area).
+    /// Areas of the triangles in the reference state (length squared).
     #[must_use]
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// Area of the whole (area).
+    /// Area of the mesh in the reference state (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.areas.iter().sum()
     }
 
-    /// A third of the areas of the triangles around each point, dA_i of Cowley (4.2) (area).
+    /// Area dA_i of each point, a third of the areas of the triangles around it (length squared; Cowley (4.2)).
     pub(crate) fn point_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.points.len()];
         for (triangle, area) in self.triangles.iter().zip(&self.areas) {
@@ -171,14 +169,14 @@ impl TriangleMesh {
         areas
     }
 
-    /// Which points are not on the boundary.
+    /// Flag of each point, `true` for one that is not on the boundary.
     pub(crate) fn inner_points(&self) -> Vec<bool> {
         let mut inner = vec![true; self.points.len()];
         self.loops.iter().flat_map(|boundary| &boundary.points).for_each(|&point| inner[point] = false);
         inner
     }
 
-    /// The corners of a triangle when the points are at `positions` (length, one a point of the mesh): one continuous
+    /// Corners of a triangle (length) with the points of the mesh at `positions` (length, one a point): one continuous
     /// triangle, also across the seam of a periodic mesh. `None` for a triangle beyond the last or another number of
     /// positions than points.
     #[must_use]
@@ -196,22 +194,21 @@ impl TriangleMesh {
         corners_of(&self.triangles[triangle], self.shifts[triangle], self.period.unwrap_or(0.0), positions)
     }
 
-    /// The centroid of a triangle of this mesh in the reference state (length).
+    /// Centroid of a triangle of this mesh in the reference state (length).
     pub(crate) fn centroid(&self, triangle: usize) -> Vec2 {
         self.raw_corners(triangle, &self.points).iter().sum::<Vec2>() / 3.0
     }
 
-    /// The vector from the first to the second point of an edge of this mesh when the points are at `positions`
-    /// (length).
+    /// Vector from the first to the second point of an edge of this mesh with the points at `positions` (length).
     pub(crate) fn edge_vector(&self, edge: &Edge, positions: &[Vec2]) -> Vec2 {
         let mut vector = positions[edge.points[1]] - positions[edge.points[0]];
         vector.x += f64::from(edge.periods) * self.period.unwrap_or(0.0);
         vector
     }
 
-    /// The boundary loop as a polygon when the points are at `positions` (length): one continuous line, without the
-    /// repeated first point; for a loop with periods its end is that many periods ahead of its start. `None` for a loop
-    /// of another mesh or another number of positions than points.
+    /// Polygon of a boundary loop with the points at `positions` (length): one continuous line, without the repeated
+    /// first point; for a loop with periods its end is that many periods ahead of its start. `None` for a loop of
+    /// another mesh or another number of positions than points.
     #[must_use]
     pub fn boundary_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Option<Vec<Vec2>> {
         let known = self.fits(positions) && boundary.points.iter().all(|&point| point < positions.len());
@@ -234,7 +231,26 @@ impl TriangleMesh {
         polygon
     }
 
-    /// The mesh moved by `offset` (length).
+    /// Mesh with y reversed: that of the other wall of a symmetric channel. Points keep their numbers.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut mesh = self.clone();
+        mesh.points.iter_mut().for_each(|point| point.y = -point.y);
+        mesh.triangles.iter_mut().for_each(|[_, second, third]| std::mem::swap(second, third));
+        mesh.shifts.iter_mut().for_each(|[second, third]| std::mem::swap(second, third));
+        for edge in &mut mesh.edges {
+            // What was to the left of an edge is to its right, and a side has its triangle to the left.
+            edge.points.reverse();
+            edge.periods = -edge.periods;
+        }
+        for boundary in &mut mesh.loops {
+            boundary.points[1..].reverse();
+            boundary.periods = -boundary.periods;
+        }
+        mesh
+    }
+
+    /// Moves the mesh by `offset` (length).
     ///
     /// # Errors
     /// An offset that is not finite.
@@ -256,7 +272,7 @@ fn corners_of(triangle: &[usize; 3], shift: [i8; 2], period: f64, positions: &[V
     [at(0, 0), at(1, shift[0]), at(2, shift[1])]
 }
 
-/// How many periods bring the second and third corner next to the first.
+/// Numbers of periods that bring the second and third corner next to the first.
 fn nearest_images(triangle: usize, x: [f64; 3], period: f64) -> Result<[i8; 2], SolidError> {
     let steps = [x[1] - x[0], x[2] - x[0]];
     let periods = steps.map(|step| -(step / period).round());

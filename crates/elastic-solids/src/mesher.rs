@@ -1,4 +1,4 @@
-//! Uniform meshes of what lies between outlines.
+//! Uniform triangle meshes of solids given by their outlines.
 
 mod boundary;
 mod point_set;
@@ -7,16 +7,17 @@ mod seeds;
 pub(crate) mod segments;
 mod triangulation;
 
-use ib_core::input::finite;
+use motile_base::finite;
 
 use crate::error::length;
-use crate::{Interior, SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
+use crate::{Interior, SolidError};
 use boundary::Boundary;
 use point_set::PointSet;
 use relaxation::relax;
 use seeds::{Fit, Lay};
 
-/// Makes uniform triangle meshes.
+/// Mesher: makes uniform triangle meshes of interiors.
 ///
 /// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral
 /// triangles, no closer to the boundary than 0.4 spacings; the constrained Delaunay triangulation of all these points
@@ -30,7 +31,7 @@ use seeds::{Fit, Lay};
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
-/// use ib_core::Vec2;
+/// use motile_base::Vec2;
 ///
 /// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// println!("{}", disc.quality());
@@ -44,7 +45,7 @@ pub struct Mesher {
     angle: f64,
 }
 
-/// Sweeps of the default.
+/// Default number of relaxation sweeps: several times the twenty or so in which strains as wide as a wall die out.
 const SWEEPS: usize = 180;
 
 /// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the
@@ -52,11 +53,11 @@ const SWEEPS: usize = 180;
 /// up for by stretching all triangles across a wall.
 const MARGIN: f64 = 0.4;
 
-/// Number of points of all the meshes together among which the most even is chosen.
+/// Number of points that all the trial meshes have together: a bound on the time that is spent on them.
 const TRIED_POINTS: usize = 12_000;
 
 impl Mesher {
-    /// Edges of length `spacing` (length).
+    /// Mesher for edges of length `spacing` (length).
     ///
     /// # Errors
     /// A spacing that is not positive and finite.
@@ -64,15 +65,15 @@ impl Mesher {
         Ok(Self { spacing: length("the mesh spacing", spacing)?, sweeps: SWEEPS, angle: 0.0 })
     }
 
-    /// The same with another number of relaxation sweeps (180 otherwise; 0 to leave the seeds where they are).
+    /// Changes the number of relaxation sweeps (180 otherwise; 0 to leave the seeds where they are).
     #[must_use]
     pub fn sweeps(mut self, sweeps: usize) -> Self {
         self.sweeps = sweeps;
         self
     }
 
-    /// The same with the lattice of the seeds turned by `angle` (radians, 0 otherwise): a mesh of a straight wall that
-    /// is not a lattice itself, to see what the mesh does to a result.
+    /// Turns the lattice of the seeds by `angle` (radians, 0 otherwise). The mesh of a straight wall is then no
+    /// lattice, which shows the influence of the mesh on a result.
     ///
     /// # Errors
     /// An angle that is not finite.
@@ -81,7 +82,7 @@ impl Mesher {
         Ok(self)
     }
 
-    /// Meshes the inside of outlines.
+    /// Mesh of the inside of outlines.
     ///
     /// # Errors
     /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
@@ -90,13 +91,13 @@ impl Mesher {
         self.mesh_counting(interior).map(|(mesh, _)| mesh)
     }
 
-    /// The mesh, and how often a point was moved for it.
+    /// Mesh, and the number of moves of points that it took.
     fn mesh_counting(&self, interior: &Interior) -> Result<(TriangleMesh, usize), SolidError> {
         let boundary = Boundary::new(interior, self.spacing, self.angle == 0.0)?;
         most_even(&boundary, &self.ways(interior), self.sweeps)
     }
 
-    /// Ways to lay the seeds.
+    /// Lattices of seeds to try.
     fn ways(&self, interior: &Interior) -> Vec<Lay> {
         let angle = self.angle;
         let lay = |fit, offset, margin| Lay { fit, angle, offset, margin };
@@ -124,7 +125,7 @@ impl Mesher {
     }
 }
 
-/// The most even of the meshes from different seeds, of as many as are soon made.
+/// Most even of the meshes from different seeds, as many of which are made as [`TRIED_POINTS`] allows.
 fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<(TriangleMesh, usize), SolidError> {
     let mut best: Option<(f64, TriangleMesh)> = None;
     let (mut points, mut moves) = (0, 0);
@@ -158,7 +159,7 @@ fn relaxed(boundary: &Boundary<'_>, mut set: PointSet<'_>, sweeps: usize) -> Res
     Ok((complete(mesh?, boundary)?, moves))
 }
 
-/// The mesh, where it has the boundary that was asked for: no triangle is missing or too many.
+/// Checks that a mesh has the boundary that was asked for, so that no triangle is missing or too many.
 fn complete(mesh: TriangleMesh, boundary: &Boundary<'_>) -> Result<TriangleMesh, SolidError> {
     let found: usize = mesh.boundary_loops().iter().map(|boundary| boundary.points.len()).sum();
     if found == boundary.count() {

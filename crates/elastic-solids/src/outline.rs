@@ -1,10 +1,9 @@
-//! Outlines of solids, in code.
+//! Outlines of solids.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least, finite, positive, within};
+use motile_base::{Vec2, all_points_finite, at_least, finite, positive, within};
 
 use crate::SolidError;
 use crate::error::{MOST_POINTS, length};
@@ -21,13 +20,13 @@ pub(crate) use track::{Place, Track};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
 ///
-/// It is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing on the
-/// exact curve between them. The direction does not matter: what is solid follows from the number of outlines around a
-/// point ([`Interior`](crate::Interior)).
+/// An outline is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing
+/// on the exact curve between them. The direction does not matter: a point is solid or not by the number of outlines
+/// around it ([`Interior`](crate::Interior)).
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
-/// use ib_core::Vec2;
+/// use motile_base::Vec2;
 ///
 /// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.filleted(0.2)?;
 /// println!("circumference {:.4}", post.length()); // 6 - 8 r + 2 pi r = 5.6566
@@ -41,7 +40,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// The closed polygon through `corners` (length).
+    /// Closed polygon through `corners` (length).
     ///
     /// # Errors
     /// Fewer than three corners, corners that are not finite or coincide with the next.
@@ -51,7 +50,7 @@ impl Outline {
         Self::straight("the corners of the polygon", corners.iter().zip(next), None)
     }
 
-    /// The rectangle with two opposite corners (length).
+    /// Rectangle with two opposite corners (length).
     ///
     /// # Errors
     /// Corners that are not finite or on one side of a rectangle without area.
@@ -59,7 +58,7 @@ impl Outline {
         Self::polygon(&[corner, Vec2::new(opposite.x, corner.y), opposite, Vec2::new(corner.x, opposite.y)])
     }
 
-    /// The circle of `radius` about `centre` (length).
+    /// Circle of `radius` about `centre` (length).
     ///
     /// # Errors
     /// A radius that is not positive, a centre that is not finite.
@@ -67,7 +66,7 @@ impl Outline {
         Self::ellipse(centre, [radius, radius])
     }
 
-    /// The ellipse with the half axes `axes` along x and y about `centre` (length).
+    /// Ellipse with the half axes `axes` along x and y about `centre` (length).
     ///
     /// # Errors
     /// Half axes that are not positive, a centre that is not finite.
@@ -80,7 +79,7 @@ impl Outline {
         })
     }
 
-    /// The closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
+    /// Closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
     ///
     /// # Errors
     /// A curve that is not finite, has no length, or does not close.
@@ -88,7 +87,7 @@ impl Outline {
         Self::from_pieces(vec![Piece::curve(Arc::new(curve), [0.0, 1.0])?], None)
     }
 
-    /// The level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a
+    /// Level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a
     /// channel wall.
     ///
     /// # Errors
@@ -99,7 +98,7 @@ impl Outline {
         Self::straight("the start and height", std::iter::once((&points[0], &points[1])), Some(period))
     }
 
-    /// The smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
+    /// Smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
     ///
     /// # Errors
     /// A period that is not positive, a height that is not finite or does not return to its first value.
@@ -111,11 +110,11 @@ impl Outline {
         Self::profile_with_corners(start, period, &[], height)
     }
 
-    /// The piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated,
-    /// with corners at the increasing positions `corners` between them.
+    /// Piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated, with
+    /// corners at the increasing positions `corners` between them.
     ///
     /// # Errors
-    /// As [`Outline::profile`]; corners that do not increase from above the start to below the end.
+    /// Those of [`Outline::profile`]; corners that do not increase from above the start to below the end.
     pub fn profile_with_corners(
         start: f64,
         period: f64,
@@ -128,7 +127,7 @@ impl Outline {
         Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [start, start + period], corners)?, Some(period))
     }
 
-    /// The line of straight pieces through `points` (length), repeated with `period` (length) so that the first point
+    /// Line of straight pieces through `points` (length), repeated with `period` (length) so that the first point
     /// follows the last one period further. It may overhang.
     ///
     /// # Errors
@@ -160,8 +159,7 @@ impl Outline {
         let (first, last) = (outline.pieces[0].start(), outline.pieces[outline.pieces.len() - 1].end());
         let gap = last - first - Vec2::new(period.unwrap_or(0.0), 0.0);
         if gap.length() > 1e-9 * outline.length() {
-            let [x, y] = last.into();
-            return Err(SolidError::OpenOutline { x, y, gap: gap.length() });
+            return Err(SolidError::OpenOutline { place: last, gap: gap.length() });
         }
         Ok(outline)
     }
@@ -172,7 +170,7 @@ impl Outline {
         self.period
     }
 
-    /// Its first point (length).
+    /// First point (length).
     pub(crate) fn start(&self) -> Vec2 {
         self.pieces[0].start()
     }
@@ -183,7 +181,7 @@ impl Outline {
         self.pieces.iter().map(Piece::length).sum()
     }
 
-    /// The outline moved by `offset` (length).
+    /// Outline moved by `offset` (length).
     ///
     /// # Errors
     /// An offset that is not finite.
@@ -192,7 +190,7 @@ impl Outline {
         self.mapped(move |point| point + offset, self.period)
     }
 
-    /// A closed outline turned counter-clockwise by `angle` (radians) about `centre` (length).
+    /// Closed outline turned counter-clockwise by `angle` (radians) about `centre` (length).
     ///
     /// # Errors
     /// An angle or centre that is not finite, a periodic outline.
@@ -209,7 +207,7 @@ impl Outline {
         self.mapped(move |point| centre + rotation.rotate(point - centre), None)
     }
 
-    /// The outline with y reversed about the level `height` (length): the other wall of a symmetric channel.
+    /// Mirror image of the outline about the level y = `height` (length): the other wall of a symmetric channel.
     ///
     /// # Errors
     /// A height that is not finite.
@@ -227,7 +225,7 @@ impl Outline {
         Self::from_pieces(pieces, period)
     }
 
-    /// The outline with every corner between two straight pieces rounded by a circle of `radius` (length).
+    /// Outline with every corner between two straight pieces rounded by a circle of `radius` (length).
     ///
     /// # Errors
     /// A radius that is not positive or too large for the sides next to a corner.
@@ -242,18 +240,13 @@ impl Outline {
     /// # Errors
     /// A spacing that is not positive, or so small that there would be more than 1e6 points.
     pub fn resampled(&self, spacing: f64) -> Result<Vec<Vec2>, SolidError> {
-        self.resampled_from(spacing, 0.0)
-    }
-
-    /// The same, where an outline without corners starts with the fraction `phase` of a spacing.
-    pub(crate) fn resampled_from(&self, spacing: f64, phase: f64) -> Result<Vec<Vec2>, SolidError> {
         length("the spacing", spacing)?;
         within("the length of an outline over the spacing", self.length() / spacing, 0.0, MOST_POINTS)?;
         let track = Track::new(self);
-        Ok(track.places(spacing, phase).into_iter().map(|place| track.at(place)).collect())
+        Ok(track.places(spacing, 0.0).into_iter().map(|place| track.at(place)).collect())
     }
 
-    /// Whether the tangent turns at the start of piece k.
+    /// Tells whether the tangent turns at the start of piece k.
     fn is_corner(&self, k: usize) -> bool {
         let count = self.pieces.len();
         is_corner(&self.pieces[(k + count - 1) % count], &self.pieces[k])

@@ -1,27 +1,24 @@
-//! Rigid bodies that move freely.
+//! Rigid bodies that move freely in the flow.
 
-use ib_core::{
-    Body, BodyError, Discretisation, MarkerKind, Observe, Vec2,
-    input::{all_points_finite, at_least, positive},
-    scene::BodyFlow,
-};
+use motile_base::{Vec2, all_points_finite, at_least, positive};
+use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe};
 
 use crate::SolidError;
 
-/// Least number of markers of an outline.
+/// Fewest markers of an outline: its curvature and its normals come from Fourier series, of three modes at least.
 pub(crate) const LEAST_MARKERS: usize = 8;
 
-/// A rigid body of any smooth outline that the fluid carries along, with forces that others put on it: that of a user
-/// and that of a repulsion.
+/// A rigid body of any smooth outline that the fluid carries along, under a load of the user's and the repulsion of
+/// other bodies.
 ///
-/// Its state is the centroid of its area and an angle. No scheme for a grid alone knows it; boundary integrals and
-/// layers do ([`MarkerKind::Rigid`]), which give its markers the velocities of one rigid motion.
+/// The state is the centroid of its area and an angle. Boundary integrals and layers give its markers the velocities of
+/// one rigid motion ([`MarkerKind::Rigid`]); the methods of a grid alone do not support it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidBody {
     name: String,
     /// Markers about the centroid at an angle of zero (length).
     outline: Vec<Vec2>,
-    /// Their mean, and the sum of their squared distances from it.
+    /// Mean of the markers (length), and sum of their squared distances from it (length squared).
     mean: Vec2,
     inertia: f64,
     area: f64,
@@ -31,12 +28,13 @@ pub struct RigidBody {
     torque: f64,
 }
 
-/// How a rigid body moves.
+/// Position and velocity of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RigidBodyMotion {
-    /// The centroid of its area (length).
+    /// Centroid of the area (length).
     pub centre: Vec2,
-    /// How far it has turned since the start (radians, counter-clockwise).
+    /// Angle turned since the start (radians, counter-clockwise).
     pub angle: f64,
     /// Velocity of the centroid (length per time).
     pub velocity: Vec2,
@@ -45,7 +43,7 @@ pub struct RigidBodyMotion {
 }
 
 impl RigidBody {
-    /// A body from points of its outline (length), in either direction, at equally spaced values of some parameter.
+    /// Rigid body from points of its outline (length), in either direction, at equally spaced values of some parameter.
     ///
     /// # Errors
     /// Fewer than 8 points, points that are not finite, an outline without area.
@@ -59,14 +57,14 @@ impl RigidBody {
         Ok(Self { name, outline, mean, inertia, area, centre, angle: 0.0, force: Vec2::ZERO, torque: 0.0 })
     }
 
-    /// The same body with a name for messages.
+    /// Gives the body a name for messages ("rigid body" otherwise).
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
-    /// The same body on which something acts with a force (force) in its centroid and a torque (force times length).
-    /// In the plane the forces of a scene should have no resultant, which would move all of the fluid.
+    /// Loads the body with a force at its centroid (force) and a torque (force times length). In the plane the forces
+    /// of a scene should have no resultant: it would set all of the fluid in motion.
     ///
     /// # Errors
     /// Values that are not finite.
@@ -75,31 +73,32 @@ impl RigidBody {
         Ok(Self { force, torque, ..self })
     }
 
-    /// The centroid of its area (length).
+    /// Centroid of the area (length).
     #[must_use]
     pub fn centre(&self) -> Vec2 {
         self.centre
     }
 
-    /// How far it has turned since the start (radians, counter-clockwise).
+    /// Angle turned since the start (radians, counter-clockwise).
     #[must_use]
     pub fn angle(&self) -> f64 {
         self.angle
     }
 
-    /// Its area (length squared).
+    /// Area (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// Its markers where they are now (length).
+    /// Present positions of the markers (length).
     pub fn markers(&self) -> impl Iterator<Item = Vec2> {
         let turn = Vec2::from_angle(self.angle);
         self.outline.iter().map(move |arm| self.centre + turn.rotate(*arm))
     }
 
-    /// Velocity of the centroid and angular velocity of the rigid motion nearest to velocities at the markers.
+    /// Velocity of the centroid (length per time) and angular velocity (radians per time) of the rigid motion nearest,
+    /// by least squares, to velocities at the markers (length per time).
     fn motion(&self, velocities: &[Vec2]) -> (Vec2, f64) {
         let turn = Vec2::from_angle(self.angle);
         let mean = velocities.iter().sum::<Vec2>() / velocities.len() as f64;
@@ -109,7 +108,7 @@ impl RigidBody {
     }
 }
 
-/// Points counter-clockwise, the area that they enclose, and its centroid.
+/// Checked points of an outline, counter-clockwise, with the area (length squared) and the centroid of the polygon.
 pub(crate) fn closed_outline(points: &[Vec2]) -> Result<(Vec<Vec2>, f64, Vec2), SolidError> {
     at_least("the points of an outline", points.len(), LEAST_MARKERS)?;
     all_points_finite("the points of an outline", points)?;
@@ -146,8 +145,8 @@ impl Body for RigidBody {
         positions.iter_mut().zip(self.markers()).for_each(|(position, marker)| *position = marker);
     }
 
-    /// Forces with the resultant and the torque of the load; how they are spread over the body means nothing.
-    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    /// Forces with the resultant and the torque of the load, which alone act on a rigid body.
+    fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         let turn = Vec2::from_angle(self.angle);
         let twist = (self.torque - turn.rotate(self.mean).perp_dot(self.force)) / self.inertia;
         let share = self.force / self.outline.len() as f64;
@@ -178,12 +177,17 @@ impl Body for RigidBody {
         rate.copy_from_slice(&[velocity.x, velocity.y, spin]);
     }
 
+    fn mirror(&self, _markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
+        image.copy_from_slice(&[state[0], -state[1], -state[2]]);
+        true
+    }
+
     fn write_scales(&self, scales: &mut [f64]) {
         let size = (self.area / std::f64::consts::PI).sqrt();
         scales.copy_from_slice(&[size, size, 1.0]);
     }
 
-    /// Its shape and what acts on it.
+    /// Shape and load.
     fn properties(&self) -> Vec<(String, f64)> {
         let properties = [
             ("the number of markers", self.outline.len() as f64),
@@ -200,7 +204,7 @@ impl Body for RigidBody {
 impl Observe for RigidBody {
     type Observables = RigidBodyMotion;
 
-    fn observables(&self, _medium: &Discretisation, flow: &BodyFlow<'_>) -> Result<RigidBodyMotion, BodyError> {
+    fn observables(&self, _view: &FluidView, flow: &BodyFlow<'_>) -> Result<RigidBodyMotion, BodyError> {
         let (velocity, spin) = self.motion(flow.velocities);
         Ok(RigidBodyMotion { centre: self.centre, angle: self.angle, velocity, spin })
     }

@@ -2,33 +2,31 @@
 
 use std::f64::consts::{PI, TAU};
 
-use fourier::PeriodicSeries;
-use ib_core::{
-    Body, BodyError, Discretisation, MarkerKind, Vec2,
-    body::{StepLimit, read_points, write_points},
-    input::{InputError, all_points_finite, not_negative, positive, same_length},
-};
+use motile_base::{InputError, PeriodicSeries, Vec2, all_points_finite, not_negative, positive, same_length};
+use motile_scene::{Body, BodyError, FluidView, MarkerKind, StepLimit, mirror_points, read_points, write_points};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use crate::{SolidError, rigid_body::closed_outline};
 
-/// What the bending of a membrane is measured by. They differ where it is stretched too.
+/// Measure k of the bending of a membrane in its energy. The measures differ where the membrane is stretched too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum BendingMeasure {
-    /// The curvature kappa, the angle by which the tangent turns per length now.
+    /// Curvature kappa, the angle by which the tangent turns per present length (1/length).
     #[default]
     Curvature,
-    /// The angle by which the tangent turns per reference length, kappa times the stretch: that of beams that are
-    /// chains of rigid links.
+    /// Angle by which the tangent turns per reference length, kappa times the stretch (1/length): that of a chain of
+    /// links with hinges between them.
     TurningAngle,
 }
 
-/// A closed elastic membrane around fluid of its own viscosity, that moves with the fluid: a shell inside a droplet, or
+/// A closed elastic membrane that moves with the fluid, around fluid of its own viscosity: a shell inside a droplet, or
 /// a capsule.
 ///
-/// With the stretch lambda, the ratio of present and reference length, and the bending measure k
+/// With the stretch lambda, the ratio of present and reference length, and the bending measure k (1/length), k0 at
+/// rest,
 ///
 /// ```text
 /// energy = INT E_s/2 (lambda - 1)^2 + B/2 (k - k0)^2 dS          over the reference length S
@@ -39,7 +37,7 @@ pub enum BendingMeasure {
 ///
 /// ```
 /// use elastic_solids::{Shell, SolidError};
-/// use ib_core::Vec2;
+/// use motile_base::Vec2;
 ///
 /// let turn = std::f64::consts::TAU;
 /// let circle = |r: f64| (0..64).map(|k| r * Vec2::from_angle(turn * f64::from(k) / 64.0)).collect::<Vec<_>>();
@@ -57,14 +55,14 @@ pub struct Shell {
     bending: f64,
     measure: BendingMeasure,
     viscosity_inside: Option<f64>,
-    /// Reference length per parameter, and bending measure at rest, at the markers.
+    /// Reference length per parameter (length), and bending measure at rest (1/length), at the markers.
     lengths: Vec<f64>,
     curvatures: Vec<f64>,
     area: f64,
     series: PeriodicSeries,
-    /// First and second derivative by the parameter.
+    /// First and second derivative of the position by the parameter (length).
     slopes: [Vec<Complex64>; 2],
-    /// Changes of the energy with both.
+    /// Derivatives of the energy density by both (force).
     pulls: [Vec<Complex64>; 2],
     /// Truncation of the motion where the flow resolves fewer modes than there are markers.
     modes: Option<usize>,
@@ -72,8 +70,8 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// A membrane through points (length) of equally spaced values of some parameter, in either direction, that is at
-    /// rest where it is, with its moduli of stretching E_s (force) and bending B (force times length squared).
+    /// Membrane through points (length) at equally spaced values of some parameter, in either direction, at rest in
+    /// this shape, with the moduli of stretching E_s (force) and bending B (force times length squared).
     ///
     /// # Errors
     /// Fewer than 8 points, points that are not finite or coincide, no area, moduli that are negative or not finite.
@@ -109,20 +107,19 @@ impl Shell {
         Ok(shell)
     }
 
-    /// The same shell with a name for messages.
+    /// Gives the shell a name for messages ("shell" otherwise).
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
-    /// The same shell with another measure of bending.
+    /// Measures the bending in another way than by the curvature.
     #[must_use]
     pub fn with_measure(self, measure: BendingMeasure) -> Self {
         Self { measure, ..self }
     }
 
-    /// The same shell whose bending is at rest at one curvature everywhere (1/length), positive inwards, whatever its
-    /// shape.
+    /// Puts the bending at rest at one curvature everywhere (1/length; positive for a circle), whatever the shape.
     ///
     /// # Errors
     /// A curvature that is not finite.
@@ -132,7 +129,7 @@ impl Shell {
         Ok(self)
     }
 
-    /// The same shell filled with a fluid of another viscosity (stress times time) than that around it.
+    /// Fills the shell with a fluid of another viscosity (stress times time) than that around it.
     ///
     /// # Errors
     /// A viscosity that is not positive and finite.
@@ -140,7 +137,7 @@ impl Shell {
         Ok(Self { viscosity_inside: Some(positive("the viscosity inside", viscosity)?), ..self })
     }
 
-    /// The same shell with its points elsewhere (length), at rest where it was.
+    /// Moves the points of the shell (length); it stays at rest in the shape that it was made in.
     ///
     /// # Errors
     /// Another number of points, points that are not finite or coincide.
@@ -155,7 +152,7 @@ impl Shell {
         Ok(self)
     }
 
-    /// Its points where they are now (length), counter-clockwise.
+    /// Present positions of the points (length), counter-clockwise.
     #[must_use]
     pub fn positions(&self) -> &[Vec2] {
         &self.positions
@@ -167,7 +164,7 @@ impl Shell {
         self.viscosity_inside
     }
 
-    /// The elastic energy (force times length).
+    /// Elastic energy (force times length).
     #[must_use]
     pub fn energy(&self) -> f64 {
         let sum: f64 = self
@@ -180,7 +177,7 @@ impl Shell {
         0.5 * sum * TAU / self.positions.len() as f64
     }
 
-    /// Stretches, changes of the bending measure, and the measure, at the points.
+    /// Stretch, change of the bending measure from that at rest, and the measure itself, at each point.
     fn strains(&self) -> impl Iterator<Item = [f64; 3]> {
         let [first, second] = &self.slopes;
         let rest = self.lengths.iter().zip(&self.curvatures);
@@ -204,10 +201,10 @@ impl Shell {
         Ok(())
     }
 
-    /// Minus the gradient of the energy (force).
+    /// Writes the elastic forces on the fluid (force): minus the gradient of the energy by the points.
     fn forces(&mut self, forces: &mut [Vec2]) -> Result<(), InputError> {
         let turns = Complex64::I;
-        // The energy changes by P d(slope) + Q d(second derivative).
+        // The energy density changes by P . dX' + Q . dX'', X' and X'' the derivatives by the parameter.
         let power = match self.measure {
             BendingMeasure::Curvature => 3.0,
             BendingMeasure::TurningAngle => 2.0,
@@ -257,8 +254,8 @@ impl Body for Shell {
         positions.copy_from_slice(&self.positions);
     }
 
-    fn write_forces(&mut self, medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.modes = medium.shape_modes.filter(|&modes| modes < self.positions.len());
+    fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.modes = view.shape_modes.filter(|&modes| modes < self.positions.len());
         self.differentiate()?;
         Ok(self.forces(forces)?)
     }
@@ -275,6 +272,11 @@ impl Body for Shell {
         read_points(state, &mut self.positions)
     }
 
+    fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
+        mirror_points(markers, state, image);
+        true
+    }
+
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         self.motions.copy_from_slice(velocities);
         if let Some(modes) = self.modes {
@@ -284,22 +286,23 @@ impl Body for Shell {
         write_points(&self.motions, rate);
     }
 
-    /// That of the shortest wave of the largest wave number q that moves, on a flat membrane between the two fluids:
-    /// `q (E_s + |T| + B q^2)/(2 (eta_in + eta_out))` with the largest tension T, both moduli at the largest stretch.
-    fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+    /// Stable step of the shortest wave that moves, of wave number q: on a flat membrane between the two fluids it
+    /// relaxes at the rate `q (E_s + |T| + B q^2)/(2 (eta_in + eta_out))`, T the largest tension, both moduli at the
+    /// largest stretch.
+    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let count = self.positions.len();
         let next = self.positions.iter().cycle().skip(1);
         let shortest = self.positions.iter().zip(next).map(|(a, b)| a.distance(*b)).fold(f64::INFINITY, f64::min);
-        let wave = match medium.shape_modes {
+        let wave = match view.shape_modes {
             Some(modes) => PI * modes.min(count) as f64 / (count as f64 * shortest),
-            None => 4.0 * medium.interface_stiffness,
+            None => 4.0 * view.interface_stiffness,
         };
         let (mut stretched, mut tension) = (1.0_f64, 0.0_f64);
         for [stretch, ..] in self.strains() {
             stretched = stretched.max(stretch).max(1.0 / stretch);
             tension = tension.max(self.stretching * (stretch - 1.0).abs());
         }
-        let viscosities = medium.viscosity + self.viscosity_inside.unwrap_or(medium.viscosity);
+        let viscosities = view.viscosity + self.viscosity_inside.unwrap_or(view.viscosity);
         let modulus = stretched * (self.stretching + self.bending * wave * wave) + tension;
         limits(StepLimit::decay(4.0 * viscosities / (wave * modulus), "the elastic membrane"));
     }
@@ -308,7 +311,7 @@ impl Body for Shell {
         scales.fill((self.area / PI).sqrt());
     }
 
-    /// Its moduli and its shape at rest.
+    /// Moduli, and the shape at rest.
     fn properties(&self) -> Vec<(String, f64)> {
         let count = self.positions.len() as f64;
         let mut properties = vec![

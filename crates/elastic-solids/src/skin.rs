@@ -1,14 +1,13 @@
 //! Elastic skins on the surfaces of solids.
 
-use ib_core::Vec2;
-use ib_core::input::not_negative;
+use motile_base::{Vec2, not_negative};
 
-use crate::{SolidError, TriangleMesh};
+use crate::{SolidError, forces::Bar, mesh::TriangleMesh};
 
 /// A skin on the whole boundary of a mesh, without stress in the reference state, that resists stretching and bending.
 ///
-/// With the length l and the turning angle theta of the sides of the boundary, L and theta_0 in the reference state,
-/// and S the mean length of two sides
+/// With l the length of a side of the boundary and theta the angle between two that follow each other, L and theta_0
+/// those of the reference state, and S the mean of the reference lengths of the two sides,
 ///
 /// ```text
 /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
@@ -20,34 +19,13 @@ use crate::{SolidError, TriangleMesh};
 pub(crate) struct Skin {
     stretching: f64,
     bending: f64,
-    sides: Vec<Side>,
-    /// Pairs of sides that follow each other, and the reference angle between them.
+    /// Sides of the boundary.
+    sides: Vec<Bar>,
+    /// Pairs of sides that follow each other, by index, and the reference angle between them (radians).
     hinges: Vec<([usize; 2], f64)>,
 }
 
-/// A side of the boundary between two points.
-#[derive(Debug, Clone, Copy)]
-struct Side {
-    ends: [usize; 2],
-    /// What to add to x of the second end across the seam of a periodic mesh (length).
-    shift: f64,
-    /// Reference length.
-    length: f64,
-}
-
-impl Side {
-    fn span(&self, positions: &[Vec2]) -> Vec2 {
-        let [from, to] = self.ends.map(|point| positions[point]);
-        Vec2::new(to.x + self.shift - from.x, to.y - from.y)
-    }
-}
-
-/// The angle from one side to the next (radians).
-fn turning(first: Vec2, second: Vec2) -> f64 {
-    first.perp_dot(second).atan2(first.dot(second))
-}
-
-/// Change of the direction of a side with its vector.
+/// Gradient of the direction angle of a side by its vector (1/length).
 fn turned(side: Vec2) -> Vec2 {
     side.perp() / side.length_squared().max(f64::MIN_POSITIVE)
 }
@@ -67,47 +45,45 @@ impl Skin {
             for (&from, &to) in outline.points.iter().zip(next) {
                 let span = mesh.points()[to] - mesh.points()[from];
                 let shift = mesh.period().map_or(0.0, |period| -period * (span.x / period).round());
-                let mut side = Side { ends: [from, to], shift, length: 0.0 };
-                side.length = side.span(mesh.points()).length();
-                sides.push(side);
+                let side = Bar { ends: [from, to].map(|point| point as u32), shift, length: 0.0 };
+                sides.push(Bar { length: side.span(mesh.points()).length(), ..side });
             }
             hinges.extend((0..count).map(|k| {
                 let pair = [first + k, first + (k + 1) % count];
                 let [a, b] = pair.map(|side: usize| sides[side].span(mesh.points()));
-                (pair, turning(a, b))
+                (pair, a.angle_to(b))
             }));
         }
         Ok(Self { stretching, bending, sides, hinges })
     }
 
-    /// Adds its forces (force) on the points of the mesh.
+    /// Adds the forces of the skin (force) on the points of the mesh.
     pub(crate) fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) {
         for side in &self.sides {
             let span = side.span(positions);
-            let pull = span.normalize_or_zero() * (self.stretching * (span.length() / side.length - 1.0));
-            forces[side.ends[0]] += pull;
-            forces[side.ends[1]] -= pull;
+            let pull =
+                span.try_normalize().unwrap_or_default() * (self.stretching * (span.length() / side.length - 1.0));
+            side.add_pull(pull, forces);
         }
         for (pair, rest) in &self.hinges {
             let [first, second] = pair.map(|side| self.sides[side]);
             let [a, b] = [first, second].map(|side| side.span(positions));
-            let moment = self.bending * (turning(a, b) - rest) / (0.5 * (first.length + second.length));
+            let moment = self.bending * (a.angle_to(b) - rest) / (0.5 * (first.length + second.length));
             let [a, b] = [a, b].map(|side| moment * turned(side));
-            forces[first.ends[0]] -= a;
-            forces[first.ends[1]] += a;
-            forces[second.ends[0]] += b;
-            forces[second.ends[1]] -= b;
+            first.add_pull(-a, forces);
+            second.add_pull(b, forces);
         }
     }
 
-    /// Viscosity times the fastest rate at which it relaxes in fluid (force per length): that of waves of two sides,
-    /// `(E_s/s + 4 B/s^3)/pi` with the mobility `1/(4 eta q)` at the wave number `q = pi/s`, s the shortest side.
+    /// Viscosity times the fastest rate at which the skin relaxes in fluid (force per length): that of waves of two
+    /// sides, `(E_s/s + 4 B/s^3)/pi` with the mobility `1/(4 eta q)` at the wave number `q = pi/s`, s the shortest
+    /// side.
     pub(crate) fn stiffness(&self) -> f64 {
         let shortest = self.sides.iter().map(|side| side.length).fold(f64::INFINITY, f64::min);
         (self.stretching / shortest + 4.0 * self.bending / shortest.powi(3)) / std::f64::consts::PI
     }
 
-    /// Its energy.
+    /// Elastic energy of the skin (energy).
     pub(crate) fn energy(&self, positions: &[Vec2]) -> f64 {
         let sides = self.sides.iter().map(|side| {
             let strain = side.span(positions).length() / side.length - 1.0;
@@ -115,7 +91,7 @@ impl Skin {
         });
         let hinges = self.hinges.iter().map(|(pair, rest)| {
             let [first, second] = pair.map(|side| self.sides[side]);
-            let angle = turning(first.span(positions), second.span(positions)) - rest;
+            let angle = first.span(positions).angle_to(second.span(positions)) - rest;
             self.bending * angle * angle / (first.length + second.length)
         });
         sides.sum::<f64>() + hinges.sum::<f64>()

@@ -1,30 +1,29 @@
-//! An elastic solid: a mesh, its forces, and where its points are now.
+//! Elastic solids: a mesh, the law of its forces, and the present positions of its points.
 
 mod body;
 mod deformation;
 
 use std::sync::Arc;
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least, positive, same_length};
+use motile_base::{Vec2, all_points_finite, at_least, positive, same_length};
 
 use crate::forces::{Hyperelastic, Springs};
+use crate::mesh::TriangleMesh;
 use crate::skin::Skin;
-use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
+use crate::{ElasticForces, EnergyDensity, SolidError};
 
 pub use deformation::Deformation;
 
-/// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
-/// and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a hyperelastic material
-/// (Cowley section 4.2), or has forces of your own.
+/// An elastic solid in a fluid, a body of a scene ([`motile_scene::Body`]): its points put their elastic forces on the
+/// fluid and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a hyperelastic
+/// material (Cowley section 4.2), or has forces of your own.
 ///
 /// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
 /// the reference state.
 ///
 /// ```
-/// use elastic_solids::channel::ChannelShape;
-/// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
-/// use ib_core::Vec2;
+/// use elastic_solids::{ChannelShape, Mesher, NeoHookean, Solid, SolidError};
+/// use motile_base::Vec2;
 ///
 /// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest
 /// // row pinned.
@@ -43,14 +42,14 @@ pub struct Solid {
     pub(crate) name: String,
     pub(crate) mesh: TriangleMesh,
     pub(crate) law: Arc<dyn ElasticForces>,
-    /// Of all points, pinned ones among them.
+    /// Positions of all points, pinned ones among them (length).
     pub(crate) positions: Vec<Vec2>,
-    /// Points that are not pinned, which are the markers.
+    /// Indices of the points that are not pinned, which are the markers.
     pub(crate) free: Vec<usize>,
     pub(crate) tethers: Vec<Tether>,
-    /// Forces of all points, kept between calls.
+    /// Forces on the fluid of all points (force), kept between calls.
     pub(crate) forces: Vec<Vec2>,
-    /// Mean edge of the mesh.
+    /// Mean length of the edges of the mesh in the reference state (length).
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
     pub(crate) skin: Option<Skin>,
@@ -59,11 +58,11 @@ pub struct Solid {
 /// A spring from a point to a fixed place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tether {
-    /// The point of the mesh.
+    /// Index of the point of the mesh.
     pub point: usize,
-    /// Where it is held (length).
+    /// Place to which the point is held (length).
     pub anchor: Vec2,
-    /// Force per distance (force per length).
+    /// Spring constant (force per length).
     pub stiffness: f64,
 }
 
@@ -71,9 +70,8 @@ impl Solid {
     /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
     ///
     /// ```
-    /// use elastic_solids::mesh::equilateral_strip;
-    /// use elastic_solids::{Moduli, Solid, SolidError};
-    /// use ib_core::Vec2;
+    /// use elastic_solids::{Moduli, Solid, SolidError, mesh::equilateral_strip};
+    /// use motile_base::Vec2;
     ///
     /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
     /// let moduli = Moduli::from_thesis_spring_constant(1e4)?;
@@ -144,23 +142,23 @@ impl Solid {
         }
     }
 
-    /// The same, where triangles may become inverted, which springs do not resist: for comparison with work that lets
-    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that inverts one is an
-    /// error, as it is always where the energy is not defined for it.
+    /// Allows inverted triangles, which springs do not resist: for comparison with work that has them.
+    /// [`Solid::smallest_jacobian`] is negative where there are some. Otherwise a step that inverts a triangle is an
+    /// error, as it always is for a material whose energy is not defined there.
     #[must_use]
     pub fn allow_inversion(mut self) -> Self {
         self.may_invert = true;
         self
     }
 
-    /// The same with an elastic skin on its surface, without stress in the reference state, with its moduli of
-    /// stretching E_s (force) and bending B (force times length squared):
+    /// Covers the surface with an elastic skin, without stress in the reference state, with the moduli of stretching
+    /// E_s (force) and bending B (force times length squared):
     ///
     /// ```text
     /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
     /// ```
     ///
-    /// l and theta the length of the sides of the surface and the angles between them, L and theta_0 those of the
+    /// with the lengths l of the sides of the surface and the angles theta between them, L and theta_0 those of the
     /// reference state, S the mean length of two sides. A soft solid that is compressed along its surface beyond a
     /// stretch of about 0.65 creases; a skin sets the length, of the order of the cube root of B over the shear
     /// modulus, below which it does not fold.
@@ -172,16 +170,16 @@ impl Solid {
         Ok(self)
     }
 
-    /// The same with a name for messages ("solid" otherwise).
+    /// Gives the solid a name for messages ("solid" otherwise).
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
         self
     }
 
-    /// The same with the points pinned whose reference position (length) satisfies a condition, such as the outermost
-    /// row of a wall on the no-slip wall of the channel. Pinned points stay where they are, and their forces are not
-    /// put on the fluid: whatever holds them takes the forces up.
+    /// Pins the points whose reference position (length) satisfies a condition, such as the outermost row of a wall on
+    /// the no-slip wall of the channel. Pinned points stay where they are, and their forces do not act on the fluid:
+    /// the support that holds them takes these up.
     ///
     /// # Errors
     /// No point left free.
@@ -192,8 +190,8 @@ impl Solid {
         Ok(self)
     }
 
-    /// The same with springs of `stiffness` (force per length) from each point whose reference position (length)
-    /// satisfies a condition to that position.
+    /// Tethers each point whose reference position (length) satisfies a condition to that position, by a spring of
+    /// `stiffness` (force per length).
     ///
     /// # Errors
     /// A stiffness that is not positive and finite; no point that satisfies the condition.
@@ -206,7 +204,7 @@ impl Solid {
         Ok(self)
     }
 
-    /// The same in a deformed state: every point, pinned ones too, at a function of its reference position (length).
+    /// Deforms the solid: puts every point, pinned ones too, at a function of its reference position (length).
     ///
     /// # Errors
     /// Positions that are not finite.
@@ -216,8 +214,8 @@ impl Solid {
         Ok(self)
     }
 
-    /// Puts all points, pinned ones too, elsewhere (length). Where they make a state that cannot be, the next step says
-    /// so.
+    /// Puts all points, pinned ones too, at these positions (length). If they invert a triangle, the next step ends in
+    /// an error.
     ///
     /// # Errors
     /// A list of the wrong length, positions that are not finite.
@@ -234,7 +232,7 @@ impl Solid {
         &self.mesh
     }
 
-    /// What computes the elastic forces.
+    /// Law of the elastic forces.
     #[must_use]
     pub fn law(&self) -> &dyn ElasticForces {
         self.law.as_ref()
@@ -246,24 +244,24 @@ impl Solid {
         &self.positions
     }
 
-    /// The points that are not pinned, in increasing order; they are the markers of the body.
+    /// Indices of the points that are not pinned, in increasing order; these points are the markers of the body.
     #[must_use]
     pub fn free_points(&self) -> &[usize] {
         &self.free
     }
 
-    /// The tethers.
+    /// Tethers of the solid.
     #[must_use]
     pub fn tethers(&self) -> &[Tether] {
         &self.tethers
     }
 
-    /// The tethers, to be moved or changed between steps.
+    /// Tethers of the solid, to be moved or changed between steps.
     pub fn tethers_mut(&mut self) -> &mut [Tether] {
         &mut self.tethers
     }
 
-    /// Computes the forces (force) of all points, those of the skin and of tethers included.
+    /// Computes the forces on the fluid (force) of all points, from law, skin and tethers.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
         self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;

@@ -1,7 +1,8 @@
 //! How even the meshes of the ready shapes are.
 
-use elastic_solids::{Channel, Mesher, Outline, TriangleMesh, channel::ChannelShape, mesh::MeshQuality};
-use ib_core::Vec2;
+use elastic_solids::mesh::{MeshQuality, TriangleMesh};
+use elastic_solids::{Channel, ChannelShape, Mesher, Outline};
+use motile_base::Vec2;
 
 const PERIOD: f64 = 12.0;
 const WIDTH: f64 = 2.0;

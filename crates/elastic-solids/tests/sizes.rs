@@ -1,10 +1,10 @@
 //! Numbers without measure: every constructor ends in a typed error or in something of bounded size.
 
 use allocation_counter::measure;
-use elastic_solids::channel::ChannelShape;
+use elastic_solids::ChannelShape;
 use elastic_solids::mesh::{equilateral_block, equilateral_strip, fitted_strip};
 use elastic_solids::{Channel, Interior, Mesher, Outline, SolidError};
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 /// Numbers that a length or a count times one may be. Below 1e-154 squares vanish, above 1e154 they are infinite.
 const LENGTHS: [f64; 14] =

@@ -1,8 +1,11 @@
 //! Solids in the flow of the grid: stability limits, no allocation.
 
 use allocation_counter::measure;
-use elastic_solids::{NeoHookean, Outline, Solid, TriangleMesh, mesh::fitted_strip};
-use ib_core::{AnyKernel, ImmersedBoundary, Scene, Vec2};
+use elastic_solids::mesh::{TriangleMesh, fitted_strip};
+use elastic_solids::{NeoHookean, Outline, Solid};
+use ib_core::{AnyKernel, ImmersedBoundary};
+use motile_base::Vec2;
+use motile_scene::Scene;
 use stokes_grid::{ChannelStokes, Grid};
 
 type Channel = Scene<ImmersedBoundary<ChannelStokes, AnyKernel>>;

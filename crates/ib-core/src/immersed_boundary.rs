@@ -1,24 +1,26 @@
 //! The immersed boundary method: a grid between markers.
 
-mod contrast_flow;
 pub(crate) mod sampling;
 mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;
 
-use input_checks::{all_points_finite, same_length};
-use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
+use motile_base::{Drive, FlowSample, SolveReport, Vec2, all_points_finite, positive, same_length};
+use motile_scene::{Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 
-use crate::contrast::other_viscosities;
-use crate::mobility::{MobilityCorrection, MobilityDeficit};
-use crate::{
-    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Transfer, Vec2,
-    checkpoint::SavedState, hydrodynamics::FlowWork,
-};
-use contrast_flow::ContrastFlow;
+use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
+use crate::{Kernel, Transfer};
 
 /// How far beyond a wall a marker may lie, in grid spacings.
 pub(crate) const WALL_TOLERANCE: f64 = 0.25;
+
+/// Extents, periods and walls of a grid.
+pub(crate) fn domain(grid: &Grid) -> Domain {
+    let ([lx, ly], [_, bottom]) = (grid.lengths(), grid.origin());
+    let walls = grid.has_walls().then_some([bottom, bottom + ly]);
+    Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls }
+}
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
 /// (Cowley section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
@@ -27,20 +29,8 @@ pub(crate) const WALL_TOLERANCE: f64 = 0.25;
 /// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach
 /// from interfaces, first order within it.
 ///
-/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the exterior fluid; where a
-/// group of markers has another one inside, the boundary integral equation
-///
-/// `(eta_in + eta)/2 v(x) = eta u(x) - (eta_in - eta)/(4 pi) PV INT v(y) T(x, y) n ds`
-///
-/// gives its velocity v from the grid's velocity u, with the stress T of the Green's function of the box or channel, n
-/// outward (Pozrikidis, Boundary Integral and Singularity Methods, 1992). It is solved on the markers by GMRES, to
-/// errors that do not grow with the ratio of viscosities and are of second order in h.
-///
-/// All other markers, and samples, get the flow of forces on the interfaces that, in a fluid of one viscosity, leave
-/// the same velocities there: by uniqueness it is the same flow, and its errors do not grow with the ratio either.
-/// These forces take a few solves on the grid, starting from the last ones. Samples are interpolated cubically, and
-/// next to such an interface along its normal, so that velocities are of second order there too. Without such groups
-/// none of this costs anything.
+/// All fluid has one viscosity: interfaces to another one are refused ([`SmearedContrast`] and
+/// [`crate::ImmersedLayers`] have them), and so are rigid bodies.
 #[derive(Debug, Clone)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
@@ -50,7 +40,6 @@ pub struct ImmersedBoundary<S, K> {
     correction: Option<MobilityCorrection>,
     stiffness: f64,
     variance: f64,
-    contrast: Option<ContrastFlow<K>>,
     /// Whether the solver itself knows the viscosities inside interfaces.
     varying: bool,
     work: FlowWork,
@@ -92,7 +81,6 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             correction: corrected.then(|| MobilityCorrection::new(deficit)),
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
-            contrast: None,
             varying: false,
             work: FlowWork::default(),
             solver,
@@ -117,9 +105,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.transfer.kernel()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation or sampling. Where viscosities differ and
-    /// there are no markers but those of interfaces, an evaluation leaves that of a fluid of one viscosity under the
-    /// same forces.
+    /// The velocity on the grid (length per time) of the last evaluation or sampling.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
@@ -136,20 +122,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(pressure)
     }
 
-    /// The flow on the grid for given positions and forces, without velocities at markers.
-    fn solve(&mut self, positions: &[Vec2], forces: &[Vec2]) -> Result<SolveReport, FlowError> {
-        self.transfer.locate(positions);
-        self.solve_located(forces)
-    }
-
-    /// The same for the positions located last.
-    fn solve_located(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
+    /// The flow on the grid of the markers' forces.
+    fn solve(&mut self, markers: &Markers) -> Result<SolveReport, FlowError> {
+        self.transfer.locate(markers.positions());
         self.density.fill(0.0);
-        self.transfer.spread(forces, &mut self.density)?;
-        self.solve_density(forces.len())
-    }
-
-    fn solve_density(&mut self, markers: usize) -> Result<SolveReport, FlowError> {
+        self.transfer.spread(markers.forces(), &mut self.density)?;
         let before = self.solver.work();
         let report = self.solver.solve(&self.density, &mut self.velocity)?;
         let after = self.solver.work();
@@ -159,42 +136,45 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let iterations = after.iterations - before.iterations;
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
-        self.work.markers_spread += markers;
+        self.work.markers_spread += markers.len();
         Ok(report)
     }
 
     /// Adds the mobility correction of a group to its velocities.
     fn correct(&mut self, index: usize, markers: &mut Markers) -> Result<(), FlowError> {
-        let setting = self.setting();
+        let setting = Setting {
+            spacing: self.grid().spacing(),
+            origin: self.grid().origin(),
+            viscosity: self.solver.viscosity(),
+            walls: domain(self.grid()).walls,
+            variance: self.variance,
+        };
         let group = &markers.groups()[index];
         if let Some(correction) = self.correction.as_mut()
             && matches!(group.kind, MarkerKind::Interface { .. })
         {
             let range = group.range.clone();
-            let (positions, forces) = (&markers.positions[range.clone()], &markers.forces[range.clone()]);
-            correction.apply(&setting, positions, forces, &mut markers.velocities[range])?;
+            let [positions, forces, velocities] = markers.lists_mut().map(|list| &mut list[range.clone()]);
+            correction.apply(&setting, positions, forces, velocities)?;
             self.work.corrections += 1;
         }
         Ok(())
     }
 
-    /// Whether the viscosity inside or around any group differs from that of the exterior fluid.
-    fn has_contrast(&self, markers: &Markers) -> Result<bool, FlowError> {
-        for group in markers.groups() {
-            if other_viscosities(group, self.solver.viscosity())?.is_some() {
-                return Ok(!self.varying);
-            }
-        }
-        Ok(false)
-    }
-
-    /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
+    /// Refuses markers that are not finite or too far beyond a wall, forces that are not finite, rigid bodies, and
+    /// interfaces to another viscosity that the solver does not know.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
-        let walls = self.walls();
+        let walls = domain(self.grid()).walls;
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {
-            let positions = &markers.positions[group.range.clone()];
-            let forces = &markers.forces[group.range.clone()];
+            if other_viscosities(group, self.solver.viscosity())?.is_some() && !self.varying {
+                return Err(FlowError::Unsupported {
+                    what: "an interface to another viscosity on a grid of one viscosity",
+                    remedy: "use layers or boundary integrals, or a smeared contrast",
+                });
+            }
+            let positions = &markers.positions()[group.range.clone()];
+            let forces = &markers.forces()[group.range.clone()];
             for (marker, (position, force)) in positions.iter().zip(forces).enumerate() {
                 for (what, v) in [("the position", position), ("the force", force)] {
                     if !(v.x.is_finite() && v.y.is_finite()) {
@@ -212,23 +192,14 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
         Ok(())
     }
-
-    fn walls(&self) -> Option<[f64; 2]> {
-        let grid = self.grid();
-        let bottom = grid.origin()[1];
-        grid.has_walls().then(|| [bottom, bottom + grid.lengths()[1]])
-    }
 }
 
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
-    fn discretisation(&self) -> Discretisation {
-        let grid = self.grid();
-        let [lx, ly] = grid.lengths();
-        let walls = self.walls();
-        Discretisation {
-            domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
+    fn fluid_view(&self) -> FluidView {
+        FluidView {
+            domain: domain(self.grid()),
             viscosity: self.solver.viscosity(),
-            spacing: Some(grid.spacing()),
+            spacing: Some(self.grid().spacing()),
             shape_modes: None,
             interface_stiffness: self.stiffness,
         }
@@ -240,11 +211,8 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.check(markers)?;
-        if self.has_contrast(markers)? {
-            return self.contrast_velocities(markers);
-        }
-        let report = self.solve(&markers.positions, &markers.forces)?;
-        self.transfer.interpolate(&self.velocity, &mut markers.velocities)?;
+        let report = self.solve(markers)?;
+        self.transfer.interpolate(&self.velocity, markers.velocities_mut())?;
         self.work.evaluations += 1;
         for index in 0..markers.groups().len() {
             self.correct(index, markers)?;
@@ -256,34 +224,33 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         same_length("the samples", points.len(), out.len())?;
         all_points_finite("the points to sample", points)?;
         self.check(markers)?;
-        if self.has_contrast(markers)? {
-            return self.contrast_sample(markers, points, out);
-        }
-        self.solve(&markers.positions, &markers.forces)?;
+        self.solve(markers)?;
         let pressure = self.pressure_field()?;
         sampling::sample(&self.velocity, &pressure, points, out);
         Ok(())
     }
 
-    fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
-        self.contrast.as_ref().map_or(Ok(None), |flow| flow.stresslet(group))
-    }
-
     fn work(&self) -> FlowWork {
         self.work
     }
+}
 
-    fn save(&self) -> SavedState {
-        self.contrast.as_ref().map_or_else(SavedState::default, ContrastFlow::save)
+/// The viscosities inside and outside of a group (stress times time) if it is an interface and one of them is not that
+/// of the exterior fluid.
+///
+/// # Errors
+/// A viscosity that is not positive and finite; a rigid body.
+fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
+    if group.kind == MarkerKind::Rigid {
+        return Err(FlowError::Unsupported {
+            what: "a rigid body that is coupled to a grid alone",
+            remedy: "use boundary integrals or layers",
+        });
     }
-
-    fn load(&mut self, saved: &SavedState) {
-        if saved.counts.is_empty() {
-            // Nothing was known of droplets of another viscosity.
-            self.contrast = None;
-        } else if let Ok(mut flow) = self.take_contrast() {
-            flow.restore(saved.clone());
-            self.contrast = Some(flow);
-        }
+    if !group.kind.is_closed_curve() {
+        return Ok(None);
     }
+    let [inside, outside] = group.viscosities(exterior);
+    let inside = positive("the viscosity inside an interface", inside)?;
+    Ok((inside != exterior || outside != exterior).then_some([inside, outside]))
 }

@@ -3,19 +3,22 @@
 mod contrast;
 mod curves;
 
-use input_checks::{all_points_finite, same_length, within};
-use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
+use motile_base::{Drive, Region, SolveReport, all_points_finite, same_length, within};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 use stokes_layers::gmres::Outcome;
-use stokes_layers::{Forcing, Geometry, Reciprocity, SingleLayer, Solution};
+use stokes_layers::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
 
-use crate::immersed_boundary::{WALL_TOLERANCE, sampling};
 use crate::{
-    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Transfer, Vec2,
-    checkpoint::SavedState,
-    hydrodynamics::{FlowWork, MarkerGroup},
+    Kernel, Transfer,
+    immersed_boundary::{WALL_TOLERANCE, domain, sampling},
 };
 use contrast::LayerContrast;
 use curves::LayerCurves;
+use motile_base::{FlowSample, Vec2};
+use motile_scene::{
+    FlowError, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers,
+    checkpoint::SavedState,
+};
 
 /// Velocities of markers where interfaces and the surfaces of solids are layers ([`SingleLayer`]), exact among each
 /// other at any distance, and the inner points of solids are coupled to them and to one another through a grid.
@@ -35,16 +38,18 @@ use curves::LayerCurves;
 /// flow without divergence through all of it, so that solids keep their volume, and nothing has to be corrected or set
 /// back beside them. Two solutions on the grid an evaluation.
 ///
+/// Where there is neither a solid nor a force on a point, interfaces alone move the fluid: then the grid has no part in
+/// it, and all is as in boundary integrals ([`InterfaceFlow`]), at points too.
+///
 /// Groups of interfaces are layers, and of other groups the markers on their surfaces
-/// ([`crate::hydrodynamics::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings
+/// ([`motile_scene::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings
 /// apart: what lies closer to a surface is hardly seen by the grid beside it.
 #[derive(Debug, Clone)]
 pub struct ImmersedLayers<S, K> {
     solver: S,
     layer: SingleLayer,
-    /// Of an interface.
-    modes: usize,
     curves: LayerCurves,
+    interfaces: InterfaceGroups,
     contrast: LayerContrast,
     /// For inner points and for grid nodes of layers.
     inner: Transfer<K>,
@@ -56,7 +61,6 @@ pub struct ImmersedLayers<S, K> {
     values: Vec<Vec2>,
     /// Of all markers, where points lie in fluid of another viscosity.
     scaled: Vec<Vec2>,
-    stiffness: f64,
     work: FlowWork,
 }
 
@@ -71,26 +75,23 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         within("the number of nodes", nodes as f64, 16.0, 4096.0)?;
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
-        let geometry = if grid.has_walls() {
+        let region = if grid.has_walls() {
             if (grid.origin()[1] + 0.5 * width).abs() > 1e-9 * width {
                 return Err(FlowError::Unsupported {
                     what: "a channel of layers whose middle is not at y = 0",
                     remedy: "leave the origin of the grid as it is made",
                 });
             }
-            // What drives the flow comes from the grid.
-            let forcing = match solver.drive() {
-                Drive::ZeroGradient | Drive::Gradient(_) => Forcing::Gradient(0.0),
-                Drive::ZeroFlux | Drive::Flux(_) => Forcing::Flux(0.0),
-            };
-            Geometry::Channel { length, width, forcing }
+            // Where the grid has a part, the flow that is driven comes from there.
+            Region::Channel { length, width, drive: solver.drive() }
         } else {
-            Geometry::Box { lengths: [length, width] }
+            Region::Box { lengths: [length, width] }
         };
+        let settings = Settings { nodes, tolerance, ..Settings::default() };
         Ok(Self {
-            layer: SingleLayer::new(geometry, tolerance, Reciprocity::Exact)?,
-            modes: nodes,
-            contrast: LayerContrast::new(geometry, solver.viscosity(), nodes, tolerance)?,
+            layer: SingleLayer::new(region, tolerance, Symmetry::ToRoundOff)?,
+            interfaces: InterfaceGroups::new(InterfaceFlow::new(region, solver.viscosity(), settings)?),
+            contrast: LayerContrast::new(nodes, tolerance)?,
             curves: LayerCurves::new(length, grid.spacing(), nodes),
             inner: Transfer::new(grid, kernel.clone()),
             nodes: Transfer::new(grid, kernel),
@@ -99,7 +100,6 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             positions: Vec::new(),
             values: Vec::new(),
             scaled: Vec::new(),
-            stiffness: stiffness(nodes, std::f64::consts::TAU),
             work: FlowWork::default(),
             solver,
         })
@@ -150,7 +150,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         let (bottom, allowed) = (grid.origin()[1], WALL_TOLERANCE * grid.spacing());
         let top = bottom + grid.lengths()[1];
         for &marker in self.curves.inner.iter().filter(|_| grid.has_walls()) {
-            let Vec2 { x, y } = markers.positions[marker];
+            let Vec2 { x, y } = markers.positions()[marker];
             let depth = (bottom - y).max(y - top);
             if depth > allowed {
                 let body = markers.groups().iter().position(|group| group.range.contains(&marker)).unwrap_or(0);
@@ -167,7 +167,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.check_walls(markers)?;
         self.nodes.locate(&self.curves.grid[0]);
         self.positions.clear();
-        self.positions.extend(self.curves.inner.iter().map(|marker| markers.positions[*marker]));
+        self.positions.extend(self.curves.inner.iter().map(|marker| markers.positions()[*marker]));
         self.inner.locate(&self.positions);
         self.layer.load(self.curves.layers())?;
         Ok(())
@@ -183,6 +183,14 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         curves.add_grid(self.solver.viscosity())
     }
 
+    /// Whether forces are on interfaces alone and there are no solids.
+    fn is_of_interfaces(markers: &Markers) -> bool {
+        let at_rest =
+            |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().all(|force| *force == Vec2::ZERO);
+        let mut groups = markers.groups().iter();
+        groups.all(|group| group.kind.is_closed_curve() || group.layers().next().is_none() && at_rest(group))
+    }
+
     /// Whether all fluid has one viscosity.
     fn is_uniform(&self, markers: &Markers) -> bool {
         let viscosity = self.solver.viscosity();
@@ -195,17 +203,19 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// that take their place.
     fn solve_nodes(&mut self, markers: &Markers) -> Result<Outcome, FlowError> {
         self.load(markers)?;
-        self.solve_layers(&markers.forces)?;
+        self.solve_layers(markers.forces())?;
         if self.is_uniform(markers) {
             return Ok(Outcome::default());
         }
         let (viscosity, entries) = (self.solver.viscosity(), self.curves.interface_entries());
-        self.contrast.load(markers)?;
-        let Solution { iterations, residual, .. } = self.contrast.solve(&self.curves.velocities[..entries])?;
-        let points = || markers.groups().iter().filter(|group| !group.kind.is_interface());
+        self.interfaces.load(markers)?;
+        let flow = &mut self.interfaces.flow;
+        let Solution { iterations, residual, .. } = self.contrast.solve(flow, &self.curves.velocities[..entries])?;
+        let points = || markers.groups().iter().filter(|group| !group.kind.is_closed_curve());
         if points().any(|group| group.viscosity_outside.is_some_and(|outside| outside != viscosity)) {
             let mut scaled = std::mem::take(&mut self.scaled);
-            scaled.clone_from(&markers.forces);
+            scaled.clear();
+            scaled.extend_from_slice(markers.forces());
             for group in points() {
                 let factor = viscosity / group.viscosity_outside.unwrap_or(viscosity);
                 scaled[group.range.clone()].iter_mut().for_each(|force| *force *= factor);
@@ -215,7 +225,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             self.scaled = scaled;
         }
         let LayerCurves { forces, velocities, .. } = &mut self.curves;
-        let found = self.contrast.add_forces(&mut self.layer, entries, forces, velocities)?;
+        let found = self.contrast.add_forces(&self.interfaces.flow, &mut self.layer, forces, velocities)?;
         self.curves.refine_forces()?;
         let iterations = iterations + found.iterations;
         self.work.iterations += iterations;
@@ -225,8 +235,8 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
 
     /// Takes the pressure (force per length) from the interfaces' own layers and, on the grid, from all other forces.
     fn sample_pressure(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
-        let mut others = markers.forces.clone();
-        for group in markers.groups().iter().filter(|group| group.kind.is_interface()) {
+        let mut others = markers.forces().to_vec();
+        for group in markers.groups().iter().filter(|group| group.kind.is_closed_curve()) {
             others[group.range.clone()].fill(Vec2::ZERO);
         }
         self.curves.load_forces(&others)?;
@@ -234,7 +244,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.solve_all()?;
         let pressure = self.pressure()?;
         let mut own = vec![FlowSample::default(); points.len()];
-        self.contrast.sample(points, &mut own)?;
+        self.interfaces.flow.sample(points, &mut own)?;
         for ((out, own), point) in out.iter_mut().zip(own).zip(points) {
             out.pressure = own.pressure + sampling::pressure(&pressure, *point);
         }
@@ -249,16 +259,14 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> {
-    fn discretisation(&self) -> Discretisation {
+    fn fluid_view(&self) -> FluidView {
         let grid = self.grid();
-        let ([lx, ly], [_, bottom]) = (grid.lengths(), grid.origin());
-        let walls = grid.has_walls().then_some([bottom, bottom + ly]);
-        Discretisation {
-            domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
+        FluidView {
+            domain: domain(grid),
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),
-            shape_modes: Some(self.modes),
-            interface_stiffness: self.stiffness,
+            shape_modes: Some(self.interfaces.flow.settings().nodes),
+            interface_stiffness: self.interfaces.stiffness(),
         }
     }
 
@@ -267,30 +275,29 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        if Self::is_of_interfaces(markers) {
+            return self.interfaces.velocities(markers, &mut self.work);
+        }
         let Outcome { iterations, residual } = self.solve_nodes(markers)?;
         self.work.evaluations += 1;
+        self.interfaces.set_lengths(markers.groups(), self.curves.interface_lengths());
         let viscosity = self.solver.viscosity();
-        let interfaces = markers.groups().iter().filter(|group| group.kind.is_interface());
-        let rates = interfaces.zip(self.curves.interface_lengths()).map(|(group, length)| {
-            let [inside, outside] = group.viscosities(viscosity);
-            stiffness(self.modes, length) * 2.0 * outside / (outside + inside)
-        });
-        if let Some(fastest) = rates.reduce(f64::max) {
-            self.stiffness = fastest;
-        }
-        self.curves.write(1.0 / viscosity, &mut markers.velocities)?;
+        self.curves.write(1.0 / viscosity, markers.velocities_mut())?;
         let report = self.solve_all()?;
         self.inner.interpolate(&self.velocity, &mut self.values)?;
         for (&marker, velocity) in self.curves.inner.iter().zip(&self.values) {
-            markers.velocities[marker] = *velocity;
+            markers.velocities_mut()[marker] = *velocity;
         }
         Ok(SolveReport { iterations, residual, ..report })
     }
 
     /// Interpolates bilinearly between grid points; where viscosities differ the interfaces' pressure is that of their
-    /// layers.
+    /// layers. The flow of interfaces alone is exact anywhere.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         same_length("the samples", points.len(), out.len())?;
+        if Self::is_of_interfaces(markers) {
+            return self.interfaces.sample(markers, points, out);
+        }
         all_points_finite("the points to sample", points)?;
         self.solve_nodes(markers)?;
         self.solve_all()?;
@@ -304,22 +311,15 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     }
 
     fn save(&self) -> SavedState {
-        let mut saved = self.contrast.save();
-        saved.reals.push(self.stiffness);
-        saved
+        let [contrast, interfaces] = [self.contrast.save(), self.interfaces.save()];
+        let (reals, counts) = ([contrast.reals, interfaces.reals], [contrast.counts, interfaces.counts]);
+        SavedState { reals: reals.concat(), counts: counts.concat() }
     }
 
     fn load(&mut self, saved: &SavedState) {
-        if let [rest @ .., stiffness] = saved.reals.as_slice() {
-            self.stiffness = *stiffness;
-            self.contrast.restore(rest, &saved.counts);
-        }
+        let Some(reals) = self.contrast.restore(saved) else { return };
+        self.interfaces.restore(reals, &saved.counts[LayerContrast::LISTS..]);
     }
-}
-
-/// A quarter of the largest wave number of a curve.
-fn stiffness(nodes: usize, perimeter: f64) -> f64 {
-    0.25 * (nodes / 2) as f64 * std::f64::consts::TAU / perimeter
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@ mod gaussian;
 mod pieces;
 
 pub use any::AnyKernel;
-pub use bspline::{CompositeBSpline, CubicQuadratic};
+pub use bspline::BSpline;
 pub use classical::{Peskin4, Roma3};
 pub use gaussian::Gaussian6;
-pub(crate) use pieces::CUBIC_QUADRATIC;
+pub(crate) use pieces::BSPLINE_4;
 pub use pieces::Pieces;
 
 /// Most grid points in one direction that a kernel of this crate reaches.
@@ -55,6 +55,20 @@ pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
     }
 }
 
+/// Nodes on [-1, 1] and weights of Gauss-Legendre quadrature with ten points (exact for polynomials of degree 19).
+pub(crate) const GAUSS_10: [(f64, f64); 10] = [
+    (-0.9739065285171717, 0.06667134430868814),
+    (-0.8650633666889845, 0.1494513491505804),
+    (-0.6794095682990244, 0.219086362515982),
+    (-0.4333953941292472, 0.2692667193099965),
+    (-0.14887433898163122, 0.2955242247147528),
+    (0.14887433898163122, 0.2955242247147528),
+    (0.4333953941292472, 0.2692667193099965),
+    (0.6794095682990244, 0.219086362515982),
+    (0.8650633666889845, 0.1494513491505804),
+    (0.9739065285171717, 0.06667134430868814),
+];
+
 /// `2 integral_0^reach f(r) cos(theta r) dr` for f smooth between half integers, by composite Gauss quadrature.
 fn cosine_transform(f: impl Fn(f64) -> f64, reach: f64, theta: f64) -> f64 {
     // Panels short enough that ten Gauss points resolve the cosine to round-off.
@@ -63,7 +77,7 @@ fn cosine_transform(f: impl Fn(f64) -> f64, reach: f64, theta: f64) -> f64 {
     let width = reach / panels as f64;
     let mut sum = 0.0;
     for p in 0..panels {
-        for (x, w) in crate::mobility::GAUSS_10 {
+        for (x, w) in GAUSS_10 {
             let r = width * (p as f64 + 0.5 * (1.0 + x));
             sum += 0.5 * width * w * f(r) * (theta * r).cos();
         }

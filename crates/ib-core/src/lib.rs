@@ -1,23 +1,23 @@
-//! The immersed boundary method for Stokes flow: bodies made of markers, a fluid between them, and the coupling.
-//!
-//! Bodies put forces on the fluid at their markers; the fluid moves the markers:
+//! The immersed boundary method for Stokes flow: from forces at markers to velocities at markers, by a grid.
 //!
 //! ```text
-//! bodies --forces--> spread with a kernel --force field--> StokesSolver --velocity field--> interpolate,
-//!        correct the mobility of interfaces --marker velocities--> bodies (rate of their state) --> Integrator
+//! forces --> spread with a kernel --force field--> StokesSolver --velocity field--> interpolate,
+//!        correct the mobility of interfaces --> velocities
 //! ```
 //!
-//! [`Hydrodynamics`] is everything between forces and velocities; [`ImmersedBoundary`] is it by a grid. A [`Body`] is
-//! anything with markers; a [`Scene`] couples bodies and advances them; observers look on during a [`Run`].
+//! [`ImmersedBoundary`] is that; [`ImmersedLayers`] has interfaces and surfaces of solids as layers beside the grid.
+//! Both are [`Hydrodynamics`](motile_scene::Hydrodynamics), what the scenes of [`motile_scene`] take for a flow.
 //!
 //! A droplet of constant tension as the simplest body, three numbers a marker in, one number out:
 //!
 //! ```
-//! use ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
+//! use ib_core::{BSpline, ImmersedBoundary};
+//! use motile_base::Vec2;
+//! use motile_scene::{Hydrodynamics, MarkerKind, Markers};
 //! use stokes_grid::{Grid, PeriodicStokes};
 //!
 //! let solver = PeriodicStokes::new(Grid::periodic(64, 64, 0.1)?, 1.0)?;
-//! let mut flow = ImmersedBoundary::new(solver, CubicQuadratic::default());
+//! let mut flow = ImmersedBoundary::new(solver, BSpline::<4>);
 //! // 128 markers on an ellipse (equally spaced to some per cent), pulled together by a line tension of one
 //! let mut markers = Markers::new();
 //! markers.push_group(128, MarkerKind::Interface { viscosity_inside: None });
@@ -34,12 +34,12 @@
 //! // the tip moves in at about half the excess of curvature
 //! assert!(markers.velocities()[0].x < -0.03 && markers.velocities()[0].x > -0.05);
 //! println!("tip velocity {:.4}", markers.velocities()[0].x);
-//! # Ok::<(), ib_core::FlowError>(())
+//! # Ok::<(), motile_scene::FlowError>(())
 //! ```
 //!
-//! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers
-//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has
-//! Cowley's way, a viscosity that varies on the grid.
+//! Interfaces may have fluid of another viscosity inside, [`motile_scene::MarkerKind::Interface`]: with
+//! [`ImmersedLayers`] at any ratio of viscosities and with errors that do not grow with it, with [`SmearedContrast`] in
+//! Cowley's way, by a viscosity that varies on the grid.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
@@ -48,29 +48,14 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
-pub mod body;
-pub mod checkpoint;
-mod contrast;
-mod error;
-pub mod gap;
-pub mod hydrodynamics;
 mod immersed_boundary;
 mod immersed_layers;
-pub mod integrator;
-pub mod kernel;
-pub mod mobility;
-pub mod scene;
+mod kernel;
+mod mobility;
 mod transfer;
 
-pub use body::{Body, MarkerBody, Observe};
-pub use checkpoint::Checkpoint;
-pub use error::{BodyError, FlowError, SceneError};
-pub use gap::Repulsion;
-pub use hydrodynamics::{Discretisation, Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use immersed_layers::ImmersedLayers;
-pub use input_checks as input;
-pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};
-pub use kernel::{AnyKernel, CubicQuadratic, Kernel};
-pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System, Warning, Warnings};
+pub use kernel::{AnyKernel, BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
+pub use mobility::{Deficit, MobilityDeficit};
 pub use transfer::Transfer;

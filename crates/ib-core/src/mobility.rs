@@ -1,12 +1,14 @@
 //! What spreading, the grid and interpolation take from the mobility of an interface.
 
 mod correction;
-mod quadrature;
 
 pub(crate) use correction::{MobilityCorrection, Setting};
-pub(crate) use quadrature::GAUSS_10;
 
-use crate::{Kernel, Vec2, kernel::Role};
+use crate::{
+    Kernel,
+    kernel::{GAUSS_10, Role},
+};
+use motile_base::Vec2;
 
 /// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.
 const LAST: f64 = 6.3;

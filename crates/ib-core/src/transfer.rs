@@ -7,16 +7,18 @@ mod lanes;
 mod locations;
 mod order;
 mod polynomial;
+mod weights;
 
-use input_checks::same_length;
+use motile_base::same_length;
 use stokes_grid::{Grid, StaggeredField, StokesError};
 
-use crate::kernel::{CUBIC_QUADRATIC, Pieces};
-use crate::{FlowError, Kernel, Vec2};
+use crate::Kernel;
 use general::GeneralTransfer;
-use locations::{Location, Locations};
-use order::STRIDE;
-use polynomial::{CubicQuadratics, Interpolation, Spreading};
+use locations::Locations;
+use motile_base::Vec2;
+use motile_scene::FlowError;
+use order::{Band, Markers, stride};
+use polynomial::{interpolate, spread};
 
 /// Transfer between markers and a staggered grid, the adjoint pair of the immersed boundary method (Cowley (2.33),
 /// (2.34)):
@@ -118,59 +120,5 @@ impl<K: Kernel> Transfer<K> {
     ) -> Result<(), FlowError> {
         same_length(list, self.locations.all.len(), entries)?;
         if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::GridMismatch { name }.into()) }
-    }
-}
-
-/// Markers to be spread.
-#[derive(Debug)]
-struct Markers<'a> {
-    locations: &'a [Location],
-    forces: &'a [Vec2],
-    /// Distance within a block from one marker to that which is added next.
-    stride: usize,
-    irregular: &'a [[f64; 2]],
-}
-
-/// Some rows of both components.
-#[derive(Debug)]
-struct Band<'a> {
-    first_row: usize,
-    fx: &'a mut [f64],
-    fy: &'a mut [f64],
-}
-
-/// The distance between markers that are added one after another.
-fn stride<K: Kernel>(kernel: &K) -> usize {
-    // Other kernels take so long that it does not matter.
-    if kernel.pieces().is_some() { STRIDE } else { 1 }
-}
-
-/// The polynomials of a kernel unless they are those of the default one, which are constants. Where a kernel has none
-/// all locations are irregular, for which none are needed.
-fn other_pieces<K: Kernel>(kernel: &K) -> Option<&'static Pieces> {
-    kernel.pieces().filter(|pieces| **pieces != CUBIC_QUADRATIC)
-}
-
-fn spread<K: Kernel>(general: GeneralTransfer<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
-    match other_pieces(general.kernel) {
-        Some(pieces) => lanes::dispatch(Spreading { general, pieces, scale, markers, band }),
-        None => lanes::dispatch(Spreading { general, pieces: CubicQuadratics, scale, markers, band }),
-    }
-}
-
-fn interpolate<K: Kernel>(
-    general: GeneralTransfer<'_, K>,
-    locations: &[Location],
-    irregular: &[[f64; 2]],
-    velocity: &StaggeredField,
-    velocities: &mut [Vec2],
-) {
-    let (u, v) = (velocity.x(), velocity.y());
-    match other_pieces(general.kernel) {
-        Some(pieces) => lanes::dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities }),
-        None => {
-            let pieces = CubicQuadratics;
-            lanes::dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities });
-        }
     }
 }

@@ -1,11 +1,10 @@
 //! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
 
-use ib_core::{
-    AnyKernel, CubicQuadratic, FlowError, Kernel, Transfer, Vec2,
-    kernel::{MAX_SUPPORT, Role},
-};
+use ib_core::{AnyKernel, BSpline, Kernel, MAX_SUPPORT, Role, Transfer};
+use motile_base::{InputError, Vec2};
+use motile_scene::FlowError;
 use proptest::prelude::*;
-use stokes_grid::{Grid, InputError, StaggeredField, StokesError};
+use stokes_grid::{Grid, StaggeredField, StokesError};
 
 /// A field of reproducible pseudo-random values in [-1, 1), zero on walls for the y component.
 fn noise(grid: Grid, seed: u64) -> StaggeredField {
@@ -260,7 +259,7 @@ fn what_is_not_in_the_box_does_no_harm() {
 #[test]
 fn fields_of_other_grids_and_lists_of_other_lengths_are_refused() {
     let [own, other] = [16, 8].map(|n| Grid::periodic(n, n, 0.1).unwrap());
-    let mut transfer = Transfer::new(own, CubicQuadratic::default());
+    let mut transfer = Transfer::new(own, BSpline::<4>);
     transfer.locate(&[Vec2::ZERO, Vec2::new(0.75, -0.75)]);
     let mut list = [Vec2::ZERO; 2];
     for grid in [other, own.with_origin([0.0; 2]).unwrap(), Grid::channel(16, 16, 0.1).unwrap()] {

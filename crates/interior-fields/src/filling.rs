@@ -1,28 +1,85 @@
-//! What fills a droplet: nodes that follow its markers.
+//! Mesh inside a droplet that follows its markers, for bodies that fill the droplet.
 
 use std::any::Any;
 use std::f64::consts::TAU;
 
 use active_interface::ActiveDroplet;
-use ib_core::{Body, BodyError, Handle, MarkerKind, Vec2};
+use motile_base::Vec2;
+use motile_scene::{Body, BodyError, Handle, MarkerKind};
 
 use crate::{DiscMesh, InteriorError};
 
-/// The mesh of something inside a droplet, and how it sees that droplet, its host.
+/// Mesh inside a droplet, the host, with positions and velocities of its nodes.
 #[derive(Debug, Clone)]
 pub(crate) struct Filling {
     pub(crate) host: Handle<ActiveDroplet>,
     pub(crate) mesh: DiscMesh,
-    /// Of all nodes, the droplet's markers first: places, velocities of the fluid and of the nodes.
+    /// For all nodes, the droplet's markers first: positions (length), velocities of the fluid and of the nodes (length
+    /// per time).
     pub(crate) nodes: Vec<Vec2>,
     pub(crate) fluid: Vec<Vec2>,
     pub(crate) motion: Vec<Vec2>,
-    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
+    /// True if the host is a droplet with as many markers as the mesh was made for.
     fits: bool,
 }
 
+/// Methods that bodies with a `filling` and a `name` share: access to the mesh, and the parts of the traits `Guest` and
+/// `Body` by which the inner nodes are markers that move with the host.
+macro_rules! in_droplet {
+    (mesh) => {
+        /// Positions of the nodes (length), the droplet's markers first.
+        #[must_use]
+        pub fn nodes(&self) -> &[Vec2] {
+            &self.filling.nodes
+        }
+
+        /// Triangles by the numbers of their nodes, counter-clockwise.
+        #[must_use]
+        pub fn triangles(&self) -> &[[usize; 3]] {
+            self.filling.mesh.triangles()
+        }
+
+        /// Handle of the droplet that is filled.
+        #[must_use]
+        pub fn droplet(&self) -> Handle<ActiveDroplet> {
+            self.filling.host
+        }
+    };
+    (guest) => {
+        fn host(&self) -> Handle<dyn Body> {
+            self.filling.host.into()
+        }
+
+        fn host_moved(&mut self, host: &dyn Body, velocities: &[Vec2]) {
+            self.filling.host_moved(host, velocities);
+        }
+    };
+    (body) => {
+        fn name(&self) -> &str {
+            &self.name
+        }
+
+        fn kind(&self) -> MarkerKind {
+            MarkerKind::Points
+        }
+
+        fn marker_count(&self) -> usize {
+            self.filling.inner_count()
+        }
+
+        fn write_markers(&self, positions: &mut [Vec2]) {
+            positions.copy_from_slice(&self.filling.nodes[self.filling.inner()]);
+        }
+
+        fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+            Some(self)
+        }
+    };
+}
+pub(crate) use in_droplet;
+
 impl Filling {
-    /// A mesh of that spacing (length) in `droplet`, which is or will be the body `host` of the scene.
+    /// Mesh of a spacing (length) in `droplet`, which is or will be the body `host` of the scene.
     pub(crate) fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
@@ -35,22 +92,22 @@ impl Filling {
         let mesh = DiscMesh::new(droplet.markers().len(), spacing / radius)?;
         let [nodes, fluid, motion] = [(); 3].map(|()| vec![Vec2::ZERO; mesh.node_count()]);
         let mut filling = Self { host, mesh, nodes, fluid, motion, fits: true };
-        filling.see(droplet, |_| true);
+        filling.update_host(droplet, |_| true);
         Ok(filling)
     }
 
-    /// The droplet's markers.
+    /// Positions of the droplet's markers (length).
     pub(crate) fn markers(&self) -> &[Vec2] {
         &self.nodes[..self.mesh.marker_count()]
     }
 
-    /// The numbers of the nodes inside, which are markers of the body.
+    /// Numbers of the inner nodes, which are the markers of the body.
     pub(crate) fn inner(&self) -> std::ops::RangeFrom<usize> {
         self.mesh.marker_count()..
     }
 
-    /// Follows the host's markers, if there are as many as before and it is as it should be.
-    pub(crate) fn see<'a>(
+    /// Follows the host's markers and returns the host, if it has as many markers as before and `is_right` says yes.
+    pub(crate) fn update_host<'a>(
         &mut self,
         host: &'a dyn Body,
         is_right: impl Fn(&ActiveDroplet) -> bool,
@@ -65,8 +122,8 @@ impl Filling {
         droplet
     }
 
-    /// Follows how the host's markers move, given the velocities of the fluid there.
-    pub(crate) fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
+    /// Follows the motion of the host's markers, and takes the velocities of the fluid there (length per time).
+    pub(crate) fn host_moved(&mut self, host: &dyn Body, velocities: &[Vec2]) {
         let body: &dyn Any = host;
         if let Some(droplet) = body.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
             let count = self.mesh.marker_count();
@@ -76,7 +133,7 @@ impl Filling {
         }
     }
 
-    /// Takes the velocities of the fluid at the nodes inside.
+    /// Takes the velocities of the fluid at the inner nodes (length per time).
     pub(crate) fn set_flow(&mut self, velocities: &[Vec2]) {
         let inner = self.inner();
         self.fluid[inner].copy_from_slice(velocities);
@@ -87,7 +144,7 @@ impl Filling {
         if self.fits { Ok(()) } else { Err(InteriorError::ChangingMarkers.into()) }
     }
 
-    /// How many nodes are inside.
+    /// Number of inner nodes.
     pub(crate) fn inner_count(&self) -> usize {
         self.mesh.node_count() - self.mesh.marker_count()
     }

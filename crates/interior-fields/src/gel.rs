@@ -1,30 +1,159 @@
-//! An active polar gel: its director, stresses, defects.
-//!
-//! The director p, |p| = 1, has the Frank energy in the approximation of one constant, the molecular field h, and
-//! dynamics and stress of Cowley (1.5), (1.7) without relaxation of stress (tau = 0):
-//!
-//! ```text
-//! F       = K/2 INT |grad p|^2,   h = -dF/dp
-//! Dp_i/Dt = h_i/gamma1 - nu1 u_ij p_j       (corotational; the part normal to p)
-//! sigma   = 2 eta u - zeta_b (p p - 1/2) + nu1/2 (p h + h p) + 1/2 (p h - h p) - K grad p . grad p
-//! ```
-//!
-//! u is the rate of strain, nu1 < 0 for rods, zeta_b < 0 for a contractile gel; the last terms are the antisymmetric
-//! and the Ericksen stress.
+//! Active polar gel: director, stresses, defects.
 
-mod anchoring;
+mod conditions;
 mod defect;
 mod director;
 mod elements;
 mod in_box;
-mod in_droplet;
 mod material;
 mod stabiliser;
-mod start;
 
-pub use anchoring::Anchoring;
+pub use conditions::{Anchoring, DirectorStart};
 pub use defect::Defect;
+pub use director::GelObservables;
 pub use in_box::GelInBox;
-pub use in_droplet::{GelInDroplet, GelObservables};
 pub use material::GelMaterial;
-pub use start::DirectorStart;
+
+use active_interface::ActiveDroplet;
+use motile_base::Vec2;
+use motile_scene::{Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit};
+
+use director::Director;
+use elements::Elements;
+
+use crate::{
+    InteriorError,
+    filling::{Filling, in_droplet},
+};
+
+/// Active polar gel that fills a droplet: a body of a scene ([`motile_scene::Guest`] of the droplet) that puts forces
+/// on the fluid at the nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary nodes are the droplet's markers. Its
+/// state are the angles of the director.
+///
+/// The forces have neither resultant nor torque: the couple that turns the director at an anchored interface turns the
+/// interface back.
+#[derive(Debug, Clone)]
+pub struct GelInDroplet {
+    name: String,
+    filling: Filling,
+    director: Director,
+    anchoring: Anchoring,
+    /// Forces on the fluid at all nodes (force), the droplet's markers first.
+    forces: Vec<Vec2>,
+}
+
+impl GelInDroplet {
+    /// Gel in `droplet`, which is or will be the body `host` of the scene, on a mesh of a spacing (length).
+    ///
+    /// # Errors
+    /// A material that [`GelMaterial::checked`] refuses; a spacing that is not positive; a mesh of too many nodes;
+    /// angles of the start that are not finite; a droplet with a number of markers that changes, or so bent that the
+    /// mesh folds.
+    pub fn new(
+        droplet: &ActiveDroplet,
+        host: Handle<ActiveDroplet>,
+        material: GelMaterial,
+        anchoring: Anchoring,
+        start: &DirectorStart,
+        spacing: f64,
+    ) -> Result<Self, InteriorError> {
+        let filling = Filling::new(droplet, host, spacing)?;
+        let (nodes, markers) = (&filling.nodes, filling.markers());
+        let angles = start.angles(nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
+        let elements = Elements::new(filling.mesh.triangles().to_vec(), nodes.len(), [None; 2]);
+        let anchored = anchoring.angle_from_tangent().map(|angle| (angle, markers.len()));
+        let mut director = Director::new(material.checked()?, elements, angles, anchored);
+        director.move_to(nodes);
+        let mut forces = vec![Vec2::ZERO; nodes.len()];
+        director.write_forces(nodes, &mut forces)?;
+        Ok(Self { name: format!("gel of {}", droplet.name()), filling, director, anchoring, forces })
+    }
+
+    in_droplet!(mesh);
+
+    /// Director at the nodes, of length 1 (no dimension).
+    #[must_use]
+    pub fn directors(&self) -> &[Vec2] {
+        &self.director.directors
+    }
+
+    /// Topological defects of the director.
+    #[must_use]
+    pub fn defects(&self) -> Vec<Defect> {
+        self.director.defects(&self.filling.nodes)
+    }
+}
+
+impl Guest for GelInDroplet {
+    in_droplet!(guest);
+
+    fn update_host(&mut self, host: &dyn Body) {
+        if self.filling.update_host(host, |_| true).is_some() {
+            self.director.move_to(&self.filling.nodes);
+        }
+    }
+
+    fn add_host_forces(&self, forces: &mut [Vec2]) {
+        forces.iter_mut().zip(&self.forces).for_each(|(sum, force)| *sum += force);
+    }
+}
+
+impl Body for GelInDroplet {
+    in_droplet!(body);
+
+    fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.filling.check()?;
+        self.director.write_forces(&self.filling.nodes, &mut self.forces)?;
+        forces.copy_from_slice(&self.forces[self.filling.inner()]);
+        Ok(())
+    }
+
+    fn state_len(&self) -> usize {
+        self.director.free_angles().len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        state.copy_from_slice(self.director.free_angles());
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        self.director.read(state)
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        self.filling.set_flow(velocities);
+        self.director.write_rate(&self.filling.fluid, &self.filling.motion, rate);
+    }
+
+    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
+        self.director.begin_step(step.stabilised, view.viscosity);
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.director.stabiliser.add(state, factor, out);
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.director.stabiliser.solve(factor, state);
+    }
+
+    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
+        self.director.step_limits(view.viscosity, limits);
+    }
+
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = self.director.material.properties();
+        properties.push(("the number of nodes".to_owned(), self.filling.nodes.len() as f64));
+        properties.push(("the anchoring".to_owned(), f64::from(self.anchoring as u8)));
+        properties
+    }
+}
+
+impl Observe for GelInDroplet {
+    type Observables = GelObservables;
+
+    fn observables(&self, _view: &FluidView, _flow: &BodyFlow<'_>) -> Result<GelObservables, BodyError> {
+        Ok(self.director.observables(&self.filling.nodes))
+    }
+}

@@ -1,16 +1,29 @@
-//! Fields inside droplets.
+//! Fields inside droplets: active polar gels, and particles that diffuse.
 //!
-//! * [`DiscMesh`]: a triangular mesh of the inside of a closed curve that follows its markers.
-//! * [`gel`]: an active polar gel that fills a droplet ([`GelInDroplet`]) or a box ([`GelInBox`]).
-//! * [`particles`]: particles inside a droplet that are exchanged with its interface ([`ParticlesInDroplet`]).
+//! * [`DiscMesh`]: triangular mesh inside a closed curve that follows the markers of the curve.
+//! * [`GelInDroplet`], [`GelInBox`]: active polar gel that fills a droplet or a periodic box.
+//! * [`ParticlesInDroplet`]: particles that diffuse inside a droplet and are exchanged with its interface.
 //!
-//! A gel is a body of its own beside the droplet that it fills. A contractile one whose director is free at the
-//! interface of a droplet of constant tension, to which nothing else happens:
+//! The director p of a gel, |p| = 1, has the Frank energy in the approximation of one constant, the molecular field h,
+//! and dynamics and stress of Cowley (1.5), (1.7) without relaxation of stress (tau = 0):
+//!
+//! ```text
+//! F       = K/2 INT |grad p|^2,   h = -dF/dp
+//! Dp_i/Dt = h_i/gamma1 - nu1 u_ij p_j       (corotational; the part normal to p)
+//! sigma   = 2 eta u - zeta_b (p p - 1/2) + nu1/2 (p h + h p) + 1/2 (p h - h p) - K grad p . grad p
+//! ```
+//!
+//! u is the rate of strain, nu1 < 0 for rods, zeta_b < 0 for a contractile gel; the last terms are the antisymmetric
+//! and the Ericksen stress.
+//!
+//! A gel is a body of its own beside the droplet that it fills. Below, a contractile gel fills a droplet of constant
+//! tension, with a director that is free at the interface and starts nearly uniform:
 //!
 //! ```
 //! use active_interface::{ActiveDroplet, Curve};
-//! use ib_core::{AnyKernel, ImmersedBoundary, Scene};
+//! use ib_core::{AnyKernel, ImmersedBoundary};
 //! use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
+//! use motile_scene::Scene;
 //! use stokes_grid::{Grid, PeriodicStokes};
 //!
 //! let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1875)?, 100.0)?;
@@ -32,9 +45,10 @@
 
 mod error;
 mod filling;
-pub mod gel;
+mod gel;
+mod laplacian;
 mod mesh;
-pub mod particles;
+mod particles;
 
 pub use error::InteriorError;
 pub use gel::{Anchoring, Defect, DirectorStart, GelInBox, GelInDroplet, GelMaterial, GelObservables};

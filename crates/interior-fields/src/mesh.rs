@@ -1,32 +1,31 @@
-//! A triangular mesh of the inside of a droplet that follows the interface.
+//! Triangular mesh inside a droplet that follows the interface.
 
 use std::f64::consts::{PI, TAU};
 
-use ib_core::Vec2;
-use ib_core::input::{at_least, positive};
+use motile_base::{Vec2, at_least, positive};
 
 use crate::InteriorError;
 
-/// By how much spacings grow from one ring to the next inner one, until they are what was asked for.
+/// Growth of the spacing from one ring to the next inner one, up to the spacing asked for.
 const GROWTH: f64 = 1.25;
-/// Distance of rings over the spacing of their nodes: that of equilateral triangles.
+/// Distance of rings over the spacing of their nodes: the height sqrt(3)/2 of equilateral triangles.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
-/// The most nodes of a mesh, and the most products of inner nodes and markers, whose weights are kept.
+/// Largest number of nodes, and of weights, one for each inner node and marker: 800 MB.
 const MOST_NODES: usize = 1 << 17;
 const MOST_WEIGHTS: f64 = 1e8;
 
-/// A triangulation of the inside of a closed curve of M markers: the first M nodes are the markers, the others lie on
+/// Triangulation of the inside of a closed curve of M markers: the first M nodes are the markers, the others lie on
 /// rings within.
 ///
-/// Inner nodes are where the harmonic function of the disc that has the markers' positions on its boundary takes them:
-/// node i at radius r and angle a of the disc lies at `SUM_j w_ij x_j`, `w_ij = (1/M) SUM_{|k| <= M/2} r^|k|
-/// cos k(a - 2 pi j/M)`, Poisson's kernel of the marker's modes. So the mesh has no state of its own, moves as smoothly
-/// as the interface does, takes part in any translation and stretching exactly, and cannot fold inside a convex curve
-/// (Rado, Kneser, Choquet) nor for modes that are not too large inside another one.
+/// Inner nodes lie where the harmonic map takes them that has the markers' positions on the boundary of the unit disc:
+/// a node at radius r and angle a of the disc lies at `SUM_j w_j x_j`, `w_j = (1/M) SUM_{|k| <= M/2} r^|k| cos k(a - 2
+/// pi j/M)`, Poisson's kernel of the markers' Fourier modes. So the mesh has no state of its own, moves as smoothly as
+/// the interface, follows any translation and stretching exactly, and cannot fold inside a convex curve (Rado, Kneser,
+/// Choquet), nor inside another one as long as its modes are small.
 ///
 /// ```
-/// use ib_core::Vec2;
 /// use interior_fields::DiscMesh;
+/// use motile_base::Vec2;
 ///
 /// let mesh = DiscMesh::new(64, 0.1)?;
 /// let circle = |k: usize| Vec2::from_angle(std::f64::consts::TAU * k as f64 / 64.0);
@@ -46,8 +45,8 @@ pub struct DiscMesh {
 }
 
 impl DiscMesh {
-    /// A mesh for a curve of that number of markers whose spacing grows inwards from theirs to `spacing`, in units of
-    /// the radius of a circle of the curve's length.
+    /// Mesh for a curve of a number of markers, with a spacing that grows inwards from that of the markers to
+    /// `spacing`, in units of the radius of a circle of the curve's length.
     ///
     /// # Errors
     /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes or 1e8 weights.
@@ -81,7 +80,7 @@ impl DiscMesh {
         Ok(Self { markers, nodes: outer.start + outer.count, triangles, weights })
     }
 
-    /// Number of markers, which are the first nodes.
+    /// Number M of markers, which are the first nodes.
     #[must_use]
     pub fn marker_count(&self) -> usize {
         self.markers
@@ -99,8 +98,8 @@ impl DiscMesh {
         &self.triangles
     }
 
-    /// Fills the entries of inner nodes from those of the markers, which come first: positions (length) or velocities
-    /// (length per time). Lists of other lengths are left as they are.
+    /// Positions (length) or velocities (length per time) of inner nodes from those of the markers: fills the entries
+    /// after the first M of a list for all nodes. Lists of another length are left as they are.
     pub fn place(&self, nodes: &mut [Vec2]) {
         if nodes.len() != self.nodes {
             return;
@@ -112,7 +111,7 @@ impl DiscMesh {
     }
 }
 
-/// Nodes on a circle: the number of the first one, how many, the angle of the first one.
+/// Nodes on a circle: number of the first one, number of nodes, angle of the first one.
 struct Ring {
     start: usize,
     count: usize,
@@ -129,7 +128,7 @@ impl Ring {
     }
 }
 
-/// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the last one is a triangle.
+/// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the innermost ring is a triangle.
 fn rings(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
     let (mut spacing, mut depth) = (first, 0.0);
     let mut rings = Vec::new();
@@ -143,7 +142,7 @@ fn rings(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
     rings.into_iter().map(|(depth, spacing)| (1.0 - fit * depth, spacing)).collect()
 }
 
-/// Triangles between two rings: from node to node of either one, whichever comes first.
+/// Adds the triangles between two rings, advancing on the ring whose next node comes first.
 fn stitch(outer: &Ring, inner: &Ring, triangles: &mut Vec<[usize; 3]>) {
     let (mut i, mut k) = (0, 0);
     // The inner ring's node nearest to the outer one's first.
@@ -162,7 +161,7 @@ fn stitch(outer: &Ring, inner: &Ring, triangles: &mut Vec<[usize; 3]>) {
     }
 }
 
-/// Adds the weights of the markers at a place in the disc.
+/// Adds the weights of the markers at a point of the disc.
 fn add_weights(radius: f64, angle: f64, markers: usize, weights: &mut Vec<f64>) {
     let count = markers as f64;
     weights.extend((0..markers).map(|j| {

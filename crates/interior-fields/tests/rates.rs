@@ -3,8 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use active_interface::{ActiveDroplet, Curve};
-use ib_core::{AnyKernel, Body, ImmersedBoundary, Scene, Vec2};
+use ib_core::{AnyKernel, ImmersedBoundary, ImmersedLayers};
 use interior_fields::{Anchoring, DirectorStart, GelInBox, GelInDroplet, GelMaterial};
+use motile_base::Vec2;
+use motile_scene::{Body, Scene, integrator::Dynamics as _};
 use stokes_grid::{Grid, PeriodicStokes};
 
 const GEL: GelMaterial = GelMaterial { frank: 1.0, rotational_viscosity: 2.0, alignment: -0.6, activity: -8.0 };
@@ -12,14 +14,13 @@ const VISCOSITY: f64 = 1.5;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-fn scene(cells: usize, length: f64, viscosity: f64) -> Outcome<Scene<ImmersedBoundary<PeriodicStokes, AnyKernel>>> {
-    let grid = Grid::periodic(cells, cells, length / cells as f64)?;
-    Ok(Scene::new(ImmersedBoundary::new(PeriodicStokes::new(grid, viscosity)?, AnyKernel::BSpline4)))
+fn solver(cells: usize, length: f64, viscosity: f64) -> Outcome<PeriodicStokes> {
+    Ok(PeriodicStokes::new(Grid::periodic(cells, cells, length / cells as f64)?, viscosity)?)
 }
 
 /// The rate of a wave with that wave vector on a director of that angle.
 fn wave_rate(gel: GelMaterial, cells: usize, angle: f64, wave: Vec2) -> Outcome<f64> {
-    let mut scene = scene(cells, TAU, VISCOSITY)?;
+    let mut scene = Scene::new(ImmersedBoundary::new(solver(cells, TAU, VISCOSITY)?, AnyKernel::BSpline4));
     let size = 1e-5;
     let director = |node: Vec2| angle + size * node.dot(wave).cos();
     let gel = scene.add(GelInBox::new(gel, [TAU; 2], [cells; 2], director)?);
@@ -63,7 +64,8 @@ fn bessel(x: f64) -> f64 {
 /// The rate of the mode J_0(zero r) around the centre of an aster or a vortex in a unit disc, the director along the
 /// normal or the tangent at its boundary, in exterior fluid of that viscosity.
 fn disc_rate(gel: GelMaterial, cells: usize, zero: f64, anchoring: Anchoring, exterior: f64) -> Outcome<f64> {
-    let mut scene = scene(cells, 4.0, exterior)?;
+    // Interfaces between other viscosities are layers; the grid takes the gel.
+    let mut scene = Scene::new(ImmersedLayers::new(solver(cells, 4.0, exterior)?, AnyKernel::BSpline4, 64, 1e-6)?);
     let spacing = 4.0 / cells as f64;
     let markers = (TAU / (0.5 * spacing)).round() as usize;
     let droplet = ActiveDroplet::passive(&Curve::circle(1.0)?.markers(markers)?, 10.0)?;

@@ -1,25 +1,25 @@
-//! Animations of runs.
+//! Animations of runs as GIF files.
 
 mod palette;
 
 use std::{fs::File, io, io::BufWriter, path::Path};
 
-use motile::ib_core::{Hydrodynamics, Observer, System};
+use motile::motile_scene::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
 
 use crate::drawing::raster::colours;
 use crate::picture::{Format, SolidColour};
-use crate::{Error, Look, Raster, Snapshot, Track};
+use crate::{Look, OutputError, Raster, Snapshot, Track};
 
-/// Time between two frames, and how long the last one stays (hundredths of a second).
+/// Time between two frames, and duration of the last one (hundredths of a second).
 const DELAY: u16 = 8;
 const END: u16 = 150;
-/// Most cells of a frame's fields in a direction: more would not be seen.
+/// Largest number of cells of a frame's fields in a direction: a cell is then four pixels wide.
 const FRAME_CELLS: usize = 120;
-/// The index of the palette that means "as in the frame before".
+/// Index of the palette for pixels that stay as in the frame before.
 const UNCHANGED: u8 = 255;
 
-/// Takes a [`Snapshot`] whenever it is called, and makes an animation of them in the end.
+/// Observer that takes [`Snapshot`]s of a run and writes them as an animation in the end.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -41,18 +41,18 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film of the rectangle of `raster`, with fields on its cells or, where these are more than 120 in a direction,
-    /// on larger ones.
+    /// Film of the rectangle of `raster`, with fields on its cells or, where there are more than 120 in a direction, on
+    /// larger ones.
     #[must_use]
     pub fn new(look: Look, raster: Raster) -> Self {
         Self { look, raster: raster.coarsened(FRAME_CELLS), frames: Vec::new() }
     }
 
-    /// Writes the animation (GIF), between walls each frame with the tracks so far. It repeats for ever.
+    /// Writes the animation as a GIF that repeats for ever; between walls each frame shows the tracks up to its time.
     ///
     /// # Errors
-    /// [`Error::Empty`] without frames, [`Error::Write`], and what cannot be drawn.
-    pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
+    /// [`OutputError::Empty`] without frames; [`OutputError::Write`]; those of drawing the frames.
+    pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         let legends = self.look.legends(&self.frames);
         // One palette for all frames keeps colours from flickering, but has to know them all.
         let (mut histogram, mut frames, mut size) = (Histogram::new(), Vec::new(), [0; 2]);
@@ -63,14 +63,14 @@ impl Film {
             size = [image.width(), image.height()].map(|side| side as usize);
         }
         if frames.is_empty() {
-            return Err(Error::Empty("an animation without frames"));
+            return Err(OutputError::Empty("an animation without frames"));
         }
         let written = encode(path.as_ref(), size, &frames, &histogram).map_err(io::Error::other);
-        written.map_err(Error::writing(path.as_ref()))
+        written.map_err(OutputError::writing(path.as_ref()))
     }
 }
 
-/// Writes frames of codes of colours; of each frame only what differs from the one before is stored.
+/// Writes frames of colour codes; each frame holds only the rectangle that differs from the one before.
 fn encode(path: &Path, size: [usize; 2], frames: &[Vec<u16>], histogram: &Histogram) -> Result<(), gif::EncodingError> {
     let (palette, index) = histogram.palette(usize::from(UNCHANGED));
     let palette: Vec<u8> = palette.into_iter().flat_map(|c| c.0).collect();
@@ -87,7 +87,7 @@ fn encode(path: &Path, size: [usize; 2], frames: &[Vec<u16>], histogram: &Histog
     Ok(())
 }
 
-/// The smallest rectangle in which the frame differs from the one before, with equal pixels transparent.
+/// Smallest rectangle in which the frame differs from the one before, with equal pixels transparent.
 fn changes(before: &[u8], now: &[u8], width: usize) -> gif::Frame<'static> {
     let first = before.is_empty();
     let changed = |k: usize| first || before[k] != now[k];

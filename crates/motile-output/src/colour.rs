@@ -1,6 +1,6 @@
-//! Colours, and the scales that turn numbers into colours.
+//! Colours, and scales from numbers to colours.
 
-/// A colour: red, green, blue, each 0 to 255.
+/// Colour: red, green, blue, each 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Rgb(pub [u8; 3]);
 
@@ -14,7 +14,7 @@ impl Rgb {
     /// Grid lines of plots.
     pub(crate) const PALE: Self = Self([226, 229, 234]);
 
-    /// Mixes linearly: `self` at `t = 0`, `other` at `t = 1`.
+    /// Linear mixture: `self` at `t = 0`, `other` at `t = 1`.
     pub(crate) fn mix(self, other: Self, t: f64) -> Self {
         let channel = |k: usize| {
             let (a, b) = (f64::from(self.0[k]), f64::from(other.0[k]));
@@ -23,14 +23,14 @@ impl Rgb {
         Self([channel(0), channel(1), channel(2)])
     }
 
-    /// The colour as SVG writes it, for instance `#22262e`.
+    /// Colour as SVG writes it, for instance `#22262e`.
     pub(crate) fn hex(self) -> String {
         let [r, g, b] = self.0;
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 }
 
-/// Colours of the series of a plot, in the order of their use: told apart by most colour-blind readers and in print.
+/// Colours of the series of a plot, in the order of their use: distinct for most colour-blind readers and in print.
 pub const SERIES_COLOURS: [Rgb; 8] = [
     Rgb([31, 98, 166]),
     Rgb([206, 74, 38]),
@@ -42,11 +42,11 @@ pub const SERIES_COLOURS: [Rgb; 8] = [
     Rgb([92, 96, 104]),
 ];
 
-/// A colour map with the values of its two ends; values beyond an end get the end's colour.
+/// Colour map with the values of its two ends; values beyond an end get the end's colour.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ColourScale {
     map: fn(f64) -> Rgb,
-    /// What it measures.
+    /// Name of the quantity.
     pub(crate) label: &'static str,
     pub(crate) low: f64,
     pub(crate) high: f64,
@@ -68,8 +68,8 @@ fn viridis(t: f64) -> Rgb {
 }
 
 impl ColourScale {
-    /// From blue to red over all but the smallest and the largest one in two hundred of the values: shows the
-    /// differences among most of them where a few stand out on either side, such as pressures next to an interface.
+    /// Scale from blue to red over all values but the smallest and largest half percent, so that a few outliers, such
+    /// as pressures next to an interface, do not hide the differences among the others.
     pub(crate) fn of_most(values: impl Iterator<Item = f64>, label: &'static str) -> Self {
         let mut sorted: Vec<f64> = values.filter(|v| v.is_finite()).collect();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -83,25 +83,25 @@ impl ColourScale {
         Self { map: rainbow, label, low, high }
     }
 
-    /// Over zero to the largest of the values, from black to pale yellow; `None` if none is above zero.
+    /// Scale from zero (black) to the largest of the values (pale yellow); `None` if none is above zero.
     pub(crate) fn from_zero(values: impl Iterator<Item = f64>, label: &'static str) -> Option<Self> {
         let high = values.filter(|v| v.is_finite()).fold(0.0, f64::max);
         (high > 0.0).then_some(Self { map: magma, label, low: 0.0, high })
     }
 
-    /// The same from violet over green to yellow.
+    /// Scale in colours from violet over green to yellow.
     pub(crate) fn green(self) -> Self {
         Self { map: viridis, ..self }
     }
 
-    /// The colour of `value`; not a number gives grey.
+    /// Colour of a value; grey for not a number.
     pub(crate) fn colour(&self, value: f64) -> Rgb {
         let t = (value - self.low) / (self.high - self.low);
         if t.is_nan() { Rgb::GREY } else { (self.map)(t.clamp(0.0, 1.0)) }
     }
 
-    /// The colours of `levels` equal bands from the low to the high end: a table for fast lookup, and, with few
-    /// levels, bands whose edges are contour lines.
+    /// Colours of `levels` equal bands from the low to the high end, for fast lookup; with few levels the edges of the
+    /// bands are contour lines.
     pub(crate) fn table(&self, levels: usize) -> Vec<Rgb> {
         (0..levels).map(|k| (self.map)(k as f64 / (levels - 1) as f64)).collect()
     }

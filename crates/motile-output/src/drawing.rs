@@ -1,20 +1,20 @@
-//! What figures are drawn on, and what all of them have: lines, areas, text, axes. Positions are in pixels from the
+//! Drawings of lines, areas, images and text, painted as pixels or written as vectors. Positions are in pixels from the
 //! upper left corner.
 
 pub(crate) mod axes;
 pub(crate) mod font;
 pub(crate) mod raster;
-mod svg;
+pub(crate) mod svg;
 pub(crate) mod ticks;
 
 use tiny_skia::{ColorU8, FillRule, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform};
 
 use crate::Rgb;
 
-/// A position on a drawing: pixels to the right and pixels down from the upper left corner.
+/// Position on a drawing: pixels to the right and pixels down from the upper left corner.
 pub(crate) type Pixel = [f64; 2];
 
-/// An upright rectangle on a drawing (pixels).
+/// Upright rectangle on a drawing (pixels).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rect {
     pub(crate) left: f64,
@@ -32,20 +32,20 @@ impl Rect {
         self.top + self.height
     }
 
-    /// The same with its edges on whole pixels.
+    /// Rectangle with its edges on whole pixels.
     pub(crate) fn rounded(self) -> Self {
         let [left, top, width, height] = [self.left, self.top, self.width, self.height].map(f64::round);
         Self { left, top, width, height }
     }
 
-    /// The corners, counter-clockwise as seen, from the upper left one and back to it.
+    /// Closed outline, counter-clockwise as seen from the upper left corner.
     pub(crate) fn outline(&self) -> Vec<Pixel> {
         let (l, t, r, b) = (self.left, self.top, self.right(), self.bottom());
         vec![[l, t], [l, b], [r, b], [r, t], [l, t]]
     }
 }
 
-/// How a line is drawn: colour, width (pixels), opacity from 0 to 1.
+/// Pen of a line: colour, width (pixels), opacity from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pen {
     pub(crate) colour: Rgb,
@@ -54,7 +54,7 @@ pub(crate) struct Pen {
 }
 
 impl Pen {
-    /// A solid, opaque line.
+    /// Pen of a solid, opaque line.
     pub(crate) fn new(colour: Rgb, width: f64) -> Self {
         Self { colour, width, opacity: 1.0 }
     }
@@ -64,7 +64,7 @@ impl Pen {
     }
 }
 
-/// Which end of a text its position is.
+/// Point of a text that its position is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -72,14 +72,14 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a text is set. Its position is a point of the line halfway up the capitals.
+/// Style of a text. Its position is a point of the line halfway up the capitals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TextStyle {
     /// Size of the type (pixels): capitals are 0.7 times as high.
     pub(crate) size: f64,
     pub(crate) colour: Rgb,
     pub(crate) anchor: Anchor,
-    /// Whether it reads upwards, as the label of a vertical axis does.
+    /// True for text that reads upwards, as the label of a vertical axis does.
     pub(crate) upwards: bool,
 }
 
@@ -94,20 +94,20 @@ impl TextStyle {
     }
 }
 
-/// One thing that is drawn.
+/// Element of a drawing.
 #[derive(Debug, Clone)]
 enum Shape {
-    /// The area inside a path (even-odd rule: a ring within a ring is a hole).
+    /// Area inside a path (even-odd rule: a ring within a ring is a hole).
     Area { path: Path, colour: Rgb, opacity: f64, label: String },
-    /// A line along a path, with round ends and joints.
+    /// Line along a path, with round ends and joints.
     Line { path: Path, pen: Pen },
-    /// An image in a rectangle.
+    /// Image at a position.
     Image { corner: Pixel, image: Pixmap },
-    /// What follows shows inside of a rectangle alone, or everywhere again.
+    /// Restriction of the following elements to a rectangle, or its end.
     Clip(Option<Rect>),
 }
 
-/// What is drawn, described once: [`Drawing::svg`] writes it as vectors, [`Drawing::pixels`] paints it.
+/// Drawing as a list of elements: [`Drawing::svg`] writes it as vectors, [`Drawing::pixels`] paints it.
 #[derive(Debug, Clone)]
 pub(crate) struct Drawing {
     size: [f64; 2],
@@ -115,41 +115,41 @@ pub(crate) struct Drawing {
 }
 
 impl Drawing {
-    /// A white drawing of the given width and height (pixels).
+    /// White drawing of a width and height (pixels).
     pub(crate) fn new(size: [f64; 2]) -> Self {
         Self { size, shapes: Vec::new() }
     }
 
-    /// Restricts what follows to a rectangle, or (`None`) lifts the restriction.
+    /// Restricts the elements that follow to a rectangle, or (`None`) lifts the restriction.
     pub(crate) fn clip(&mut self, to: Option<Rect>) {
         self.shapes.push(Shape::Clip(to));
     }
 
-    /// The area inside the closed curves `rings` (even-odd rule: a ring within a ring is a hole).
+    /// Fills the area inside the closed curves `rings` (even-odd rule: a ring within a ring is a hole).
     pub(crate) fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64) {
         let area = |path| Shape::Area { path, colour, opacity, label: String::new() };
         self.shapes.extend(path(rings, true).map(area));
     }
 
-    /// Lines through `paths`, with round ends and joints.
+    /// Draws lines along `paths`, with round ends and joints.
     pub(crate) fn strokes(&mut self, paths: &[Vec<Pixel>], pen: &Pen) {
         self.shapes.extend(path(paths, false).map(|path| Shape::Line { path, pen: *pen }));
     }
 
-    /// A line through `path`.
+    /// Draws a line along `path`.
     pub(crate) fn stroke(&mut self, path: &[Pixel], pen: &Pen) {
         self.strokes(&[path.to_vec()], pen);
     }
 
-    /// A line with lengths of dash and gap (pixels).
+    /// Draws a dashed line, with lengths of dash and gap (pixels).
     pub(crate) fn dashed(&mut self, path: &[Pixel], pen: &Pen, pattern: [f64; 2]) {
         let dash = StrokeDash::new(pattern.map(|length| length.max(0.1) as f32).to_vec(), 0.0);
         let cut = dash.and_then(|dash| self::path(&[path.to_vec()], false)?.dash(&dash, 1.0));
         self.shapes.extend(cut.map(|path| Shape::Line { path, pen: *pen }));
     }
 
-    /// An opaque line whose pieces from vertex to vertex have the mean of the colours at their ends; `colours` has as
-    /// many entries as `path`.
+    /// Draws an opaque line whose pieces have the mean of the colours at their ends; `colours` has as many entries as
+    /// `path`.
     pub(crate) fn stroke_coloured(&mut self, path: &[Pixel], colours: &[Rgb], width: f64) {
         for (ends, tints) in path.windows(2).zip(colours.windows(2)) {
             self.stroke(ends, &Pen::new(tints[0].mix(tints[1], 0.5), width));
@@ -170,7 +170,7 @@ impl Drawing {
         self.shapes.push(Shape::Image { corner: [area.left, area.top], image });
     }
 
-    /// Triangles in the colours given, within `area`, whose edges are on whole pixels.
+    /// Fills triangles, each in its colour, within `area`, whose edges are on whole pixels.
     pub(crate) fn triangles(&mut self, area: Rect, triangles: impl Iterator<Item = ([Pixel; 3], Rgb)>) {
         let Some(mut image) = Pixmap::new(area.width as u32, area.height as u32) else { return };
         let place = Transform::from_translate(-area.left as f32, -area.top as f32);
@@ -185,17 +185,18 @@ impl Drawing {
         self.shapes.push(Shape::Image { corner: [area.left, area.top], image });
     }
 
-    /// A line of text; `_{...}` and `^{...}` lower and raise what is in the braces.
+    /// Writes a line of text; `_{...}` and `^{...}` lower and raise the text in the braces.
     pub(crate) fn text(&mut self, at: Pixel, text: &str, style: &TextStyle) {
         let area = |path| Shape::Area { path, colour: style.colour, opacity: 1.0, label: text.to_string() };
         self.shapes.extend(font::place(text, at, style).map(area));
     }
 }
 
-/// Coordinates beyond are drawn as these (pixels): far outside of any drawing, and not too large to be painted.
+/// Largest coordinate (pixels), to which others are clamped: far outside of any drawing, and small enough to be
+/// painted.
 const FARTHEST: f64 = 1e5;
 
-/// Lines through points as one path; `None` with a point that is not finite, and without any.
+/// Lines through points as one path; `None` if a point is not finite or there are none.
 fn path(lines: &[Vec<Pixel>], closed: bool) -> Option<Path> {
     let mut builder = PathBuilder::new();
     for line in lines {

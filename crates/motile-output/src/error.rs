@@ -1,34 +1,36 @@
-//! What can go wrong in drawing and writing.
+//! Errors of drawing and writing.
 
 use std::{io, path::PathBuf};
 
-use motile::{active_interface::InterfaceError, elastic_solids::SolidError, ib_core::SceneError};
+use motile::active_interface::InterfaceError;
+use motile::elastic_solids::SolidError;
+use motile::motile_scene::SceneError;
 
-/// Why something cannot be drawn or written. Each says what it was given, and what to do.
+/// Error of drawing or writing, with the offending value and the remedy.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
-pub enum Error {
-    /// A file or directory that cannot be written.
+pub enum OutputError {
+    /// File or directory that cannot be written.
     #[error("writing {}: {source}", path.display())]
     Write {
-        /// Where.
+        /// Path of the file or directory.
         path: PathBuf,
-        /// Why not.
+        /// Error of the system.
         source: io::Error,
     },
-    /// An image, panel or number of cells that is too small or too large.
+    /// Image, panel or number of cells that is too small or too large.
     #[error("{what} of {given} cannot be drawn: give {least} to {most}")]
     Size {
-        /// What is to have the size.
+        /// Object that is to have the size.
         what: &'static str,
-        /// The size.
+        /// Size that was given.
         given: f64,
-        /// The least that there may be.
+        /// Smallest size.
         least: f64,
-        /// The most.
+        /// Largest size.
         most: f64,
     },
-    /// A rectangle that is empty, not finite, or much longer than wide.
+    /// Rectangle that is empty, not finite, or much longer than wide.
     #[error(
         "the rectangle of size {size:?} at {corner:?} cannot be drawn: give finite sizes above 0, of ratio below 20"
     )]
@@ -38,77 +40,77 @@ pub enum Error {
         /// Width and height (length).
         size: [f64; 2],
     },
-    /// A domain without end: it has no rectangle that could be drawn.
-    #[error("a domain without end cannot be drawn: give a raster of the part that is to be seen")]
+    /// Unbounded domain, which has no rectangle of its own to draw.
+    #[error("an unbounded domain cannot be drawn: give a raster of the part that is to be seen")]
     Unbounded,
-    /// Values that are not as many as their points, cells or columns.
+    /// Number of values other than that of their points, cells or columns.
     #[error("{given} {what} where there must be {expected}")]
     Count {
-        /// What they are.
+        /// Name of the values.
         what: String,
-        /// How many there are.
+        /// Number of values given.
         given: usize,
-        /// How many there must be.
+        /// Number of values needed.
         expected: usize,
     },
-    /// Streamlines so dense that they would fill the picture, or a distance that is none.
+    /// Distance of streamlines that is not positive, or so small that lines would fill the picture.
     #[error(
         "streamlines cannot be {spacing} apart in a rectangle of {size:?}: give a distance of at least a thousandth of \
          it"
     )]
     Streamlines {
-        /// Their distance (length).
+        /// Distance of the streamlines (length).
         spacing: f64,
         /// Width and height of the rectangle (length).
         size: [f64; 2],
     },
-    /// A name that a file cannot hold: empty, given twice, or with characters that would need to be escaped.
+    /// Name that a file cannot hold: empty, given twice, or with characters that would need to be escaped.
     #[error("{name:?} cannot be the name of {what}: give another one, of letters, digits, '_', '-' and spaces")]
     Name {
-        /// The name.
+        /// Name that was given.
         name: String,
-        /// What is to have it.
+        /// Object that is to have the name.
         what: &'static str,
     },
-    /// A column that a table does not have.
-    #[error("there is no column {name:?} among {known:?}")]
+    /// Column that a table does not have.
+    #[error("there is no column {name:?}: give one of {known:?}")]
     Column {
-        /// The name.
+        /// Name that was given.
         name: String,
-        /// The columns that there are.
+        /// Names of the columns.
         known: Vec<String>,
     },
-    /// Nothing to be drawn or written.
+    /// Figure or animation with nothing in it.
     #[error("{0} cannot be written: add at least one")]
     Empty(&'static str),
-    /// A flow that cannot be computed, or a droplet that the scene does not have.
+    /// Flow that cannot be computed, or droplet that the scene does not have.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A droplet that cannot be measured.
+    /// Droplet that cannot be measured.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
-    /// A state that an observer cannot measure.
+    /// State that an observer cannot measure.
     #[error("the state cannot be measured: {0}")]
     Observer(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// A solid that cannot be measured.
+    /// Solid that cannot be measured.
     #[error(transparent)]
     Solid(#[from] SolidError),
 }
 
-motile::ib_core::input::debug_as_explanation!(Error);
+motile::motile_base::debug_as_explanation!(OutputError);
 
-impl Error {
-    /// Turns the error of writing to `path` into one that names the place.
+impl OutputError {
+    /// Conversion of errors of writing to `path` into ones that name the path.
     pub(crate) fn writing<E: Into<io::Error>>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
         |source| Self::Write { path: path.into(), source: source.into() }
     }
 
-    /// Refuses a size outside of `least..=most`, and one that is not a number.
+    /// Refuses sizes outside of `least..=most`, and not a number.
     pub(crate) fn check_size(what: &'static str, given: f64, least: f64, most: f64) -> Result<(), Self> {
         if (least..=most).contains(&given) { Ok(()) } else { Err(Self::Size { what, given, least, most }) }
     }
 
-    /// Refuses a number of values other than `expected`.
+    /// Refuses numbers of values other than `expected`.
     pub(crate) fn check_count(what: &str, given: usize, expected: usize) -> Result<(), Self> {
         if given == expected { Ok(()) } else { Err(Self::Count { what: what.to_string(), given, expected }) }
     }

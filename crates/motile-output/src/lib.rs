@@ -1,6 +1,6 @@
 //! Pictures, plots, animations, CSV and ParaView files of simulations with [`motile`].
 //!
-//! Ten lines that run a droplet and leave a trajectory and a picture:
+//! A run of a droplet that leaves a trajectory and a picture:
 //!
 //! ```
 //! use motile::prelude::*;
@@ -26,44 +26,45 @@
 //! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
-//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`], [`concentration_plot`] |
+//! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
 //! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | waiting | [`Progress`] |
+//! | long work | [`Progress`] bar |
+//! | whole runs, parameter sweeps | the modules `run` and `sweep` of the feature `sweep` |
 //!
 //! Pictures and plots are drawn once, as vectors, and written as SVG or PNG. They need no fonts of the system and no C
-//! libraries: Noto Sans is bundled (SIL Open Font License). What cannot be drawn or written ends in an [`Error`].
+//! libraries: Noto Sans is bundled (SIL Open Font License). Failures end in an [`OutputError`].
 
 mod animation;
-mod base64;
 mod colour;
 mod drawing;
 mod error;
-mod field;
 mod paraview;
 mod picture;
-mod plot;
+pub mod plot;
 mod progress;
+mod raster;
+#[cfg(feature = "sweep")]
+pub mod run;
 mod snapshot;
 mod solids;
+mod streamlines;
+#[cfg(feature = "sweep")]
+pub mod sweep;
 mod table;
 mod trajectory;
 
 pub use animation::Film;
 pub(crate) use colour::ColourScale;
-pub use colour::{Rgb, SERIES_COLOURS};
-pub use drawing::axes::AxisScale;
-pub use error::Error;
-pub use field::raster::{Raster, Samples};
-pub use field::streamlines::streamlines;
-pub use motile::ib_core::Vec2;
+pub use colour::Rgb;
+pub use error::OutputError;
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};
 pub use picture::{Look, SolidColour, SolidShape, Track};
-pub use plot::droplet::{concentration_plot, time_series};
-pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
+pub use raster::{Raster, Samples};
 pub use snapshot::{DropletOutline, GelField, InteriorField, Snapshot};
 pub use solids::SolidMeter;
+pub use streamlines::streamlines;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -1,35 +1,39 @@
-//! Files for ParaView.
+//! Files of runs for ParaView.
 
 pub(crate) mod file;
-mod gels;
-mod inside;
-mod solids;
+mod meshes;
 
 use std::path::Path;
 
 use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
-use motile::ib_core::{Hydrodynamics, Observer, System};
+use motile::motile_scene::{Hydrodynamics, Observer, System};
 
-use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
+use crate::{OutputError, Raster, Snapshot, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
+use motile::motile_base::Vec2;
 
-/// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid
-/// bodies and membranes (`curves.pvd`) whenever it is called.
+/// Name of the record with the times of the files in a system.
+const RECORD: &str = "files for ParaView";
+
+/// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
+/// and, where there are some, elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets
+/// (`inside.pvd`), rigid bodies and membranes (`curves.pvd`).
 ///
-/// | file | where | what (dimension) |
+/// | file | location | quantity (dimension) |
 /// |---|---|---|
 /// | fields | in the cells | pressure (force per length), velocity (length per time), vorticity (1/time) |
 /// | interface | at the markers | concentration (particles per length), tension (force), velocity (length per time) |
 /// | interface | at the markers | force on the fluid (force) |
-/// | interface | one line a droplet | its number, in the order of addition |
+/// | interface | in each droplet's line | number of the droplet, in the order of addition |
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
-/// | solids | in the triangles | the number of the solid |
+/// | solids | in the triangles | number of the solid |
 /// | gels | at the nodes | director (no dimension) |
-/// | gels | in the triangles | the number of the gel |
+/// | gels | in the triangles | number of the gel |
 /// | inside | at the nodes | density (particles per area) |
 /// | curves | at the markers | velocity (length per time), force on the fluid (force) |
-/// | curves | one line a body | its number, in the order of addition |
+/// | curves | in each body's line | number of the body, in the order of addition |
+///
+/// Checkpoints hold the times of the files, so that a resumed run continues their numbers.
 ///
 /// The vorticity is `dv/dx - du/dy`, the deviator of the stress `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`.
 ///
@@ -54,21 +58,22 @@ pub struct ParaView {
     gels: VtkSeries,
     curves: VtkSeries,
     inside: VtkSeries,
+    begun: bool,
 }
 
 impl ParaView {
-    /// Files in `directory`, which is made if it is not there, with the flow in the cells of `raster`.
+    /// Observer whose files are in `directory`, which is created if needed, with the flow in the cells of `raster`.
     ///
     /// # Errors
-    /// [`Error::Write`]: a directory that cannot be made.
-    pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
+    /// [`OutputError::Write`]: a directory that cannot be created.
+    pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, OutputError> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
         let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
         let [gels, curves, inside] = [series("gels")?, series("curves")?, series("inside")?];
-        Ok(Self { raster, fields, interface, solids, gels, curves, inside })
+        Ok(Self { raster, fields, interface, solids, gels, curves, inside, begun: false })
     }
 
-    fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
+    fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), OutputError> {
         let seen = Snapshot::take(system, self.raster)?;
         let file = VtkFile::image(seen.raster)
             .cell_scalars("pressure", seen.pressure())
@@ -77,21 +82,19 @@ impl ParaView {
         self.fields.push(seen.time, &file)?;
 
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
-        if let Some(file) = curve_lines(system)? {
-            self.curves.push(seen.time, &file)?;
-        }
-        if let Some(file) = solids::file(system) {
-            self.solids.push(seen.time, &file)?;
-        }
-        if let Some(file) = inside::file(system) {
-            self.inside.push(seen.time, &file)?;
-        }
-        gels::file(system).map_or(Ok(()), |file| self.gels.push(seen.time, &file))
+        let present = [
+            (&mut self.curves, curve_lines(system)?),
+            (&mut self.solids, meshes::solids(system)),
+            (&mut self.inside, meshes::particles(system)),
+            (&mut self.gels, meshes::gels(system)),
+        ];
+        let files = present.into_iter().filter_map(|(series, file)| Some((series, file?)));
+        files.into_iter().try_for_each(|(series, file)| series.push(seen.time, &file))
     }
 }
 
-/// All interfaces, each droplet's markers with its own forces and velocities.
-fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<VtkFile, Error> {
+/// File of all interfaces, each droplet's markers with its own forces and velocities.
+fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<VtkFile, OutputError> {
     let (mut tension, mut velocity, mut force): (Vec<f64>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     for (handle, droplet) in system.bodies::<ActiveDroplet>() {
         let state = InterfaceState::of(system, handle)?;
@@ -108,8 +111,8 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64)))
 }
 
-/// All rigid bodies and membranes; `None` if there are none.
-fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, Error> {
+/// File of all rigid bodies and membranes; `None` if there are none.
+fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, OutputError> {
     let (mut lines, mut velocity, mut force): (Vec<Vec<Vec2>>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     for (handle, _) in curves(system) {
         let flow = system.flow_at(handle)?;
@@ -124,7 +127,19 @@ fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, 
 
 impl<H: Hydrodynamics> Observer<H> for ParaView {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        Ok(self.write(system)?)
+        let (time, files) = (system.time(), &mut system.record_mut(RECORD).numbers);
+        if !std::mem::replace(&mut self.begun, true) {
+            files.retain(|&earlier| time > 0.0 && earlier <= time);
+            if !files.is_empty() {
+                let Self { fields, interface, solids, gels, curves, inside, .. } = self;
+                [fields, interface, solids, gels, curves, inside].into_iter().for_each(|series| series.after(files));
+                // The resumed state has its files, or was not due for any.
+                return Ok(());
+            }
+        }
+        self.write(system)?;
+        system.record_mut(RECORD).numbers.push(time);
+        Ok(())
     }
 }
 

@@ -1,22 +1,24 @@
-//! Pictures of scenes.
+//! Pictures of scenes: contents and settings.
 
 mod paint;
 
 use std::path::Path;
 
-use crate::{ColourScale, Error, Snapshot, Vec2, drawing::Drawing};
+use crate::{ColourScale, OutputError, Snapshot, drawing::Drawing};
+use motile::motile_base::Vec2;
 
-/// Distance of streamlines, as part of the smaller side.
+/// Distance of streamlines over the smaller side of the picture, by default.
 const STREAMLINES: f64 = 0.05;
 
-/// Times and positions (length) of something that moves, such as a centroid.
+/// Path of a moving point, such as a centroid: times and positions (length).
 pub type Track = Vec<(f64, Vec2)>;
 
-/// How scenes are drawn: pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets
-/// coloured by their concentrations (black without particles), the densities of particles that diffuse inside in place
-/// of the pressure, the directors and defects of gels, solids, rigid walls, between walls the paths of the droplets,
-/// the time and a scale bar. In periodic directions everything is drawn with its periodic images, so positions need not
-/// be wrapped.
+/// Settings of pictures of scenes.
+///
+/// A picture shows pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets coloured by
+/// their concentrations (black without particles), densities of particles that diffuse inside in place of the pressure,
+/// directors and defects of gels, solids and rigid walls, the time and a scale bar; between walls also the paths of the
+/// droplets. In periodic directions everything is drawn with its periodic images, so positions need not be wrapped.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -31,45 +33,47 @@ pub type Track = Vec<(f64, Vec2)>;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Look {
-    /// What the pictures say beside the time.
+    /// Caption beside the time.
     pub caption: String,
-    /// Concentration that counts as 1 (particles per length); if nothing is said, the unit.
+    /// Unit of the concentrations shown (particles per length); 1 if `None`.
     pub concentration: Option<f64>,
-    /// Distance of streamlines (length); if nothing is said, a twentieth of the smaller side.
+    /// Distance of streamlines (length); a twentieth of the smaller side if `None`.
     pub streamline_spacing: Option<f64>,
-    /// What the colour of solids shows.
+    /// Quantity shown by the colour of solids.
     pub solids: SolidColour,
 }
 
-/// What the colour of solids shows.
+/// Quantity shown by the colour of solids.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SolidColour {
-    /// Nothing: all solids are grey.
+    /// No quantity: all solids are grey.
     #[default]
     Plain,
-    /// The distance of each triangle from its reference place (length).
+    /// Displacement of each triangle from its reference position (length).
     Displacement,
-    /// The deviator of the Cauchy stress, `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)` (force per length).
+    /// Deviator of the Cauchy stress, `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)` (force per length).
     Stress,
 }
 
-/// A solid as it is drawn.
+/// Shape of a solid, with values for colours.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct SolidShape {
-    /// Closed outlines of what is filled (length), one within another for a hole.
+    /// Closed outlines of the filled area (length), one within another for a hole.
     pub area: Vec<Vec<Vec2>>,
-    /// Lines that are drawn as its surface (length).
+    /// Lines of the surface (length).
     pub edges: Vec<Vec<Vec2>>,
-    /// The corners of its triangles (length), for colours.
+    /// Corners of the triangles (length), for colours.
     pub triangles: Vec<[Vec2; 3]>,
-    /// Of each triangle the distance from its reference place (length).
+    /// Displacement of each triangle from its reference position (length).
     pub displacement: Vec<f64>,
-    /// Of each triangle the deviator of the Cauchy stress (force per length), not a number if it is inverted.
+    /// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
     pub stress: Vec<f64>,
 }
 
 impl SolidShape {
-    /// The values that a colour shows, one a triangle.
+    /// Values that a colour shows, one for each triangle.
     fn values(&self, colour: SolidColour) -> &[f64] {
         match colour {
             SolidColour::Plain => &[],
@@ -84,36 +88,36 @@ impl SolidShape {
 pub(crate) struct Format {
     /// Width of the image (pixels); its height follows from the shape of the region.
     width: usize,
-    /// Number of colours of the pressure: few show contour bands, and make animations small.
+    /// Number of colours of the pressure: few give contour bands and small animations.
     levels: usize,
     /// Factor on the distance between streamlines.
     streamline_spacing: f64,
     /// Width of the image relative to the size of the type.
     type_sizes: f64,
-    /// Whether a single droplet is in the middle of its periods.
+    /// True if a single droplet is drawn in the middle of its periods.
     follows: bool,
 }
 
 impl Format {
     const STILL: Self = Self { width: 1200, levels: 256, streamline_spacing: 1.0, type_sizes: 58.0, follows: true };
-    /// For animations.
+    /// Format of the frames of animations.
     pub(crate) const FRAME: Self =
         Self { width: 440, levels: 20, streamline_spacing: 2.0, type_sizes: 37.0, follows: false };
 }
 
-/// The colour scales of pressure, concentration and density inside where there are particles, and solids where they are
-/// coloured.
+/// Colour scales of the pressure, of concentrations and densities inside where there are particles, and of solids where
+/// they are coloured.
 #[derive(Debug)]
 pub(crate) struct Legends {
     pressure: ColourScale,
     concentration: Option<ColourScale>,
     inside: Option<ColourScale>,
     solids: Option<ColourScale>,
-    /// Concentration that counts as 1 (particles per length).
+    /// Unit of the concentrations (particles per length).
     unit: f64,
 }
 
-/// A picture: what is in it.
+/// Contents of a picture.
 #[derive(Debug)]
 struct Picture<'a> {
     seen: &'a Snapshot,
@@ -122,13 +126,13 @@ struct Picture<'a> {
     solids: SolidColour,
     streamline_spacing: f64,
     tracks: Vec<Vec<Vec2>>,
-    /// Lower left and upper right corner of what is shown (length).
+    /// Lower left and upper right corner of the part shown (length).
     view: [Vec2; 2],
     format: &'a Format,
 }
 
 impl Look {
-    /// Scales for all of these states.
+    /// Colour scales that serve all of some states.
     pub(crate) fn legends(&self, all: &[Snapshot]) -> Legends {
         let pressures = all.iter().flat_map(|seen| seen.flow.iter().map(|sample| sample.pressure));
         let unit = self.concentration.unwrap_or(1.0);
@@ -147,14 +151,14 @@ impl Look {
         }
     }
 
-    /// A state with the tracks up to its time.
+    /// Drawing of a state, with the tracks up to its time.
     pub(crate) fn draw(
         &self,
         seen: &Snapshot,
         legends: &Legends,
         tracks: &[Track],
         format: &Format,
-    ) -> Result<Drawing, Error> {
+    ) -> Result<Drawing, OutputError> {
         let (corner, size) = (Vec2::from(seen.raster.origin), Vec2::from(seen.raster.size));
         let mut centre = corner + 0.5 * size;
         if let ([droplet], true) = (&seen.droplets[..], format.follows) {
@@ -164,7 +168,7 @@ impl Look {
             let path: Vec<Vec2> = track.iter().filter(|(time, _)| *time <= seen.time).map(|(_, at)| *at).collect();
             last_period(&path, size.x).to_vec()
         };
-        let spacing = self.streamline_spacing.unwrap_or(STREAMLINES * size.min_element());
+        let spacing = self.streamline_spacing.unwrap_or(STREAMLINES * size.x.min(size.y));
         paint::paint(&Picture {
             seen,
             legends,
@@ -177,19 +181,19 @@ impl Look {
         })
     }
 
-    /// Draws a state to a file, SVG where its name ends in `.svg` and PNG otherwise, a single droplet in the middle of
-    /// its periods; between walls with the tracks up to that time.
+    /// Writes a picture of a state, as SVG where the name ends in `.svg` and as PNG otherwise. A single droplet is in
+    /// the middle of its periods; between walls the tracks up to the time of the state are drawn.
     ///
     /// # Errors
-    /// [`Error::Write`], [`Error::Streamlines`]; [`Error::Count`] for a snapshot of your own with other than one sample
-    /// a cell.
-    pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
+    /// [`OutputError::Write`]; [`OutputError::Streamlines`]; [`OutputError::Count`] for a snapshot with other than one
+    /// sample for each cell.
+    pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         let legends = self.legends(std::slice::from_ref(seen));
         self.draw(seen, &legends, tracks, &Format::STILL)?.write(path.as_ref(), 1.0)
     }
 }
 
-/// The end of a path that is no longer than three quarters of the period in x: more of it would be drawn over itself.
+/// End of a path that extends over at most three quarters of the period in x: more would be drawn over itself.
 fn last_period(path: &[Vec2], period: f64) -> &[Vec2] {
     let Some(&end) = path.last() else { return path };
     let start = path.iter().rposition(|p| (p.x - end.x).abs() > 0.75 * period).map_or(0, |k| k + 1);

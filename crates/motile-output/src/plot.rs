@@ -1,30 +1,35 @@
-//! Plots of series of points: what is in them.
+//! Plots of series of points: contents and settings.
 
-pub(crate) mod droplet;
+mod droplet;
 mod paint;
 
 use std::{fs, path::Path};
 
 use paint::draw;
 
-use crate::{AxisScale, Error, Rgb};
+pub use crate::colour::SERIES_COLOURS;
+pub use crate::drawing::axes::AxisScale;
+pub use droplet::{concentration_plot, time_series};
 
-/// The shape of the points of a series.
+use crate::{OutputError, Rgb};
+
+/// Shape of the points of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Marker {
-    /// A disc.
+    /// Disc.
     Disc,
-    /// An empty circle.
+    /// Empty circle.
     Circle,
-    /// A square.
+    /// Square.
     Square,
-    /// A triangle that points up.
+    /// Triangle that points up.
     Triangle,
-    /// A diamond.
+    /// Diamond.
     Diamond,
 }
 
-/// A series of points with its looks and the label by which the legend names it.
+/// Series of points, with its style and its label in the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     label: String,
@@ -36,43 +41,43 @@ pub struct Series {
 }
 
 impl Series {
-    /// A line through points `(x, y)`; a point that is not finite interrupts it. Without a label the legend leaves it
-    /// out.
+    /// Series drawn as a line through points `(x, y)`, interrupted where a point is not finite. A series with an empty
+    /// label is not in the legend.
     #[must_use]
     pub fn line(label: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().collect();
         Self { label: label.to_string(), points, line: true, dashed: false, marker: None, colour: None }
     }
 
-    /// Points `(x, y)` with markers and no line.
+    /// Series drawn as markers at points `(x, y)`, without a line.
     #[must_use]
     pub fn points(label: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { line: false, marker: Some(Marker::Disc), ..Self::line(label, points) }
     }
 
-    /// The same with its line dashed.
+    /// Series with a dashed line.
     #[must_use]
     pub fn dashed(self) -> Self {
         Self { dashed: true, ..self }
     }
 
-    /// The same with markers at its points.
+    /// Series with markers at its points.
     #[must_use]
     pub fn marker(self, marker: Marker) -> Self {
         Self { marker: Some(marker), ..self }
     }
 
-    /// The same in a given colour instead of the next of [`crate::SERIES_COLOURS`].
+    /// Series in a given colour instead of the next of [`crate::plot::SERIES_COLOURS`].
     #[must_use]
     pub fn colour(self, colour: Rgb) -> Self {
         Self { colour: Some(colour), ..self }
     }
 }
 
-/// A plot: axes, series, reference lines.
+/// Plot: axes, series, reference lines.
 ///
 /// ```
-/// use motile_output::{AxisScale, Figure, Marker, Plot, Series};
+/// use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 ///
 /// let errors = [(0.2, 2.4e-2), (0.1, 6.1e-3), (0.05, 1.5e-3)];
 /// let plot = Plot::new("Error of the speed")
@@ -83,7 +88,7 @@ impl Series {
 ///     .horizontal(1e-2, "1 %");
 /// let svg = Figure::new(1).panel(plot).svg()?;
 /// assert!(svg.starts_with("<svg") && svg.contains("order 2"));
-/// # Ok::<(), motile_output::Error>(())
+/// # Ok::<(), motile_output::OutputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plot {
@@ -97,33 +102,33 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// An empty plot.
+    /// Empty plot with a title.
     #[must_use]
     pub fn new(title: &str) -> Self {
         Self { title: title.to_string(), ..Self::default() }
     }
 
-    /// Label and scale of the horizontal axis.
+    /// Sets label and scale of the horizontal axis.
     #[must_use]
     pub fn x_axis(mut self, label: &str, scale: AxisScale) -> Self {
         (self.labels[0], self.scales[0]) = (label.to_string(), scale);
         self
     }
 
-    /// Label and scale of the vertical axis.
+    /// Sets label and scale of the vertical axis.
     #[must_use]
     pub fn y_axis(mut self, label: &str, scale: AxisScale) -> Self {
         (self.labels[1], self.scales[1]) = (label.to_string(), scale);
         self
     }
 
-    /// Ends of the horizontal axis, which otherwise follow from the data.
+    /// Sets the ends of the horizontal axis, which otherwise follow from the data.
     #[must_use]
     pub fn x_range(self, low: f64, high: f64) -> Self {
         Self { x_range: Some([low, high]), ..self }
     }
 
-    /// A unit is as long on the vertical axis as on the horizontal one, as it should be for shapes (both axes linear).
+    /// Makes a unit equally long on both axes, which must be linear: for shapes.
     #[must_use]
     pub fn equal_units(self) -> Self {
         Self { equal_units: true, ..self }
@@ -136,7 +141,7 @@ impl Plot {
         self
     }
 
-    /// Adds a horizontal line at `value`.
+    /// Adds a dashed horizontal line at a value, with a label.
     #[must_use]
     pub fn horizontal(mut self, value: f64, label: &str) -> Self {
         self.references.push((value, label.to_string()));
@@ -144,7 +149,7 @@ impl Plot {
     }
 }
 
-/// One or more plots side by side and below each other.
+/// Figure of one or more plots, in rows and columns.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
     columns: usize,
@@ -153,7 +158,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A figure whose panels fill rows of `columns`.
+    /// Figure without plots so far, in rows of `columns` plots.
     #[must_use]
     pub fn new(columns: usize) -> Self {
         Self { columns: columns.max(1), panels: Vec::new(), panel_size: [540.0, 340.0] }
@@ -166,29 +171,29 @@ impl Figure {
         self
     }
 
-    /// Width and height of each panel (pixels of the SVG); 540 x 340 if nothing is said.
+    /// Sets width and height of each panel (pixels of the SVG), 540 x 340 by default.
     #[must_use]
     pub fn panel_size(mut self, width: f64, height: f64) -> Self {
         self.panel_size = [width, height];
         self
     }
 
-    /// The figure as vectors: the text of an SVG file.
+    /// Text of an SVG file of the figure.
     ///
     /// # Errors
-    /// [`Error::Empty`] without panels, [`Error::Size`] with panels too small or too large.
-    pub fn svg(&self) -> Result<String, Error> {
+    /// [`OutputError::Empty`] without panels, [`OutputError::Size`] with panels too small or too large.
+    pub fn svg(&self) -> Result<String, OutputError> {
         Ok(draw(self)?.svg())
     }
 
-    /// Writes the figure as `<name>.svg` and, with two pixels a unit, `<name>.png` into `directory`, which is made if
-    /// it is not there.
+    /// Writes the figure as `<name>.svg` and, at twice the resolution, `<name>.png` into `directory`, which is created
+    /// if needed.
     ///
     /// # Errors
-    /// As [`Figure::svg`], and [`Error::Write`].
-    pub fn write(&self, directory: impl AsRef<Path>, name: &str) -> Result<(), Error> {
+    /// As [`Figure::svg`], and [`OutputError::Write`].
+    pub fn write(&self, directory: impl AsRef<Path>, name: &str) -> Result<(), OutputError> {
         let directory = directory.as_ref();
-        fs::create_dir_all(directory).map_err(Error::writing(directory))?;
+        fs::create_dir_all(directory).map_err(OutputError::writing(directory))?;
         let drawing = draw(self)?;
         ["svg", "png"].iter().try_for_each(|kind| drawing.write(&directory.join(format!("{name}.{kind}")), 2.0))
     }

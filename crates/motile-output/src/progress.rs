@@ -1,22 +1,22 @@
-//! How far a run is.
+//! Progress of runs and other long work.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{InterfaceState, centroid_velocity};
-use motile::ib_core::{Hydrodynamics, Observer, System, Warnings};
+use motile::motile_scene::{Hydrodynamics, Observer, System, Warnings};
 
-/// Least time between two updates of the bar, and between two lines where there is no terminal.
+/// Smallest time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
 const LINE_INTERVAL: Duration = Duration::from_secs(15);
 /// Divisions of the bar.
 const DIVISIONS: f64 = 12.0;
-/// Returns to the start of a terminal's line and clears it (ECMA-48).
+/// Control sequence that returns to the start of a terminal's line and clears it (ECMA-48).
 const CLEAR: &str = "\r\x1b[K";
 
-/// A progress bar on the error output with what is said of the work and the time left. Where the output is not a
-/// terminal, a line now and then; hidden, nothing.
+/// Progress bar on the standard error, with a text on the state of the work and the time left. Where standard error is
+/// not a terminal, a line every quarter of a minute; if hidden, nothing.
 #[derive(Debug)]
 pub struct Progress {
     started: Instant,
@@ -26,7 +26,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar of work that starts now.
+    /// Progress bar of work that starts now.
     #[must_use]
     pub fn new(hidden: bool) -> Self {
         let (started, terminal) = (Instant::now(), std::io::stderr().is_terminal());
@@ -34,8 +34,8 @@ impl Progress {
         Self { started, due: if terminal { started } else { started + LINE_INTERVAL }, hidden, terminal }
     }
 
-    /// Tells which part of the work is done (0 to 1), and what `state` says of it. To be called often: mostly it
-    /// returns at once.
+    /// Updates the bar: the part of the work that is done (0 to 1), and a text on its state. To be called often: mostly
+    /// it returns at once.
     pub fn update(&mut self, done: f64, state: impl FnOnce() -> String) {
         if self.hidden || Instant::now() < self.due {
             return;
@@ -49,12 +49,12 @@ impl Progress {
         }
     }
 
-    /// Writes a line to the error output, in place of the bar until this is drawn again.
+    /// Writes a line to the standard error, in place of the bar until this is drawn again.
     pub fn note(&self, line: &str) {
         eprintln!("{}{line}", if self.terminal { CLEAR } else { "" });
     }
 
-    /// Takes the bar away; gives the wall clock time since the start (seconds).
+    /// Removes the bar and returns the wall clock time since the start (seconds).
     pub fn finish(&self) -> f64 {
         if self.terminal && !self.hidden {
             eprint!("{CLEAR}");
@@ -67,8 +67,8 @@ impl Progress {
     }
 }
 
-/// Shows the progress of a run: time, speed of the first droplet, pace; and once each of what its user should know
-/// ([`Warnings`]). To be called after every step.
+/// Observer that shows the progress of a run: time, speed of the first droplet, steps per second, and each of the
+/// [`Warnings`] once. To be called after every step.
 #[derive(Debug)]
 pub struct RunProgress {
     end: f64,
@@ -77,19 +77,19 @@ pub struct RunProgress {
 }
 
 impl RunProgress {
-    /// A run to time `end`.
+    /// Progress of a run to time `end`.
     #[must_use]
     pub fn new(end: f64, hidden: bool) -> Self {
         Self { end, progress: Progress::new(hidden), warnings: Warnings::default() }
     }
 
-    /// The warnings of the run.
+    /// Warnings of the run so far.
     #[must_use]
     pub fn warnings(&self) -> &Warnings {
         &self.warnings
     }
 
-    /// Takes the progress bar away; gives the wall clock time since the start (seconds).
+    /// Removes the progress bar and returns the wall clock time since the start (seconds).
     pub fn finish(&self) -> f64 {
         self.progress.finish()
     }
@@ -97,7 +97,7 @@ impl RunProgress {
 
 impl<H: Hydrodynamics> Observer<H> for RunProgress {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        // The flow at the end of a step is that at the start of the next, so that this costs nothing.
+        // The flow at the end of a step is that at the start of the next: this costs nothing.
         system.evaluate()?;
         for (time, warning) in self.warnings.look(system) {
             self.progress.note(&format!("warning: at t = {time:.3}, {warning}"));
@@ -117,8 +117,7 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
     }
 }
 
-/// The time that is left when a part of the work took some seconds, as minutes and seconds, or hours, minutes and
-/// seconds.
+/// Time left, given the seconds that a part of the work took: as minutes and seconds, or hours, minutes and seconds.
 fn left(seconds: f64, done: f64) -> String {
     if done.is_nan() || done <= 0.0 {
         return "?".into();

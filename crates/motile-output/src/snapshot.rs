@@ -1,42 +1,48 @@
-//! All droplets, solids and the flow around them at one time.
+//! State of all bodies of a scene and of the flow at one time, for pictures.
 
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
-use motile::ib_core::{FlowSample, Hydrodynamics, System};
+use motile::active_interface::{ActiveDroplet, polygon_moments};
 use motile::interior_fields::{Defect, GelInDroplet, ParticlesInDroplet};
+use motile::motile_base::FlowSample;
+use motile::motile_scene::{Hydrodynamics, System};
 
 use crate::{
-    Error, Raster, SolidShape, Vec2,
+    OutputError, Raster, SolidShape,
     solids::{curve_shapes, rigid_shape, solid_shape},
 };
+use motile::motile_base::Vec2;
 
-/// A droplet at one time.
+/// Droplet at one time.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DropletOutline {
-    /// The interface (length).
+    /// Markers of the interface (length).
     pub markers: Vec<Vec2>,
-    /// Concentration at the markers (particles per length), the mean of that in the segments on both sides.
+    /// Concentration at the markers (particles per length), the mean of the segments on both sides; empty without
+    /// particles.
     pub concentration: Vec<f64>,
     /// Centroid (length).
     pub centroid: Vec2,
 }
 
-/// A gel at one time.
+/// Gel at one time.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct GelField {
-    /// Its nodes (length).
+    /// Positions of the nodes (length).
     pub nodes: Vec<Vec2>,
-    /// The director at them (no dimension).
+    /// Director at the nodes (no dimension).
     pub directors: Vec<Vec2>,
-    /// The points about which it turns.
+    /// Topological defects of the director.
     pub defects: Vec<Defect>,
 }
 
 /// Particles that diffuse inside a droplet, at one time.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct InteriorField {
-    /// The triangles of its mesh (length).
+    /// Corners of the triangles of the mesh (length).
     pub triangles: Vec<[Vec2; 3]>,
-    /// The densities at their corners (particles per area).
+    /// Densities at these corners (particles per area).
     pub densities: Vec<[f64; 3]>,
 }
 
@@ -50,34 +56,35 @@ impl InteriorField {
     }
 }
 
-/// All droplets and solids of a scene and the flow on a raster, at one time.
+/// Snapshot of a scene: all droplets and solids, and the flow on a raster.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Snapshot {
-    /// When.
+    /// Time of the snapshot.
     pub time: f64,
-    /// The sample points of the flow.
+    /// Raster of the sample points of the flow.
     pub raster: Raster,
-    /// The flow at them.
+    /// Velocity, its gradient and the pressure at the sample points.
     pub flow: Vec<FlowSample>,
-    /// The droplets, in the order of addition.
+    /// Droplets, in the order of addition.
     pub droplets: Vec<DropletOutline>,
-    /// The gels inside droplets, in the order of addition.
+    /// Gels inside droplets, in the order of addition.
     pub gels: Vec<GelField>,
-    /// The particles that diffuse inside droplets, in the order of addition.
+    /// Particles that diffuse inside droplets, in the order of addition.
     pub inside: Vec<InteriorField>,
-    /// The elastic solids, rigid bodies and membranes, each in the order of addition, and rigid walls and obstacles as
-    /// one more.
+    /// Elastic solids, then rigid bodies and membranes, each in the order of addition, then rigid walls and obstacles
+    /// as one more.
     pub solids: Vec<SolidShape>,
     /// Heights of straight rigid walls (length).
     pub walls: Option<[f64; 2]>,
 }
 
 impl Snapshot {
-    /// The present state of a system, with the flow on a raster.
+    /// Snapshot of the present state of a system, with the flow on a raster.
     ///
     /// # Errors
-    /// [`Error::Scene`]: a flow that cannot be computed.
-    pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self, Error> {
+    /// [`OutputError::Scene`]: a flow that cannot be computed; [`OutputError::Interface`]: a droplet without area.
+    pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self, OutputError> {
         let points = raster.points();
         let mut flow = vec![FlowSample::default(); points.len()];
         system.sample(&points, &mut flow)?;
@@ -86,7 +93,7 @@ impl Snapshot {
             let concentration = at_markers(droplet.concentrations());
             Ok(DropletOutline { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
         };
-        let walls = system.hydrodynamics().discretisation().domain.walls;
+        let walls = system.hydrodynamics().fluid_view().domain.walls;
         let rigid = system.hydrodynamics().walls().map(|boundary| rigid_shape(boundary, walls));
         let gel = |(_, gel): (_, &GelInDroplet)| {
             let (nodes, directors) = (gel.nodes().to_vec(), gel.directors().to_vec());
@@ -98,7 +105,7 @@ impl Snapshot {
             time: system.time(),
             raster,
             flow,
-            droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
+            droplets: system.bodies().map(shape).collect::<Result<_, OutputError>>()?,
             solids: system
                 .bodies()
                 .map(|(_, solid)| solid_shape(solid))
@@ -122,7 +129,7 @@ impl Snapshot {
     }
 }
 
-/// The mean of the values of the two segments that meet at each marker.
+/// Means of the values of the two segments that meet at each marker.
 pub(crate) fn at_markers(segments: &[f64]) -> Vec<f64> {
     let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
     segments.iter().zip(before).map(|(here, before)| 0.5 * (here + before)).collect()

@@ -1,20 +1,23 @@
-//! What is seen of the elastic solids of a scene.
+//! Elastic solids and other rigid or elastic bodies of a scene: shapes and measurements.
 
 use std::any::Any;
 
 use motile::active_interface::ActiveDroplet;
-use motile::elastic_solids::{Solid, channel::width_between, solid::Deformation};
-use motile::ib_core::gap::{Boundary, SolidGap};
-use motile::ib_core::{Body, Handle, Hydrodynamics, System};
+use motile::elastic_solids::{Deformation, Solid, width_between};
+use motile::motile_scene::{
+    Body, Handle, Hydrodynamics, System,
+    gap::{Boundary, SolidGap},
+};
 
-use crate::{Error, SolidShape, Vec2};
+use crate::{OutputError, SolidShape};
+use motile::motile_base::Vec2;
 
-/// The solids of a system, in the order of addition.
+/// Solids of a system, in the order of addition.
 pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Solid> {
     system.bodies().map(|(_, solid)| solid)
 }
 
-/// A solid where it is now; of a periodic wall one period.
+/// Present shape of a solid; one period of a periodic wall.
 pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     let (mesh, displacements): (_, Vec<Vec2>) = (solid.mesh(), solid.displacements().collect());
     let mut shape = SolidShape::default();
@@ -23,7 +26,8 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
         shape.displacement.push(nodes.iter().map(|&node| displacements[node]).sum::<Vec2>().length() / 3.0);
     }
     shape.stress = stress_deviators(solid);
-    // Lines around the period, to the right and to the left, with the solid on their left: one period of both.
+    // Lines around the period run to the right or to the left, with the solid on their left: the area is between one
+    // period of both.
     let mut end: Option<Vec2> = None;
     let mut around: Vec<Vec2> = Vec::new();
     for boundary in mesh.boundary_loops() {
@@ -48,18 +52,19 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     shape
 }
 
-/// The bodies of a system that are closed curves but no droplets: rigid bodies, membranes.
+/// Bodies of a system that are closed curves but no droplets: rigid bodies, membranes.
 pub(crate) fn curves<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
-        body.kind().is_interface() && !any.is::<ActiveDroplet>()
+        body.kind().is_closed_curve() && !any.is::<ActiveDroplet>()
     })
 }
 
-/// Their shapes: rigid ones are filled.
+/// Shapes of these bodies; rigid ones are filled.
 pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
-    curves(system).map(|(_, body)| {
-        let mut shape = rigid_shape(&Boundary::of(body), None);
+    let periods = system.hydrodynamics().fluid_view().domain.periods;
+    curves(system).map(move |(_, body)| {
+        let mut shape = rigid_shape(&Boundary::of(body, periods), None);
         if body.kind().holds_fluid() {
             shape.area.clear();
         }
@@ -67,7 +72,7 @@ pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
     })
 }
 
-/// Rigid walls and obstacles; those that are open reach to the straight walls behind them.
+/// Shape of rigid walls and obstacles; open ones reach to the straight walls behind them.
 pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> SolidShape {
     let mut shape = SolidShape::default();
     let mut line: Vec<Vec2> = Vec::new();
@@ -75,7 +80,7 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
         let (Some(&first), Some(&last)) = (line.first(), line.last()) else { return };
         let mut area = line.clone();
         if let Some([below, above]) = straight.filter(|_| first.distance(last) > 1e-6 * (last - first).x.abs()) {
-            // What is rigid is to the left.
+            // The rigid side is on the left.
             let behind = if last.x > first.x { above } else { below };
             area.extend([Vec2::new(last.x, behind), Vec2::new(first.x, behind), first]);
         }
@@ -83,8 +88,8 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
         shape.edges.push(std::mem::take(line));
     };
     for &[start, end] in boundary.sides() {
-        // Sides follow each other to the right or to the left.
-        let follows = |end: Vec2, start: Vec2| end.distance_squared(start) < 1e-20;
+        // The next side may continue the line at its end or at its start.
+        let follows = |end: Vec2, start: Vec2| (end - start).length_squared() < 1e-20;
         match (line.first().copied(), line.last().copied()) {
             (_, Some(last)) if follows(last, start) => line.push(end),
             (Some(first), _) if follows(end, first) => line.insert(0, start),
@@ -98,23 +103,23 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
     shape
 }
 
-/// The deviator of the Cauchy stress in each triangle (force per length); not a number where one is inverted.
+/// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
 pub(crate) fn stress_deviators(solid: &Solid) -> Vec<f64> {
     let Ok(stresses) = solid.stresses() else { return vec![f64::NAN; solid.mesh().triangles().len()] };
     stresses.iter().map(|s| (0.5 * (s.x_axis.x - s.y_axis.y)).hypot(s.x_axis.y)).collect()
 }
 
-/// Measures the solids of a system, for rows of a table.
+/// Measurement of the solids of a system, for rows of a table.
 #[derive(Debug, Clone)]
 pub struct SolidMeter {
     gap: SolidGap,
 }
 
 impl SolidMeter {
-    /// What is measured: smallest and largest width of the channel between the first two solids, gap between droplet
-    /// and solids, largest displacements in any direction and across a surface, the mean displacement of a solid that
-    /// is the largest along the channel (lengths), elastic energy, smallest ratio of deformed and reference area of a
-    /// triangle.
+    /// Names of the measured quantities: smallest and largest width of the channel between the first two solids, gap
+    /// between droplet and solids, largest displacements in any direction and normal to a surface, largest mean
+    /// displacement of a solid along the channel (all lengths), elastic energy (force times length), smallest ratio of
+    /// deformed to reference area of a triangle.
     pub const NAMES: [&'static str; 8] = [
         "channel_width_min",
         "channel_width_max",
@@ -126,17 +131,17 @@ impl SolidMeter {
         "smallest_jacobian",
     ];
 
-    /// A meter for a system with solids; `None` for one without.
+    /// Meter for a system with solids; `None` for one without.
     #[must_use]
     pub fn of<H: Hydrodynamics>(system: &System<H>) -> Option<Self> {
         solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY) })
     }
 
-    /// The values of [`SolidMeter::NAMES`] at the present state; not a number where there is none.
+    /// Values of [`SolidMeter::NAMES`] in the present state; not a number for quantities that the system does not have.
     ///
     /// # Errors
-    /// A state that cannot be measured.
-    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<[f64; 8], Error> {
+    /// [`OutputError::Solid`]: a solid whose energy is not defined, such as one with an inverted triangle.
+    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<[f64; 8], OutputError> {
         let mut pair = solids(system);
         let width = pair.next().zip(pair.next()).and_then(|(lower, upper)| width_between(lower, upper).ok());
         let gap = self.gap.measure(system).map_or(f64::NAN, |nearest| nearest.gap);

@@ -1,4 +1,4 @@
-//! What was measured over time, as a table in memory and as a CSV file.
+//! Tables of numbers, in memory and as CSV files.
 
 use std::{
     fs::File,
@@ -6,9 +6,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::Error;
+use motile::motile_scene::{Hydrodynamics, System};
 
-/// Rows of named numbers, written to a CSV file as they come, each at once, and kept for plots.
+use crate::OutputError;
+
+/// Table of named columns of numbers: each row is written to a CSV file at once, and kept for plots.
 ///
 /// ```
 /// use motile_output::CsvTable;
@@ -20,7 +22,7 @@ use crate::Error;
 /// table.flush()?;
 /// assert_eq!(std::fs::read_to_string(&path).unwrap(), "time,value\n0,1\n1,\n");
 /// # std::fs::remove_file(&path).unwrap();
-/// # Ok::<(), motile_output::Error>(())
+/// # Ok::<(), motile_output::OutputError>(())
 /// ```
 #[derive(Debug)]
 pub struct CsvTable {
@@ -28,18 +30,27 @@ pub struct CsvTable {
     rows: Vec<Vec<f64>>,
     file: LineWriter<File>,
     path: PathBuf,
+    kept: Option<Kept>,
+}
+
+/// Record of the rows in the system whose run the table is of, which checkpoints hold.
+#[derive(Debug)]
+struct Kept {
+    name: String,
+    /// Time from which the run was resumed, whose state has a row or was not due for one.
+    from: Option<f64>,
 }
 
 impl CsvTable {
-    /// Opens the file and writes its header.
+    /// Table with a new file, which gets the header.
     ///
     /// # Errors
-    /// [`Error::Name`]: an empty name, one given twice, or one with a comma, a quotation mark or the end of a line.
-    /// [`Error::Write`].
-    pub fn create(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, Error> {
+    /// [`OutputError::Name`]: an empty name, one given twice, or one with a comma, a quotation mark or the end of a
+    /// line. [`OutputError::Write`].
+    pub fn create(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
         for (k, name) in names.iter().enumerate() {
             if name.is_empty() || name.contains([',', '"', '\n', '\r']) || names[..k].contains(name) {
-                return Err(Error::Name { name: (*name).to_string(), what: "a column" });
+                return Err(OutputError::Name { name: (*name).to_string(), what: "a column" });
             }
         }
         let path = path.as_ref().to_path_buf();
@@ -48,66 +59,109 @@ impl CsvTable {
             writeln!(file, "{}", names.join(","))?;
             Ok(file)
         };
-        let file = open().map_err(Error::writing(&path))?;
-        Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path })
+        let file = open().map_err(OutputError::writing(&path))?;
+        Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path, kept: None })
     }
 
-    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is at most `from`, if it is a
-    /// table of the same columns: for what is resumed.
+    /// Table as by [`CsvTable::create`], with the rows that the file has if it is a table of the same columns.
     ///
     /// # Errors
     /// As [`CsvTable::create`].
-    pub fn resume(path: impl AsRef<Path>, names: &[&str], from: f64) -> Result<Self, Error> {
+    pub fn resume(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let mut lines = text.lines();
         let same = lines.next() == Some(names.join(",").as_str());
         let number = |field: &str| field.parse().unwrap_or(f64::NAN);
         let rows = lines.map(|line| line.split(',').map(number).collect::<Vec<f64>>());
         let mut table = Self::create(path, names)?;
-        for row in rows.filter(|row| same && row.len() == names.len() && row[0] <= from) {
+        for row in rows.filter(|row| same && row.len() == names.len()) {
             table.push(&row)?;
         }
         Ok(table)
     }
 
-    /// Adds a row, in the order of the names. Numbers that are not finite become empty fields of the file.
+    /// Table as by [`CsvTable::create`] for a run of `system`, the first column being the time. The system keeps the
+    /// rows as the record `name`, and so do checkpoints: the table of a resumed run begins with the rows so far, and
+    /// the others follow as if the run had not been interrupted.
     ///
     /// # Errors
-    /// [`Error::Count`], [`Error::Write`].
-    pub fn push(&mut self, row: &[f64]) -> Result<(), Error> {
-        Error::check_count("values of a row", row.len(), self.names.len())?;
+    /// As [`CsvTable::create`].
+    pub fn of_run<H: Hydrodynamics>(
+        path: impl AsRef<Path>,
+        names: &[&str],
+        system: &mut System<H>,
+        name: &str,
+    ) -> Result<Self, OutputError> {
+        let (time, record) = (system.time(), system.record_mut(name));
+        let mut table = Self::create(path, names)?;
+        if time > 0.0 && record.texts == table.names {
+            for row in record.numbers.chunks_exact(names.len()).filter(|row| row[0] <= time) {
+                table.push(row)?;
+            }
+        }
+        record.texts.clone_from(&table.names);
+        record.numbers = table.rows.concat();
+        table.kept = Some(Kept { name: name.to_owned(), from: (!table.rows.is_empty()).then_some(time) });
+        Ok(table)
+    }
+
+    /// Adds a row for the present state of the system, unless the run was resumed from that state, which has its row or
+    /// was not due for one.
+    ///
+    /// # Errors
+    /// As [`CsvTable::push`].
+    pub fn push_state<H: Hydrodynamics>(&mut self, system: &mut System<H>, row: &[f64]) -> Result<(), OutputError> {
+        let Some(Kept { name, from }) = &self.kept else { return self.push(row) };
+        OutputError::check_count("values of a row", row.len(), self.names.len())?;
+        if from.is_some_and(|from| from >= system.time()) {
+            return Ok(());
+        }
+        let rows = &mut system.record_mut(name).numbers;
+        // Another table may be of the same run.
+        if rows.chunks_exact(self.names.len()).last().is_none_or(|last| last[0] < row[0]) {
+            rows.extend(row);
+        }
+        self.push(row)
+    }
+
+    /// Adds a row, in the order of the columns. Numbers that are not finite become empty fields of the file.
+    ///
+    /// # Errors
+    /// [`OutputError::Count`], [`OutputError::Write`].
+    pub fn push(&mut self, row: &[f64]) -> Result<(), OutputError> {
+        OutputError::check_count("values of a row", row.len(), self.names.len())?;
         let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
         let fields: Vec<String> = row.iter().map(field).collect();
-        writeln!(self.file, "{}", fields.join(",")).map_err(Error::writing(&self.path))?;
+        writeln!(self.file, "{}", fields.join(",")).map_err(OutputError::writing(&self.path))?;
         self.rows.push(row.to_vec());
         Ok(())
     }
 
-    /// The rows so far.
+    /// Rows so far.
     #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
 
-    /// The points of column `y` over column `x`, for plots.
+    /// Points of column `y` over column `x`, for plots.
     ///
     /// # Errors
-    /// [`Error::Column`].
-    pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Error> {
+    /// [`OutputError::Column`]: a table without one of the columns.
+    pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, OutputError> {
         let index = |name: &str| {
-            let missing = || Error::Column { name: name.to_string(), known: self.names.clone() };
+            let missing = || OutputError::Column { name: name.to_string(), known: self.names.clone() };
             self.names.iter().position(|n| n == name).ok_or_else(missing)
         };
         let (x, y) = (index(x)?, index(y)?);
         Ok(self.rows.iter().map(|row| (row[x], row[y])).collect())
     }
 
-    /// Makes sure that all rows are in the file.
+    /// Writes all rows that are still buffered to the file.
     ///
     /// # Errors
-    /// [`Error::Write`].
-    pub fn flush(&mut self) -> Result<(), Error> {
-        self.file.flush().map_err(Error::writing(&self.path))
+    /// [`OutputError::Write`].
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.file.flush().map_err(OutputError::writing(&self.path))
     }
 }
 

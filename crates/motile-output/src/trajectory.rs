@@ -1,29 +1,30 @@
-//! The trajectory of a droplet as a CSV file.
+//! Trajectory of a droplet as a CSV file.
 
 use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
-use motile::active_interface::trajectory::{TrajectoryRecord, TrajectoryRecorder};
-use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
+use motile::active_interface::trajectory::{Trajectory, TrajectoryRecord, TrajectoryRecorder};
 use motile::interior_fields::ParticlesInDroplet;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
 
-use crate::{CsvTable, Error, SolidMeter, Track};
+use crate::{CsvTable, OutputError, SolidMeter, Track};
 
-/// Columns that only channels have, and of them those that elastic walls do not have: gap and flow beside the droplet
-/// are those up to rigid walls.
+/// Columns of channels alone; of these the ones that are measured up to rigid walls, which channels of elastic walls do
+/// not have.
 const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
 const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
-/// And those that walls that are not straight do not have.
+/// Columns that channels of curved walls do not have.
 const BETWEEN_STRAIGHT_WALLS: [&str; 2] = ["net_flux", "retrograde_flow"];
 
 /// Columns of particles that diffuse inside.
 const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
 
-/// Records a droplet whenever it is called and writes what it sees to a CSV file.
+/// Observer that measures a droplet and writes the observables to a CSV file, a row at each call.
 ///
-/// The columns are those of [`TrajectoryRecord::entries`], without those about walls where there are none, where
-/// particles diffuse inside the droplet their number and what is exchanged (`number_inside`, `exchange_flux`, as with
-/// a well-mixed inside), and where there are elastic solids those of [`SolidMeter::NAMES`].
+/// The columns are those of [`TrajectoryRecord::entries`], without those of walls where there are none. Where particles
+/// diffuse inside the droplet, their number and the flux of exchange follow (`number_inside`, `exchange_flux`, as with
+/// a well-mixed inside), and where there are elastic solids the quantities of [`SolidMeter::NAMES`].
 ///
 /// ```
 /// use motile::prelude::*;
@@ -40,34 +41,36 @@ const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
 /// ```
 #[derive(Debug)]
 pub struct TrajectoryCsv {
-    records: TrajectoryRecorder,
+    recorder: TrajectoryRecorder,
+    last: Option<TrajectoryRecord>,
+    centre_line: Option<f64>,
     table: CsvTable,
     columns: Vec<usize>,
     inside: Option<Handle<ParticlesInDroplet>>,
     solids: Option<SolidMeter>,
     last_solids: Option<[f64; 8]>,
-    /// The time from which a trajectory that was begun before goes on: that state was due for a row or not.
-    resumed: Option<f64>,
 }
 
 impl TrajectoryCsv {
-    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows up
-    /// to its time that the file has stay, and the others follow as if the run had not been cut.
+    /// Observer of a droplet that writes to `path`. In a resumed run, past time 0, the table begins with the rows that
+    /// the checkpoint holds, and the others follow as if the run had not been interrupted.
     ///
     /// # Errors
-    /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.
+    /// [`OutputError::Write`]; [`OutputError::Observer`]: a state that cannot be measured.
     pub fn create<H: Hydrodynamics>(
         path: impl AsRef<Path>,
         system: &mut System<H>,
         droplet: Handle<ActiveDroplet>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, OutputError> {
         let curved = system.hydrodynamics().walls().is_some();
-        let walls = system.hydrodynamics().discretisation().domain.walls.is_some();
-        let records = TrajectoryRecorder::new(droplet);
+        let walls = system.hydrodynamics().fluid_view().domain.walls;
+        let centre_line = walls.map(|[bottom, top]| 0.5 * (bottom + top));
+        let walls = walls.is_some();
+        let recorder = TrajectoryRecorder::new(droplet);
         let solids = SolidMeter::of(system);
-        let records = if walls && !curved && solids.is_none() { records.with_gap_flow() } else { records };
-        let mut probe = records.clone();
-        probe.observe(system).map_err(Error::Observer)?;
+        let recorder = if walls && !curved && solids.is_none() { recorder.with_gap_flow() } else { recorder };
+        let mut probe = recorder.clone();
+        probe.observe(system).map_err(OutputError::Observer)?;
         let entries = probe.records()[0].entries();
         let wanted = |k: &usize| {
             let name = entries[*k].0;
@@ -81,20 +84,17 @@ impl TrajectoryCsv {
         let inside = inside.map(|(handle, _)| handle);
         names.extend(inside.iter().flat_map(|_| INSIDE));
         names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
-        // A run from the start leaves nothing of another one that the file may have.
-        let begun = system.time() > 0.0;
-        let table = if begun { CsvTable::resume(path, &names, system.time()) } else { CsvTable::create(path, &names) }?;
-        let resumed = (!table.rows().is_empty()).then(|| system.time());
-        Ok(Self { records, table, columns, inside, solids, last_solids: None, resumed })
+        let table = CsvTable::of_run(path, &names, system, &format!("trajectory of body {}", droplet.index()))?;
+        Ok(Self { recorder, last: None, centre_line, table, columns, inside, solids, last_solids: None })
     }
 
-    /// Everything measured, record by record.
+    /// Last record; `None` before the run.
     #[must_use]
-    pub fn records(&self) -> &TrajectoryRecorder {
-        &self.records
+    pub fn last(&self) -> Option<&TrajectoryRecord> {
+        self.last.as_ref()
     }
 
-    /// Everything measured, by column.
+    /// Table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
@@ -103,32 +103,58 @@ impl TrajectoryCsv {
     /// Times and positions of the centroid.
     #[must_use]
     pub fn track(&self) -> Track {
-        self.records.records().iter().map(|record| (record.time, record.observables.centroid)).collect()
+        let columns = self.table.curve("time", "x").and_then(|x| Ok((x, self.table.curve("time", "y")?)));
+        let (x, y) = columns.unwrap_or_default();
+        x.into_iter().zip(y).map(|((time, x), (_, y))| (time, Vec2::new(x, y))).collect()
     }
 
-    /// What was last measured of the solids ([`SolidMeter::NAMES`]); `None` without solids.
+    /// Trajectory across the channel, with heights from the centre line; without walls from the height of the first
+    /// row.
+    ///
+    /// # Errors
+    /// None for the rows of a run.
+    pub fn trajectory(&self) -> Result<Trajectory, OutputError> {
+        let column = |name: &str| -> Result<Vec<f64>, OutputError> {
+            Ok(self.table.curve("time", name)?.into_iter().map(|(_, value)| value).collect())
+        };
+        let (times, mut heights) = (column("time")?, column("y")?);
+        let origin = self.centre_line.or(heights.first().copied()).unwrap_or(0.0);
+        heights.iter_mut().for_each(|y| *y -= origin);
+        let trajectory = Trajectory::new(times, heights, column("speed")?)?;
+        Ok(trajectory.with_lateral_velocities(column("velocity_y")?)?)
+    }
+
+    /// Last measurement of the solids ([`SolidMeter::NAMES`]); `None` without solids.
     #[must_use]
     pub fn last_solids(&self) -> Option<&[f64; 8]> {
         self.last_solids.as_ref()
     }
 
-    /// Makes sure that everything is in the file, also the last state of a run that broke off, if it can be measured.
+    /// Completes the file: adds the last state of a run that broke off, if it can be measured, and writes all rows.
     ///
     /// # Errors
-    /// [`Error::Write`].
-    pub fn finish<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
-        if self.records.records().last().map(|record| record.time) != Some(system.time()) {
-            // A state after which nothing can go on may be one that cannot be measured.
-            let _ = self.observe(system);
+    /// [`OutputError::Write`].
+    pub fn finish<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), OutputError> {
+        if self.table.rows().last().map(|row| row[0]) != Some(system.time()) {
+            // A state from which a run cannot continue may be one that cannot be measured.
+            if let Ok(row) = self.measure(system) {
+                self.table.push(&row)?;
+            }
         }
         self.table.flush()
     }
 }
 
-impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
-    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        self.records.observe(system)?;
-        let entries = self.records.records().last().map(TrajectoryRecord::entries).unwrap_or_default();
+impl TrajectoryCsv {
+    /// Row of the present state.
+    fn measure<H: Hydrodynamics>(
+        &mut self,
+        system: &mut System<H>,
+    ) -> Result<Vec<f64>, Box<dyn std::error::Error + Send + Sync>> {
+        let mut recorder = self.recorder.clone();
+        recorder.observe(system)?;
+        self.last = recorder.records().last().cloned();
+        let entries = self.last.as_ref().map(TrajectoryRecord::entries).unwrap_or_default();
         let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
         if let Some(inside) = self.inside {
             let seen = system.body(inside)?.seen();
@@ -139,10 +165,14 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
             row.extend(values);
             self.last_solids = Some(values);
         }
-        if self.resumed.take().is_none_or(|start| start < system.time()) {
-            self.table.push(&row)?;
-        }
-        Ok(())
+        Ok(row)
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let row = self.measure(system)?;
+        Ok(self.table.push_state(system, &row)?)
     }
 }
 

@@ -5,9 +5,9 @@
 //! polarises and swims. motile computes this in unbounded fluid, in periodic boxes, in channels with rigid walls and
 //! between elastic solids, by boundary integrals or by the immersed boundary method on a staggered grid with a
 //! correction that makes velocities on interfaces second-order accurate. The model is that of Natasha Cowley, "Effects
-//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield .
+//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield.
 //!
-//! A scene is data, a [`Setup`]:
+//! A scene is data, a [`Setup`](setup::Setup):
 //!
 //! ```
 //! use motile::prelude::*;
@@ -30,8 +30,10 @@
 //!
 //! | crate | what it is |
 //! |---|---|
+//! | [`motile_base`] | points of the plane, Fourier series, checks of input, words of flows |
 //! | [`stokes_grid`] | Stokes solvers on staggered grids: periodic boxes, channels with no-slip walls |
-//! | [`ib_core`] | the immersed boundary method: kernels, transfer, bodies, scenes, integrators, observers |
+//! | [`motile_scene`] | bodies and scenes, the trait of flows, gaps, integrators, runs, observers, checkpoints |
+//! | [`ib_core`] | the immersed boundary method: kernels, transfer, mobility correction, interfaces as layers |
 //! | [`boundary_integral`] | flow of interfaces alone, without a grid, any viscosity ratio |
 //! | [`active_interface`] | the droplet: curve, particles, tension, observables, linear theory, SI units |
 //! | [`elastic_solids`] | elastic materials and meshes |
@@ -46,21 +48,17 @@
 //!
 //! # Features
 //!
-//! `serde`: descriptions are read from and written to TOML. `rayon`: several threads for large grids and many markers,
+//! `toml`: descriptions are read from and written to TOML. `rayon`: several threads for large grids and many markers,
 //! with bitwise identical results.
 
 pub mod prelude;
 mod recommend;
-mod setup;
+pub mod setup;
 mod setup_error;
 
-pub use elastic_solids::channel::ChannelShape;
 pub use recommend::{Recommendation, SceneKind, recommend};
-pub use setup::{
-    AnyFlow, Axis, Built, Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup, Grading,
-    GridMethod, Hold, IntegralMethod, MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region,
-    RepulsionSetup, RigidBodySetup, RigidSetup, Setup, ShellSetup, SkinSetup, SolidOutline, SolidSetup, Squeezed,
-    Start, Surface,
-};
 pub use setup_error::SetupError;
-pub use {active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, stokes_grid};
+pub use {
+    active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, motile_base, motile_scene,
+    stokes_grid,
+};

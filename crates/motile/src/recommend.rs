@@ -1,9 +1,9 @@
 //! Settings for an error that is asked for.
 
-use ib_core::StepSize;
+use motile_scene::StepSize;
 
 use crate::SetupError;
-use crate::{GridMethod, IntegralMethod, Method, MethodKind};
+use crate::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 
 /// What a scene contains, as far as its errors are concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +23,7 @@ const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 
 /// The largest error at any time between t = 40 and 80, over the scenes of `docs/tables/recommended.csv` of that kind
 /// that [`recommend`] covers, of these settings and of all finer ones of the same kind; on grids and for small errors
-/// with a fifth or more to spare for places and directions that were not tried, on grids with a contrast, where the
-/// table has activity -1 alone, with twice and more. From coarse to fine.
+/// with a fifth or more to spare for places and directions that were not tried. From coarse to fine.
 fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
     // Error, nodes of the shape, cells of the concentration.
     let integrals: &[(f64, usize, usize)] = match scene {
@@ -35,19 +34,25 @@ fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
     // Error, spacing of the grid over the radius, for the default kernel and markers half of that apart.
     let grids: &[(f64, f64)] = match scene {
         SceneKind::Box => &[(0.025, 0.1), (0.008, 0.075), (0.0025, 0.05)],
-        SceneKind::ViscosityContrast => &[(0.02, 0.15), (0.006, 0.1), (0.002, 0.05)],
+        // Of first order there.
+        SceneKind::ViscosityContrast => &[],
         SceneKind::Channel => &[(0.036, 0.2), (0.0065, 0.1)],
     };
     let integral = |&(error, nodes, cells): &_| (error, Method::Integral(IntegralMethod { nodes, cells }));
+    let layer =
+        |&(error, nodes, cells): &_| (error, Method::Layers(LayersMethod { nodes, cells, ..LayersMethod::default() }));
     let grid = |&(error, spacing): &_| (error, Method::Grid(GridMethod::of_spacing(spacing)));
     match method {
         MethodKind::Integral => integrals.iter().map(integral).collect(),
+        // Without solids they are the same.
+        MethodKind::Layers => integrals.iter().map(layer).collect(),
         MethodKind::Grid => grids.iter().map(grid).collect(),
     }
 }
 
 /// A method and the steps that go with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Recommendation {
     /// How the flow is computed.
     pub method: Method,
@@ -63,14 +68,15 @@ pub struct Recommendation {
 /// where its path lies between grid lines; the error is that of the worst that was tried, the mean is often several
 /// times better. Covered is one droplet in units of the defaults at activities down to -4 in a box (A = 2 |activity|),
 /// to -1.5 with a contrast, in a channel to -2, by boundary integrals in one of width two to -4. Outside of that the
-/// settings are a start; a sharper edge of the concentration needs more cells ([`ib_core::Warnings`] tell). The study
-/// `recommended` measures the data (`docs/tables/recommended.csv`).
+/// settings are a start; a sharper edge of the concentration needs more cells ([`motile_scene::Warnings`] tell). The
+/// study `recommended` measures the data (`docs/tables/recommended.csv`).
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile::{MethodKind, Recommendation, SceneKind, recommend};
+/// use motile::setup::MethodKind;
+/// use motile::{Recommendation, SceneKind, recommend};
 ///
-/// let Recommendation { method, step } = recommend(SceneKind::Box, MethodKind::Integral, 0.01)?;
+/// let Recommendation { method, step, .. } = recommend(SceneKind::Box, MethodKind::Integral, 0.01)?;
 /// let Method::Integral(integral) = method else { panic!("without a grid") };
 /// assert!(integral.nodes < IntegralMethod::default().nodes);
 /// let _setup = Setup { method, step, ..Setup::default() };
@@ -80,10 +86,15 @@ pub struct Recommendation {
 /// ```
 ///
 /// # Errors
-/// A target below the smallest error that was measured, above 5 %, or not a number.
+/// A target below the smallest error that was measured, above 5 %, or not a number; a viscosity contrast on a grid,
+/// which is of first order.
 pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Result<Recommendation, SetupError> {
     const LARGEST: f64 = 0.05;
     let entries = measured(scene, method);
+    if entries.is_empty() {
+        let remedy = "a viscosity contrast is of first order there: give integral or layers".to_owned();
+        return Err(SetupError::Value { key: "method".to_owned(), value: method.key().to_owned(), remedy });
+    }
     let found = entries.iter().find(|(error, _)| *error <= target_error).filter(|_| target_error <= LARGEST);
     let Some(&(_, method)) = found else {
         let smallest = entries.iter().map(|(error, _)| *error).fold(f64::INFINITY, f64::min);

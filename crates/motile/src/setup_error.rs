@@ -3,8 +3,8 @@
 use active_interface::InterfaceError;
 use boundary_integral::LayerError;
 use elastic_solids::SolidError;
-use ib_core::FlowError;
 use interior_fields::InteriorError;
+use motile_scene::FlowError;
 use stokes_grid::StokesError;
 
 /// A scene that could not be set up.
@@ -20,6 +20,9 @@ pub enum SetupError {
     /// The coupling.
     #[error(transparent)]
     Flow(#[from] FlowError),
+    /// The bodies together.
+    #[error(transparent)]
+    Scene(#[from] motile_scene::SceneError),
     /// The boundary integrals.
     #[error(transparent)]
     BoundaryIntegral(#[from] LayerError),
@@ -107,7 +110,7 @@ pub enum SetupError {
     },
 }
 
-ib_core::input::debug_as_explanation!(SetupError);
+motile_base::debug_as_explanation!(SetupError);
 
 impl SetupError {
     /// The same with the place of what it is about, unless it says so itself.
@@ -116,11 +119,5 @@ impl SetupError {
             Self::Value { .. } | Self::Entry { .. } => self,
             other => Self::Entry { key: key.to_owned(), source: Box::new(other) },
         }
-    }
-
-    /// Something that boundary integrals do not have.
-    pub(crate) fn needs_a_grid(what: &str) -> Self {
-        let remedy = format!("{what} need a grid: give the method of immersed boundaries");
-        Self::Value { key: "method".to_owned(), value: "integral".to_owned(), remedy }
     }
 }

@@ -1,16 +1,21 @@
 //! Gaps between droplets and elastic walls.
 
-use motile::elastic_solids::{NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
-use motile::ib_core::gap::{SolidEntered, SolidGap};
-use motile::ib_core::{Observer, Vec2};
-use motile::stokes_grid::Drive;
-use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use motile::elastic_solids::ChannelShape;
+use motile::elastic_solids::mesh::equilateral_strip;
+use motile::elastic_solids::{NeoHookean, Solid, Springs};
+use motile::motile_base::Region;
+use motile::motile_base::{Drive, Vec2};
+use motile::motile_scene::{
+    Observer,
+    gap::{SolidEntered, SolidGap},
+};
+use motile::setup::{Built, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
 
 #[test]
 fn a_droplet_inside_a_wall_is_an_error() {
     let setup = Setup {
         region: Region::Channel { length: 4.0, width: 5.2, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        method: Method::Grid(GridMethod::uncorrected(0.2)),
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.2 }, &Material::Springs { shear: 1.0 }),
         ..Setup::default()
     };
@@ -33,7 +38,7 @@ fn a_droplet_inside_a_wall_is_an_error() {
 fn solids_of_every_material_are_seen() {
     let setup = Setup {
         region: Region::Box { lengths: [4.0, 4.0] },
-        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        method: Method::Grid(GridMethod::uncorrected(0.2)),
         ..Setup::default()
     };
     let mesh = || equilateral_strip(Vec2::new(-2.0, -2.0), 20, 4, 0.2).unwrap();
@@ -57,7 +62,7 @@ fn the_nearest_of_all_droplets_counts() {
     let droplet = |y: f64| DropletSetup { centre: [0.0, y], ..DropletSetup::default() };
     let setup = Setup {
         region: Region::Channel { length: 4.0, width: 8.0, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        method: Method::Grid(GridMethod::uncorrected(0.2)),
         droplets: vec![droplet(1.4), droplet(-1.2)],
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 5.0 }, &Material::Springs { shear: 1.0 }),
         ..Setup::default()

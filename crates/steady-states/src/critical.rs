@@ -1,51 +1,52 @@
-//! Where a disturbance starts to grow, in one parameter and in two.
+//! Critical points, at which a disturbance starts to grow, along one parameter and in two.
 
 use num_complex::Complex64;
 
+use crate::iteration::MOST_ITERATIONS;
 use crate::spectrum::{NO_GROWTH, eigenvector};
 use crate::system::System;
 use crate::{Eigenmode, Parameter, SteadyError, SteadyState};
 
-/// Iterations before giving up.
-const MOST_ITERATIONS: usize = 30;
-/// Relative step of a parameter to start with.
+/// First step of a parameter over its value, and the largest one: growth rates are smooth over a few parts in a
+/// hundred.
 const FIRST_STEP: f64 = 5e-3;
-/// Largest relative change of a parameter at once.
 const LARGEST_STEP: f64 = 0.1;
 
-/// A state with a disturbance that neither grows nor decays: a branch point or a fold where the frequency is zero, a
-/// Hopf point where it is not.
+/// Critical point: a steady state with a disturbance that neither grows nor decays. At zero frequency it is a branch
+/// point or a fold, else a Hopf point.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Critical {
-    /// The state, its description having the critical value of the parameter.
+    /// State at the critical value of the parameter, which its description holds.
     pub state: SteadyState,
-    /// The disturbance; its growth rate is zero up to what was solved for.
+    /// Critical mode; its growth rate is below 1e-8 D/R^2.
     pub mode: Eigenmode,
 }
 
 impl SteadyState {
-    /// The eigenvalue near that of a mode of a neighbouring state.
+    /// Mode of this state whose eigenvalue is nearest to that of a neighbouring state's mode.
     pub(crate) fn track(&self, mode: &Eigenmode) -> Result<Eigenmode, SteadyError> {
         let reduced = System::new(self.setup())?.reduced(self.point(), mode.symmetry.part())?;
         let (value, _) = eigenvector(&reduced.matrix, mode.value)?;
         Ok(Eigenmode { value: Complex64::new(value.re, value.im.abs()), ..mode.clone() })
     }
 
-    /// This state at another value of a parameter, nearby.
+    /// Steady state at a nearby value of a parameter, by Newton's method from this one.
     ///
     /// # Errors
-    /// No convergence.
+    /// A description without this parameter; no convergence; a state that the nodes do not resolve.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
         self.moved_to(&parameter.with(self.setup(), value)?)
     }
 
-    /// Goes along a parameter to where a mode neither grows nor decays, by secants on its growth rate.
+    /// Critical point of a mode along a parameter, where the mode neither grows nor decays: by secants on its growth
+    /// rate.
     ///
     /// # Errors
-    /// A description without this parameter, no such point nearby.
+    /// A description without this parameter; no critical point nearby; no convergence on the way.
     pub fn critical(&self, mode: &Eigenmode, parameter: Parameter) -> Result<Critical, SteadyError> {
         let start = parameter.get(self.setup()).unwrap_or(f64::NAN);
-        let unit = start.abs().max(1e-2);
+        let unit = parameter.scale(self.setup());
         let rate = self.diffusion_rate();
         let (mut before, mut rate_before) = (start, mode.value.re);
         let mut now = start + FIRST_STEP * unit;
@@ -74,8 +75,8 @@ impl SteadyState {
 }
 
 impl Critical {
-    /// The curve of such points in two parameters: at each value of `second`, nearby values following each other, the
-    /// point in `first`. Ends before the first value at which it is not found.
+    /// Stability boundary in two parameters: for each of the `values` of `second`, in small steps from the value here,
+    /// the critical point along `first`; `found` is called with each. Ends before the first value without a point.
     ///
     /// # Errors
     /// A description without one of the parameters.

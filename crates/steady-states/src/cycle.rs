@@ -1,69 +1,89 @@
-//! Oscillations that come from a Hopf point of a straight swimmer in a channel.
+//! Limit cycles: oscillations that branch off at a Hopf point of a straight swimmer in a channel.
 
 use std::f64::consts::{PI, TAU};
 
-use motile::ib_core::Vec2;
+use motile_base::Vec2;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::elimination::Elimination;
-use crate::floquet::weights;
+use crate::iteration::{CONTRACTION, LEAST_PART, REUSABLE, damped, in_steps};
 use crate::model::{Base, FrameMotion};
 use crate::modes::Part;
-use crate::spectrum::eigenvector;
-use crate::state::CROWDING;
-use crate::system::{Point, System};
+use crate::profile::CROWDING;
+use crate::spectrum::complex;
+use crate::system::{DIFFERENCE, Point, System};
 use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
 
-/// Newton iterations for a cycle.
+/// Newton iterations for a cycle: fewer than for a state, since each matrix has the rows of all instants, and a shorter
+/// step along the branch is cheaper.
 const MOST_ITERATIONS: usize = 15;
-/// A correction of this size is the last one.
-const SMALLEST: f64 = 1e-8;
-/// Largest correction that is taken whole, and the least part of one where the whole has no flow.
-const LARGEST: f64 = 0.5;
-const LEAST_PART: f64 = 0.01;
-/// Last harmonics in time beyond this part of the first ask for more instants, up to a number.
+/// Correction that is the last one: far below the error of the series in time.
+const SMALLEST_CORRECTION: f64 = 1e-8;
+/// Tail of the series in time above which there are more instants, four more at once, up to a largest number.
 const LONGEST_TAIL: f64 = 1e-3;
 const MOST_INSTANTS: usize = 33;
-
-/// Growth of a step after one that has converged.
+/// Factor of a step along the branch after one that has converged.
 const LONGER: f64 = 1.3;
-/// Least step over the one before.
-const SHORTEST: f64 = 0.03;
 
-/// An oscillation of a droplet across a channel: after half a period it is the mirror image of itself.
+/// Limit cycle: a swimmer that oscillates across a channel and is its own mirror image half a period later.
 ///
-/// Shape and concentration are trigonometric polynomials in space and time. In time there are K instants over half a
-/// period, at which the equations hold (Fourier collocation), more of them where the last harmonics ask for it; space
-/// is as in [`crate::SteadyState`], over a curve that moves and turns with the droplet.
+/// Shape and concentration are trigonometric polynomials in space and time. The equations hold at K instants over half
+/// a period (Fourier collocation), more of them where the last harmonics ask for it; space is as in
+/// [`crate::SteadyState`], over a base curve that moves and turns with the droplet.
 #[derive(Debug)]
 pub struct LimitCycle {
     pub(crate) system: System,
-    /// The curve at rest, its own mirror image.
+    /// Base curve at rest, its own mirror image.
     shape: Profile,
-    /// Where it is at each instant: x, y (length) and angle (radians).
+    /// Pose of the base curve at each instant: x, y (length) and angle (radians).
     poses: Vec<[f64; 3]>,
+    /// Coefficients over the base curve at each instant.
     pub(crate) states: Vec<DVector<f64>>,
+    /// Mean speed along the channel (length per time).
     speed: f64,
     /// Period over 2 pi (time).
     pub(crate) tau: f64,
 }
 
-/// Derivatives of poses, states and so on at instants over half a period by the phase, for what is the same after half
-/// a period and what has changed its sign.
-fn derivatives(instants: usize) -> [DMatrix<f64>; 2] {
-    let full = |j: usize, k: usize| {
-        if j == k {
-            return 0.0;
-        }
-        let difference = PI * (j as f64 - k as f64) / instants as f64;
-        let sign = if (j + k).is_multiple_of(2) { 0.5 } else { -0.5 };
-        sign / (0.5 * difference).tan()
-    };
-    [1.0, -1.0].map(|sign| DMatrix::from_fn(instants, instants, |j, k| full(j, k) + sign * full(j, k + instants)))
+/// Derivatives by the phase at K instants over half a period, as matrices: for quantities that return after half a
+/// period, and for those that return with the opposite sign.
+struct PhaseDerivative {
+    matrices: [DMatrix<f64>; 2],
+    /// Coefficients of a state that change their sign: the antisymmetric ones.
+    odd: std::ops::Range<usize>,
 }
 
-/// An equation for the parameter: the correction is at right angles to a direction.
+impl PhaseDerivative {
+    fn new(instants: usize, odd: std::ops::Range<usize>) -> Self {
+        let full = |j: usize, k: usize| {
+            if j == k {
+                return 0.0;
+            }
+            let difference = PI * (j as f64 - k as f64) / instants as f64;
+            let sign = if (j + k).is_multiple_of(2) { 0.5 } else { -0.5 };
+            sign / (0.5 * difference).tan()
+        };
+        let matrix = |sign: f64| DMatrix::from_fn(instants, instants, |j, k| full(j, k) + sign * full(j, k + instants));
+        Self { matrices: [matrix(1.0), matrix(-1.0)], odd }
+    }
+
+    /// Weight of coefficient `index` at instant k in its derivative at instant j.
+    fn weight(&self, index: usize, [j, k]: [usize; 2]) -> f64 {
+        self.matrices[usize::from(self.odd.contains(&index))][(j, k)]
+    }
+
+    /// Derivatives of poses: x returns after half a period, y and the angle change their sign.
+    fn of_poses(&self, poses: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let rate = |j: usize, axis: usize| -> f64 {
+            let matrix = &self.matrices[usize::from(axis > 0)];
+            poses.iter().enumerate().map(|(k, pose)| matrix[(j, k)] * pose[axis]).sum()
+        };
+        (0..poses.len()).map(|j| [rate(j, 0), rate(j, 1), rate(j, 2)]).collect()
+    }
+}
+
+/// Equation for the parameter: corrections are at right angles to a direction of states and parameter.
 struct Along {
     parameter: Parameter,
     direction: Vec<DVector<f64>>,
@@ -71,11 +91,12 @@ struct Along {
 }
 
 impl LimitCycle {
-    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter
-    /// that they have it at; K instants over half a period at first, odd.
+    /// Limit cycle near a Hopf point with swings of about an amplitude (length), at the value of the parameter where it
+    /// has them; with an odd number of instants over half a period at first.
     ///
     /// # Errors
-    /// A point of other symmetry or without a frequency; no convergence.
+    /// A critical point that is no Hopf point of an antisymmetric mode; a droplet with a disc inside; an even number of
+    /// instants; no convergence.
     pub fn from_hopf(
         hopf: &Critical,
         parameter: Parameter,
@@ -85,24 +106,25 @@ impl LimitCycle {
         let Critical { state, mode } = hopf;
         if !state.profile().nuclei.is_empty() {
             return Err(SteadyError::Unsupported {
-                what: "the droplet has a nucleus".into(),
+                what: "the droplet has a rigid disc inside".into(),
                 remedy: "leave it out, or follow the oscillation in a run",
             });
         }
         if mode.symmetry != Symmetry::Antisymmetric || mode.value.im <= 0.0 || instants.is_multiple_of(2) {
             return Err(SteadyError::Unsupported {
-                what: "this is not a Hopf point of swings across a channel, or the number of instants is even".into(),
-                remedy: "give a Hopf point whose mode is antisymmetric, and an odd number",
+                what: format!(
+                    "a limit cycle from a {:?} mode of frequency {} at {instants} instants",
+                    mode.symmetry, mode.value.im
+                ),
+                remedy: "give a Hopf point whose mode is antisymmetric, and an odd number of instants",
             });
         }
         let mut system = System::new(state.setup())?;
-        let reduced = system.reduced(state.point(), Part::Odd)?;
-        let (_, vector) = eigenvector(&reduced.matrix, mode.value)?;
-        let vector = reduced.basis.map(|v| Complex64::new(v, 0.0)) * vector;
         let odd = system.modes.part(Part::Odd);
+        let vector = system.mode(state.point(), mode)?.rows(odd.start, odd.len()).into_owned();
         let (profile, speed) = (state.profile().clone(), state.velocity().x);
         let point = system.point(&profile, [speed, 0.0, 0.0])?;
-        // What of the mode is a shift across and a turn moves the curve.
+        // The shift across and the turn that are parts of the mode move the base curve.
         system.load(&point)?;
         let mut rigid = DMatrix::zeros(odd.len(), 2);
         for (k, motion) in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().enumerate() {
@@ -111,33 +133,28 @@ impl LimitCycle {
         }
         let singular = || SteadyError::Singular { what: "rigid motions", remedy: "give more nodes" };
         let normal = (rigid.transpose() * &rigid).try_inverse().ok_or_else(singular)? * rigid.transpose();
-        let parts = normal.map(|v| Complex64::new(v, 0.0)) * &vector;
+        let parts = complex(&normal) * &vector;
         let unit = amplitude / parts[0];
-        let rest = &vector - rigid.map(|v| Complex64::new(v, 0.0)) * &parts;
+        let rest = &vector - complex(&rigid) * &parts;
+        let turn = |j: usize| Complex64::cis(PI * j as f64 / instants as f64) * unit;
         let at = |vector: &DVector<Complex64>, j: usize| {
-            let turn = Complex64::cis(PI * j as f64 / instants as f64) * unit;
             let mut whole = DVector::zeros(system.modes.len());
-            whole.rows_mut(odd.start, odd.len()).copy_from(&vector.map(|z| (z * turn).re));
+            whole.rows_mut(odd.start, odd.len()).copy_from(&vector.map(|z| (z * turn(j)).re));
             whole
         };
         let direction: Vec<DVector<f64>> = (0..instants).map(|j| at(&vector, j)).collect();
         let states = (0..instants).map(|j| &point.state + at(&rest, j)).collect();
-        let poses = (0..instants).map(|j| {
-            let turn = Complex64::cis(PI * j as f64 / instants as f64) * unit;
-            [0.0, (parts[0] * turn).re, (parts[1] * turn).re]
-        });
-        let poses = poses.collect();
+        let poses = (0..instants).map(|j| [0.0, (parts[0] * turn(j)).re, (parts[1] * turn(j)).re]).collect();
         let mut cycle = Self { system, shape: profile, poses, states, speed, tau: 1.0 / mode.value.im };
         cycle.newton(Some(&Along { parameter, direction, change: 0.0 }))?;
         cycle.settled()
     }
 
-    /// Follows the branch of oscillations from a Hopf point, at first with two of about the amplitude (length) given
-    /// and one and a half times that: `seen` is told each, and the branch ends where it says false.
+    /// Branch of limit cycles from a Hopf point, by pseudo-arclength: the first two have about the given amplitude
+    /// (length) and one and a half times that. `seen` is called with each, and the branch ends where it returns false.
     ///
     /// # Errors
-    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` was told what could be
-    /// reached.
+    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` had all cycles up to there.
     pub fn follow(
         hopf: &Critical,
         parameter: Parameter,
@@ -155,7 +172,7 @@ impl LimitCycle {
             let next = loop {
                 match last.beyond(&before, parameter, factor) {
                     Ok(next) => break next,
-                    Err(error) if factor < SHORTEST => return Err(error),
+                    Err(error) if factor < LEAST_PART => return Err(error),
                     Err(_) => factor *= 0.5,
                 }
             };
@@ -164,33 +181,22 @@ impl LimitCycle {
         Ok(())
     }
 
-    /// The oscillation at another value of a parameter, in steps as long as they converge.
+    /// Limit cycle at another value of a parameter, in steps as long as they converge.
     ///
     /// # Errors
-    /// No convergence with the shortest step.
+    /// A description without this parameter; no convergence with the shortest step.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
-        let (start, mut reached, mut part, mut step) = (self.value(parameter), None::<Self>, 0.0, 1.0);
-        while part < 1.0 {
-            let (last, ahead) = (reached.as_ref().unwrap_or(self), f64::min(part + step, 1.0));
-            let setup = parameter.with(&self.system.model.setup, start + ahead * (value - start))?;
-            let next = last.copy(&setup).and_then(|mut next| {
-                next.newton(None)?;
-                next.settled()
-            });
-            match next {
-                Ok(next) => (reached, part) = (Some(next), ahead),
-                Err(_) if step > SHORTEST => step *= 0.5,
-                Err(error) => return Err(error),
-            }
-        }
-        reached.map_or_else(|| self.copy(&self.system.model.setup), Ok)
+        let start = self.value(parameter);
+        in_steps((self.copy(&self.system.model.setup)?, 0.0), 1.0, |last, part| {
+            let setup = parameter.with(&self.system.model.setup, start + part * (value - start))?;
+            let mut next = last.copy(&setup)?;
+            next.newton(None)?;
+            next.settled()
+        })
     }
 
-    /// The next oscillation of a branch, beyond this one as seen from another one before it: `factor` times as far
-    /// (pseudo-arclength continuation, so that folds are passed).
-    ///
-    /// # Errors
-    /// No convergence.
+    /// Next cycle of a branch, `factor` times as far from this one as this is from the one before (pseudo-arclength, so
+    /// that folds are passed).
     fn beyond(&self, before: &Self, parameter: Parameter, factor: f64) -> Result<Self, SteadyError> {
         let change = self.value(parameter) - before.value(parameter);
         let ahead = self.value(parameter) + factor * change;
@@ -208,7 +214,7 @@ impl LimitCycle {
         next.settled()
     }
 
-    /// The same cycle over the curves that serve it best, at as many instants as it needs.
+    /// Cycle over base curves that follow it, at as many instants as it needs.
     fn settled(mut self) -> Result<Self, SteadyError> {
         self.refit()?;
         self.newton(None)?;
@@ -219,7 +225,7 @@ impl LimitCycle {
         Ok(self)
     }
 
-    /// The same cycle at other instants.
+    /// Cycle at another number of instants.
     fn with_instants(&self, count: usize) -> Result<Self, SteadyError> {
         let mut next = self.copy(&self.system.model.setup)?;
         let (own, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
@@ -241,17 +247,18 @@ impl LimitCycle {
         Ok(next)
     }
 
-    /// Instants over half a period.
+    /// Number of instants over half a period.
     #[must_use]
     pub fn instants(&self) -> usize {
         self.states.len()
     }
 
-    /// Size of the last harmonics in time over the first ones, of the state over its curve: an error estimate.
+    /// Tail of the series in time (no dimension), an error estimate: the last harmonics over the first, of the state
+    /// over its base curve.
     #[must_use]
     pub fn tail(&self) -> f64 {
         let (count, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
-        // Even harmonics are in what is the same after half a period.
+        // Quantities that return after half a period have even harmonics.
         let size = |m: usize| {
             let rows = if m.is_multiple_of(2) { 0..odd.start } else { odd.clone() };
             let mut sum = DVector::<Complex64>::zeros(rows.len());
@@ -264,13 +271,14 @@ impl LimitCycle {
         size(count - 1).max(size(count - 2)) / size(1).max(size(2))
     }
 
-    pub(crate) fn copy(&self, setup: &motile::Setup) -> Result<Self, SteadyError> {
+    /// Cycle with another description, as a start.
+    pub(crate) fn copy(&self, setup: &motile::setup::Setup) -> Result<Self, SteadyError> {
         let Self { shape, poses, states, speed, tau, .. } = self;
         let (shape, poses, states) = (shape.clone(), poses.clone(), states.clone());
         Ok(Self { system: System::new(setup)?, shape, poses, states, speed: *speed, tau: *tau })
     }
 
-    /// Value of a parameter.
+    /// Value of a parameter of the description; not a number where it has no such parameter.
     #[must_use]
     pub fn value(&self, parameter: Parameter) -> f64 {
         parameter.get(&self.system.model.setup).unwrap_or(f64::NAN)
@@ -291,9 +299,9 @@ impl LimitCycle {
     /// Largest distance of the centroid from the centre line (length).
     ///
     /// # Errors
-    /// A shape that is not finite.
+    /// More nodes than a transform takes.
     pub fn amplitude(&self) -> Result<f64, SteadyError> {
-        let heights = (0..self.poses.len()).map(|j| Ok(self.lab_profile(j)?.moments()?.centroid.y));
+        let heights = (0..self.poses.len()).map(|j| Ok(self.profile(j)?.moments()?.centroid.y));
         let heights = heights.collect::<Result<Vec<f64>, SteadyError>>()?;
         let count = heights.len();
         // Odd harmonics, from both halves of the period.
@@ -305,65 +313,52 @@ impl LimitCycle {
         let odd: Vec<(usize, Complex64)> = (1..count).step_by(2).map(|m| (m, coefficient(m))).collect();
         let height =
             |phase: f64| odd.iter().map(|(m, c)| 2.0 * (c * Complex64::cis(*m as f64 * phase)).re).sum::<f64>();
+        // Beside a maximum by at most half a spacing of phases: an error of 1e-6.
         Ok((0..2000).map(|k| height(TAU * f64::from(k) / 2000.0).abs()).fold(0.0, f64::max))
     }
 
+    /// Base curve at an instant.
     fn base(&self, instant: usize) -> Result<Base, SteadyError> {
         let [x, y, angle] = self.poses[instant];
-        let mut base = Base::new(&self.shape)?.moved(y, angle);
-        base.positions.iter_mut().for_each(|position| position.x += x);
-        Ok(base)
+        Ok(Base::new(&self.shape)?.moved(Vec2::new(x, y), angle))
     }
 
-    fn lab_profile(&self, instant: usize) -> Result<Profile, SteadyError> {
-        let base = self.base(instant)?;
-        let (offsets, density) = self.system.modes.synthesise(&self.states[instant]);
-        let positions =
-            base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
-        Ok(Profile { positions, density, nuclei: Vec::new() })
+    /// Droplet at an instant, in the frame that moves with the mean speed.
+    fn profile(&self, instant: usize) -> Result<Profile, SteadyError> {
+        Ok(self.system.profile_over(&self.base(instant)?, &self.states[instant]))
     }
 
-    /// Poses' derivatives by the phase.
-    fn pose_rates(&self) -> Vec<[f64; 3]> {
-        let count = self.poses.len();
-        let [same, turned] = derivatives(count);
-        let rate = |matrix: &DMatrix<f64>, j: usize, axis: usize| -> f64 {
-            (0..count).map(|k| matrix[(j, k)] * self.poses[k][axis]).sum()
-        };
-        (0..count).map(|j| [rate(&same, j, 0), rate(&turned, j, 1), rate(&turned, j, 2)]).collect()
+    fn derivative(&self) -> PhaseDerivative {
+        PhaseDerivative::new(self.states.len(), self.system.modes.part(Part::Odd))
     }
 
-    /// The droplet at each instant in the frame of the curve that it is over.
+    /// States at the instants, each over its base curve and in the frame of that curve.
     pub(crate) fn points(&self) -> Result<Vec<Point>, SteadyError> {
         let point = |(j, pose_rate)| -> Result<Point, SteadyError> {
             let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
             let frame: FrameMotion = [self.speed + ux / self.tau, uy / self.tau, turn / self.tau];
             Ok(Point { base: self.base(j)?, state: self.states[j].clone(), frame })
         };
-        self.pose_rates().into_iter().enumerate().map(point).collect()
+        self.derivative().of_poses(&self.poses).into_iter().enumerate().map(point).collect()
     }
 
-    /// Derivatives of the states by the phase less their rates times the period over 2 pi, an instant after the other;
-    /// and those derivatives over the period, which are the rates of a solution and smoother before there is one.
+    /// Residual of the equations, dx/dphase - tau dx/dt instant after instant, and dx/dphase over tau: the rates of a
+    /// solution, which are smoother than those of the equations before there is one.
     fn residual(&mut self) -> Result<(DVector<f64>, Vec<DVector<f64>>), SteadyError> {
         let (count, n) = (self.states.len(), self.system.modes.len());
-        let [same, turned] = derivatives(count);
-        let odd = self.system.modes.part(Part::Odd);
-        let rates = self.pose_rates();
+        let derivative = self.derivative();
         let (mut residual, mut own) = (DVector::zeros(count * n), Vec::new());
-        for (j, pose_rate) in rates.into_iter().enumerate() {
+        for (j, pose_rate) in derivative.of_poses(&self.poses).into_iter().enumerate() {
             let base = self.base(j)?;
             let (h, m) = self.system.modes.synthesise(&self.states[j]);
             self.system.model.load(&base, &h, &m)?;
             let (h, m) = self.system.model.rates(&base, [self.speed, 0.0, 0.0])?;
             let rate = self.system.modes.analyse(h, m)?;
             let (h, m) = self.system.model.rigid_rates(&base, motion(pose_rate, self.poses[j]))?;
-            let rigid = self.system.modes.analyse(h, m)?;
-            let mut moved = rigid;
-            for k in 0..count {
-                for index in 0..n {
-                    moved[index] +=
-                        (if odd.contains(&index) { &turned } else { &same })[(j, k)] * self.states[k][index];
+            let mut moved = self.system.modes.analyse(h, m)?;
+            for (k, state) in self.states.iter().enumerate() {
+                for (index, value) in moved.iter_mut().enumerate() {
+                    *value += derivative.weight(index, [j, k]) * state[index];
                 }
             }
             residual.rows_mut(j * n, n).copy_from(&(&moved - self.tau * rate));
@@ -372,34 +367,27 @@ impl LimitCycle {
         Ok((residual, own))
     }
 
-    /// The linearised equations bordered by rigid motions, shifts in time and what is conserved, and what is conserved.
+    /// Linearised equations, bordered by shifts along the channel and in time, area and number of particles; and what
+    /// these two lack over all instants.
     fn matrix(&mut self) -> Result<(DMatrix<f64>, [f64; 2]), SteadyError> {
         let (count, n) = (self.states.len(), self.system.modes.len());
-        let [same, turned] = derivatives(count);
-        let odd = self.system.modes.part(Part::Odd);
         let size = count * n;
         let mut matrix = DMatrix::zeros(size + 5, size + 5);
-        let (points, (_, own), tau) = (self.points()?, self.residual()?, self.tau);
+        let (derivative, points, (_, own), tau) = (self.derivative(), self.points()?, self.residual()?, self.tau);
         let mut lacks = [0.0; 2];
         for (j, (point, own)) in points.into_iter().zip(&own).enumerate() {
             let jacobian = self.system.jacobian(&point, Part::Full)?;
             matrix.view_mut((j * n, j * n), (n, n)).copy_from(&(-tau * jacobian));
-            for k in 0..count {
-                for index in 0..n {
-                    matrix[(j * n + index, k * n + index)] +=
-                        (if odd.contains(&index) { &turned } else { &same })[(j, k)];
-                }
+            for (k, index) in (0..count).flat_map(|k| (0..n).map(move |index| (k, index))) {
+                matrix[(j * n + index, k * n + index)] += derivative.weight(index, [j, k]);
             }
             self.system.load(&point)?;
             let (h, m) = self.system.model.rigid_rates(&point.base, [1.0, 0.0, 0.0])?;
             let along = self.system.modes.analyse(h, m)?;
             let conserved = self.system.conserved_gradients(&point.base, Part::Full)?;
-            let (present, wanted) = (self.system.model.present(), self.system.model.conserved());
-            for (lack, (have, want)) in lacks.iter_mut().zip(present.iter().zip(wanted)) {
-                *lack += 1.0 - have / want;
-            }
-            // Columns: speed, period over 2 pi, two sources that do nothing. Rows: shifts along the channel and in
-            // time, area, number of particles.
+            lacks.iter_mut().zip(self.system.model.lacks()).for_each(|(sum, lack)| *sum += lack);
+            // Columns: speed, period over 2 pi, uniform sources of area and particles, which vanish in a solution.
+            // Rows: shifts along the channel and in time, area, number of particles.
             matrix.view_mut((j * n, size), (n, 1)).copy_from(&(tau * &along));
             matrix.view_mut((j * n, size + 1), (n, 1)).copy_from(&-own);
             matrix.view_mut((size, j * n), (1, n)).copy_from(&along.transpose());
@@ -413,6 +401,7 @@ impl LimitCycle {
         Ok((matrix, lacks))
     }
 
+    /// Newton's method, with an equation for a parameter also for that.
     fn newton(&mut self, along: Option<&Along>) -> Result<(), SteadyError> {
         let size = self.states.len() * self.system.modes.len();
         let mut last = f64::INFINITY;
@@ -426,47 +415,36 @@ impl LimitCycle {
             let mut right = DMatrix::zeros(size + 5, 1);
             right.rows_mut(0, size).copy_from(&-&residual);
             (right[size + 2], right[size + 3]) = (lacks[0], lacks[1]);
-            let singular = SteadyError::Singular { what: "a cycle", remedy: "start from another amplitude" };
+            let singular = SteadyError::Singular { what: "a limit cycle", remedy: "start from another amplitude" };
             let correction = factorised.solve(right).ok_or(singular)?;
             let amount = correction.rows(0, size).amax();
-            let mut part = (LARGEST / amount).min(1.0);
-            // A droplet beyond a wall has no flow: less of the correction then.
-            residual = loop {
-                match self.corrected(&correction, part, along) {
-                    Ok(residual) => break residual,
-                    Err(_) if part > LEAST_PART => part *= 0.5,
-                    Err(error) => return Err(error),
-                }
-            };
-            if amount < SMALLEST {
+            residual = damped(amount, |part| self.corrected(&correction, part, along))?;
+            if amount < SMALLEST_CORRECTION {
                 return Ok(());
             }
-            // The same matrix as long as it does; what is conserved is then right already.
-            if amount < 1e-2 && amount < 0.3 * last {
+            if amount < REUSABLE && amount < CONTRACTION * last {
+                // Area and particles are right already.
                 factors = Some((factorised, [0.0; 2]));
             }
             last = amount;
         }
         Err(SteadyError::NoConvergence {
-            residual: last,
+            residual: residual.amax() / self.tau,
             iterations: MOST_ITERATIONS,
             remedy: "take a smaller step, more nodes or more instants",
         })
     }
 
-    /// The linear equations for a correction, and what area and number of particles lack.
+    /// Linear equations for a correction, factorised, and what area and number of particles lack.
     fn factorised(&mut self, along: Option<&Along>) -> Result<(Elimination, [f64; 2]), SteadyError> {
         let (mut matrix, lacks) = self.matrix()?;
         if let Some(Along { parameter, direction, change }) = along {
             let n = self.system.modes.len();
             let size = self.states.len() * n;
-            let value = self.value(*parameter);
-            let step = 1e-5 * value.abs().max(0.01);
-            let mut sides = Vec::new();
-            for value in [value + step, value - step] {
-                sides.push(self.copy(&parameter.with(&self.system.model.setup, value)?)?.residual()?.0);
-            }
-            let derivative = (&sides[0] - &sides[1]) / (2.0 * step);
+            let (setup, value) = (&self.system.model.setup, self.value(*parameter));
+            let step = DIFFERENCE * parameter.scale(setup);
+            let side = |value: f64| Ok::<_, SteadyError>(self.copy(&parameter.with(setup, value)?)?.residual()?.0);
+            let derivative = (side(value + step)? - side(value - step)?) / (2.0 * step);
             matrix.view_mut((0, size + 4), (size, 1)).copy_from(&derivative);
             for (j, way) in direction.iter().enumerate() {
                 matrix.view_mut((size + 4, j * n), (1, n)).copy_from(&way.transpose());
@@ -492,14 +470,14 @@ impl LimitCycle {
         next.speed += part * correction[size];
         next.tau += part * correction[size + 1];
         if let Some(Along { parameter, .. }) = along {
-            next.system.change(*parameter, part * correction[size + 4])?;
+            next.system = next.system.moved(*parameter, part * correction[size + 4])?;
         }
         let residual = next.residual()?.0;
         *self = next;
         Ok(residual)
     }
 
-    /// Goes over to the mean shape, where the droplet is at each instant.
+    /// Goes over to the mean shape as base curve, placed where the droplet is at each instant.
     fn refit(&mut self) -> Result<(), SteadyError> {
         let count = self.states.len();
         let even = self.system.modes.part(Part::Even);
@@ -508,18 +486,13 @@ impl LimitCycle {
             let mut rows = mean.rows_mut(even.start, even.len());
             rows += state.rows(even.start, even.len()) / count as f64;
         }
-        let (offsets, density) = self.system.modes.synthesise(&mean);
-        let base = Base::new(&self.shape)?;
-        let positions =
-            base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
-        let nodes = self.shape.nodes();
-        let shape =
-            crate::newton::centred(Profile { positions, density, nuclei: Vec::new() }.resampled(nodes, CROWDING)?)?;
+        let mean = self.system.profile_over(&Base::new(&self.shape)?, &mean);
+        let shape = mean.resampled(self.shape.nodes(), CROWDING)?.centred()?;
         let poses: Vec<[f64; 3]> = (0..count)
             .map(|j| {
-                let profile = self.lab_profile(j)?;
+                let profile = self.profile(j)?;
                 let centroid = profile.moments()?.centroid;
-                // The particles are at the rear.
+                // The heading: particles gather at the rear.
                 let offset = |(x, m): (&Vec2, &f64)| (centroid - *x) * *m;
                 let ahead: Vec2 = profile.positions.iter().zip(&profile.density).map(offset).sum();
                 Ok([centroid.x, centroid.y, ahead.y.atan2(ahead.x)])
@@ -528,16 +501,16 @@ impl LimitCycle {
         self.move_onto(&shape, &poses)
     }
 
-    /// The same cycle over other curves.
+    /// Goes over to another base curve with other poses.
     fn move_onto(&mut self, shape: &Profile, poses: &[[f64; 3]]) -> Result<(), SteadyError> {
-        let profiles = (0..self.states.len()).map(|j| self.lab_profile(j)).collect::<Result<Vec<_>, _>>()?;
+        let profiles = (0..self.states.len()).map(|j| self.profile(j)).collect::<Result<Vec<_>, _>>()?;
         (self.shape, self.poses) = (shape.clone(), poses.to_vec());
         for (j, profile) in profiles.iter().enumerate() {
             let base = self.base(j)?;
             let too_far = SteadyError::NoConvergence {
                 residual: f64::NAN,
                 iterations: 0,
-                remedy: "take smaller steps: the cycle has changed too much",
+                remedy: "take smaller steps, the limit cycle has changed too much",
             };
             let (offsets, density) = profile.over(&base.positions, &base.normals)?.ok_or(too_far)?;
             self.states[j] = self.system.modes.analyse(&offsets, &density)?;
@@ -549,4 +522,16 @@ impl LimitCycle {
 /// Motion of a frame about the origin from the rate of a pose, which turns about its own place.
 fn motion([x, y, turn]: [f64; 3], pose: [f64; 3]) -> FrameMotion {
     [x + turn * pose[1], y - turn * pose[0], turn]
+}
+
+/// Weights of the instant `k` of `count` over half a period in the trigonometric interpolation at a phase: for
+/// quantities that return after half a period, and for those that return with the opposite sign.
+pub(crate) fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
+    let all = 2 * count;
+    let at = |k: usize| {
+        let angle = phase - PI * k as f64 / count as f64;
+        let tangent = (0.5 * angle).tan();
+        if tangent.abs() < 1e-12 { 1.0 } else { (0.5 * all as f64 * angle).sin() / (all as f64 * tangent) }
+    };
+    [at(k) + at(k + count), at(k) - at(k + count)]
 }

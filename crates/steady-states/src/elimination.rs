@@ -2,14 +2,14 @@
 
 use nalgebra::DMatrix;
 
-/// Columns that are eliminated together.
+/// Columns that are eliminated together: a block of rows then fits into the cache.
 const BLOCK: usize = 48;
 
-/// A matrix taken apart into triangles, rows being exchanged for the largest pivots.
+/// LU factors of a matrix, with exchanges of rows for the largest pivots.
 pub(crate) struct Elimination {
-    /// The lower triangle, whose diagonal is one, and the upper one.
+    /// Lower triangle, whose diagonal is one, and upper triangle.
     triangles: DMatrix<f64>,
-    /// The row that each row was exchanged with.
+    /// Row that each row was exchanged with.
     exchanges: Vec<usize>,
 }
 
@@ -41,7 +41,7 @@ impl Elimination {
         Self { triangles: matrix, exchanges }
     }
 
-    /// The solutions for columns of right-hand sides; none if the matrix is singular.
+    /// Solutions for columns of right-hand sides; `None` if the matrix is singular.
     pub(crate) fn solve(&self, mut right: DMatrix<f64>) -> Option<DMatrix<f64>> {
         for (k, pivot) in self.exchanges.iter().enumerate() {
             right.swap_rows(k, *pivot);

@@ -1,74 +1,76 @@
-//! What can go wrong.
+//! Errors of this crate.
 
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::boundary_integral::LayerError;
-use motile::ib_core::input::InputError;
+use motile_base::InputError;
 
-/// An error of this crate, with the offending value and the remedy.
+/// Error of a steady state, a branch or a limit cycle, with the offending value and the remedy.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SteadyError {
-    /// A description that makes no scene.
+    /// Description of a scene that cannot be built.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The droplet.
+    /// Droplet or law of tension that cannot be used.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
-    /// The flow.
+    /// Flow that cannot be solved for.
     #[error(transparent)]
     Flow(#[from] LayerError),
-    /// A number or list that cannot be used.
+    /// Number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A scene that has no steady states of the kind that is solved for here.
+    /// Scene whose steady states are not of the kind that is solved for here, or a request that makes no sense.
     #[error("{what}: {remedy}")]
     Unsupported {
-        /// What the scene has.
+        /// Offending part of the scene or request.
         what: String,
-        /// What to give instead.
+        /// Remedy.
         remedy: &'static str,
     },
-    /// The iteration for a state has not come to an end.
-    #[error("no steady state was found: the rate of change is {residual:.1e} after {iterations} iterations, {remedy}")]
+    /// Iteration that has not converged.
+    #[error("no convergence: the rate of change is {residual:.1e} (1/time) after {iterations} iterations; {remedy}")]
     NoConvergence {
-        /// Largest rate of change that is left (1/time).
+        /// Largest rate of change of a Fourier coefficient over its unit (1/time).
         residual: f64,
-        /// Iterations.
+        /// Number of iterations.
         iterations: usize,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
-    /// A shape or concentration that the nodes do not resolve.
-    #[error("the {what} is not resolved by {nodes} nodes (its last modes are {tail:.1e} of it): give more nodes")]
+    /// Shape or concentration that the nodes do not resolve.
+    #[error(
+        "the {what} is not resolved by {nodes} nodes: its last Fourier modes are {tail:.1e} of it, give more nodes"
+    )]
     Unresolved {
-        /// Shape or concentration.
+        /// Unresolved quantity: the shape or the concentration.
         what: &'static str,
-        /// Nodes.
+        /// Number of nodes.
         nodes: usize,
-        /// Size of the last modes over that of all.
+        /// Ratio of the last Fourier coefficients to the largest.
         tail: f64,
     },
-    /// A matrix that cannot be solved with.
+    /// Singular matrix.
     #[error("the linear equations of {what} are singular: {remedy}")]
     Singular {
-        /// What they are of.
+        /// Unknown of the equations.
         what: &'static str,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
-    /// Something that was looked for along a branch is not there.
+    /// Point that was looked for along a parameter and is not there.
     #[error("{what} was not found between {from} and {to}: {remedy}")]
     NotFound {
-        /// What was looked for.
+        /// Point looked for.
         what: &'static str,
-        /// Start of the interval of the parameter.
+        /// Value of the parameter where the search began.
         from: f64,
-        /// End of the interval.
+        /// Value where it ended.
         to: f64,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
 }
 
-motile::ib_core::input::debug_as_explanation!(SteadyError);
+motile_base::debug_as_explanation!(SteadyError);

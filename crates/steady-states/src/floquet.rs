@@ -1,30 +1,32 @@
-//! Stability of limit cycles.
+//! Stability of limit cycles: Floquet multipliers.
 
 use std::f64::consts::PI;
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use crate::cycle::weights;
 use crate::elimination::Elimination;
 use crate::modes::Part;
 use crate::spectrum::{complement, eigenvalues};
 use crate::{LimitCycle, SteadyError};
 
-/// Steps over half a period.
+/// Steps of the time integration, of third order, over half a period.
 const STEPS: usize = 80;
 
 /// Floquet multipliers of a limit cycle: factors by which disturbances grow over a period.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Multipliers {
-    /// The multipliers, largest first, of disturbances that keep area and number of particles, but for the shifts in
-    /// time and along the channel.
+    /// Multipliers, largest modulus first, of disturbances that conserve area and particles; without the two of shifts
+    /// in time and along the channel, which are 1.
     pub values: Vec<Complex64>,
-    /// How far the multipliers of these two shifts are from 1: an error estimate.
+    /// Error estimate: the distance from 1 of the computed multipliers of these two shifts, over half a period.
     pub neutral: f64,
 }
 
 impl Multipliers {
-    /// Whether all disturbances decay.
+    /// True if all disturbances decay.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.values.iter().all(|value| value.norm() < 1.0)
@@ -32,12 +34,12 @@ impl Multipliers {
 }
 
 impl LimitCycle {
-    /// The multipliers: eigenvalues of what the linearised equations make of disturbances in half a period, mirrored
-    /// and squared. In time these are solved by the method Radau IIA of third order, which damps what decays fast,
-    /// their matrix being known between the instants by trigonometric interpolation.
+    /// Floquet multipliers: squares of the eigenvalues of the map that takes a disturbance to its mirror image half a
+    /// period later. The linearised equations are integrated in time by the third-order method Radau IIA, which damps
+    /// fast modes, with trigonometric interpolation of their matrix between the instants.
     ///
     /// # Errors
-    /// Equations that cannot be solved.
+    /// A flow that cannot be solved for; singular equations; eigenvalues that do not converge.
     pub fn multipliers(&self) -> Result<Multipliers, SteadyError> {
         let mut own = self.copy(&self.system.model.setup)?;
         let (count, n) = (own.states.len(), own.system.modes.len());
@@ -55,7 +57,7 @@ impl LimitCycle {
         let matrix = |phase: f64| {
             let weights: Vec<[f64; 2]> = (0..count).map(|k| weights(phase, k, count)).collect();
             DMatrix::from_fn(n, n, |i, j| {
-                // What takes one symmetry to the other has changed its sign after half a period.
+                // Entries between the symmetries change their sign after half a period.
                 let which = usize::from(odd.contains(&i) != odd.contains(&j));
                 jacobians.iter().zip(&weights).map(|(jacobian, w)| w[which] * jacobian[(i, j)]).sum()
             })
@@ -90,16 +92,4 @@ impl LimitCycle {
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         Ok(Multipliers { values, neutral: shifts.iter().map(distance).fold(0.0, f64::max) })
     }
-}
-
-/// Weight of the instant `k` of half a period at a phase, for what is the same and what has changed its sign after half
-/// a period.
-pub(crate) fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
-    let all = 2 * count;
-    let at = |k: usize| {
-        let angle = phase - PI * k as f64 / count as f64;
-        let tangent = (0.5 * angle).tan();
-        if tangent.abs() < 1e-12 { 1.0 } else { (0.5 * all as f64 * angle).sin() / (all as f64 * tangent) }
-    };
-    [at(k) + at(k + count), at(k) - at(k + count)]
 }

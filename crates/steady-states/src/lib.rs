@@ -1,4 +1,4 @@
-//! Steady swimmers, their stability and bifurcations, without waiting for a run.
+//! Steady swimmers, their stability and bifurcations, without a run.
 //!
 //! A swimmer's speed takes hundreds of time units to settle and a growth rate of 1e-4 takes thousands to show. Here the
 //! equations of the steady state are solved by Newton's method, and the eigenvalues of their derivative say whether it
@@ -35,43 +35,47 @@
 //! ```
 //!
 //! The shape is an offset h(a) along the normals of a fixed curve, the concentration a number of particles m(a) per
-//! parameter: no gauge is left in the equations, they are smooth, and their eigenvalues are those of the droplet. Both
-//! are trigonometric polynomials on the nodes of the description, which crowd where the concentration is steep; errors
-//! fall faster than any power of their number, about a thousandfold from 64 to 128. That area and number of particles
-//! are conserved and that rigid motions of the region change nothing makes the derivative singular; bordering by these
-//! makes it regular, and V comes out with the state. The derivative is by central differences (errors of 1e-9), one
-//! evaluation of the flow a difference; a state that is its own mirror image is solved for among such states, and its
-//! eigenvalues come sorted by symmetry.
+//! parameter a. So the equations have no freedom of parametrisation, are smooth, and their eigenvalues are those of the
+//! droplet. Both fields are trigonometric polynomials on the nodes of the description, which crowd where the
+//! concentration is steep; errors fall faster than any power of their number, about a thousandfold from 64 to 128.
+//!
+//! Area and number of particles are conserved and rigid motions of the region change nothing, so the derivative is
+//! singular; bordered by these it is regular, and V comes out with the state. The derivative is taken by central
+//! differences (errors of 1e-9), with one solution of the flow a difference. A state that is its own mirror image is
+//! solved for among such states, and its eigenvalues come sorted by symmetry.
 //!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
-//! parameter; [`LimitCycle`] has the oscillations that come from a Hopf point of a swimmer in a channel. The tables of
-//! `docs/steady-states.md` are computed by it.
+//! parameter; [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
+//! of `docs/steady-states.md` are computed with this crate.
 mod branch;
-mod cost;
+mod continuation;
 mod critical;
+mod crossings;
 mod cycle;
 mod elimination;
 mod error;
 mod floquet;
+mod iteration;
 mod model;
 mod modes;
 mod newton;
 mod parameter;
 mod profile;
+mod settling;
 mod spectrum;
 mod state;
 mod system;
 
-pub use branch::{Branch, BranchEnd, BranchPoint, Continuation, SpecialKind, SpecialPoint};
-pub use cost::Cost;
+pub use branch::{Branch, BranchEnd, BranchPoint, SpecialKind, SpecialPoint};
+pub use continuation::Continuation;
 pub use critical::Critical;
 pub use cycle::LimitCycle;
 pub use error::SteadyError;
 pub use floquet::Multipliers;
-/// A growth rate and an angular frequency.
+/// Complex number: growth rate and angular frequency, or amplitude and phase.
 pub use num_complex::Complex64;
 pub use parameter::Parameter;
 pub use profile::Profile;
 pub use spectrum::{Eigenmode, ModeShape, Spectrum, Symmetry};
-pub use state::{Measured, SteadyState};
+pub use state::{Cost, Measured, SteadyState};

@@ -1,29 +1,31 @@
-//! Fourier coefficients of a state, sorted by symmetry.
+//! Fourier coefficients of a state, sorted by mirror symmetry.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use fourier::PeriodicSeries;
+use motile_base::PeriodicSeries;
 use nalgebra::DVector;
 use num_complex::Complex64;
 
 use crate::SteadyError;
 
-/// Part of all states, of a droplet that is its own mirror image at the x axis.
+/// Part of the state space, under the mirror image at the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// Those that are mirror symmetric too: cosines.
+    /// Mirror-symmetric states: cosines.
     Even,
-    /// Those that change their sign: sines.
+    /// States that change their sign: sines.
     Odd,
-    /// All.
+    /// All states.
     Full,
 }
 
-/// A state as coefficients without dimension: of offsets over the radius, then of densities over their mean; first the
-/// cosines of both from the mean on and the x of the nuclei over the radius, then the sines of both and the y of the
-/// nuclei. The unpaired mode of an even number of nodes is left out. As values at the nodes x stands after the offsets
-/// and y after the densities.
+/// Layout of a state as coefficients without dimension, offsets in units of the radius and densities in units of
+/// their mean at rest.
+///
+/// First come the mirror-symmetric ones: cosines of the offsets from the mean on, cosines of the densities, x of the
+/// discs over the radius; then the sines of both and y of the discs. The unpaired mode of an even number of nodes is
+/// left out. In lists of values at the nodes x follows the offsets and y the densities.
 #[derive(Debug)]
 pub(crate) struct Modes {
     series: PeriodicSeries,
@@ -39,6 +41,7 @@ impl Modes {
         Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, nuclei })
     }
 
+    /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.series.len()
     }
@@ -48,6 +51,7 @@ impl Modes {
         4 * self.largest + 2 + 2 * self.nuclei
     }
 
+    /// Coefficients of a part.
     pub(crate) fn part(&self, part: Part) -> Range<usize> {
         let even = self.even();
         match part {
@@ -57,12 +61,12 @@ impl Modes {
         }
     }
 
-    /// Number of those that are their own mirror image.
+    /// Number of mirror-symmetric coefficients.
     fn even(&self) -> usize {
         2 * (self.largest + 1) + self.nuclei
     }
 
-    /// Which coefficient this is: of the density (else of the offset), a sine (else a cosine), its wave number.
+    /// Kind of a coefficient: true for the density (else the offset), true for a sine (else a cosine), wave number.
     fn kind(&self, index: usize) -> (bool, bool, usize) {
         let sine = index >= self.even();
         let index = if sine { index - self.even() } else { index };
@@ -71,7 +75,7 @@ impl Modes {
         (index >= waves, sine, index % waves + first)
     }
 
-    /// The nucleus whose place this is, and whether it is y (else x).
+    /// Disc whose centre a coefficient belongs to, and true for y (else x); `None` for Fourier coefficients.
     fn nucleus(&self, index: usize) -> Option<(usize, bool)> {
         let (even, all) = (self.even(), self.len());
         match index {
@@ -81,18 +85,18 @@ impl Modes {
         }
     }
 
-    /// The wave number of a coefficient; 1 for a place.
+    /// Wave number of a coefficient; 1 for the centre of a disc.
     pub(crate) fn wave(&self, index: usize) -> usize {
         if self.nucleus(index).is_some() { 1 } else { self.kind(index).2 }
     }
 
-    /// Position of the coefficient of this kind.
+    /// Index of the coefficient of a kind.
     pub(crate) fn index(&self, density: bool, sine: bool, wave: usize) -> usize {
         let field = usize::from(density);
         if sine { self.even() + field * self.largest + wave - 1 } else { field * (self.largest + 1) + wave }
     }
 
-    /// Adds `amount` of a coefficient to the values at the nodes.
+    /// Adds `amount` of one coefficient to the values at the nodes.
     pub(crate) fn perturb(&self, index: usize, amount: f64, offsets: &mut [f64], density: &mut [f64]) {
         let len = self.nodes();
         if let Some((nucleus, across)) = self.nucleus(index) {
@@ -109,7 +113,7 @@ impl Modes {
         }
     }
 
-    /// Coefficients of values at the nodes.
+    /// Coefficients of offsets and densities at the nodes.
     pub(crate) fn analyse(&mut self, offsets: &[f64], density: &[f64]) -> Result<DVector<f64>, SteadyError> {
         let [r, c] = self.scales;
         let nodes = self.nodes();
@@ -136,7 +140,7 @@ impl Modes {
         Ok(state)
     }
 
-    /// Values at the nodes, offsets and densities.
+    /// Offsets and densities at the nodes.
     pub(crate) fn synthesise(&self, state: &DVector<f64>) -> (Vec<f64>, Vec<f64>) {
         let values = self.nodes() + self.nuclei;
         let (mut offsets, mut density) = (vec![0.0; values], vec![0.0; values]);

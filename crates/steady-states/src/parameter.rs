@@ -1,11 +1,13 @@
-//! The numbers of a description that a branch may be followed in.
+//! Parameters of a description along which states are followed.
 
-use motile::{DropletShape, Exclusion, Region, Setup};
+use motile::motile_base::Region;
+use motile::setup::{DropletShape, Exclusion, Setup};
 
 use crate::SteadyError;
 
-/// A number of a description.
+/// Parameter of a description along which a branch of states can be followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Activity zeta delta-mu of the droplet (force times length).
     Activity,
@@ -17,9 +19,9 @@ pub enum Parameter {
     Tension,
     /// Viscosity of the droplet (stress times time).
     ViscosityInside,
-    /// Viscosity of the exterior fluid (stress times time), that of the droplet being kept.
+    /// Viscosity of the exterior fluid (stress times time) at a fixed viscosity of the droplet.
     ViscosityOutside,
-    /// Viscosity of the droplet over that of the exterior fluid, their sum being kept.
+    /// Viscosity of the droplet over that of the exterior fluid, at a fixed sum of both.
     ViscosityRatio,
     /// Width of a channel (length).
     Width,
@@ -30,7 +32,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// All of them, with the names that a command line has for them.
+    /// All parameters with their names in command lines and files.
     pub const NAMES: [(&str, Self); 10] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
@@ -44,13 +46,13 @@ impl Parameter {
         ("nucleus-radius", Self::NucleusRadius),
     ];
 
-    /// Its name on a command line.
+    /// Name in command lines and files, from [`Parameter::NAMES`].
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    /// Its value in a description; none where it has no such number.
+    /// Value in a description; `None` where the description has no such parameter, as the width outside of channels.
     #[must_use]
     pub fn get(self, setup: &Setup) -> Option<f64> {
         let droplet = setup.droplets.first()?;
@@ -82,10 +84,16 @@ impl Parameter {
         }
     }
 
-    /// The same description with another value of this number.
+    /// Size of the value in a description, in units of which steps of it are taken: 0.01 at least, for values near
+    /// zero.
+    pub(crate) fn scale(self, setup: &Setup) -> f64 {
+        self.get(setup).unwrap_or(0.0).abs().max(0.01)
+    }
+
+    /// Description with this parameter at another value.
     ///
     /// # Errors
-    /// A description without such a number.
+    /// A description without the parameter.
     pub fn with(self, setup: &Setup, value: f64) -> Result<Setup, SteadyError> {
         let missing = || SteadyError::Unsupported {
             what: format!("the scene has no parameter {}", self.name()),
@@ -116,7 +124,7 @@ impl Parameter {
             Self::Length => match &mut setup.region {
                 Region::Channel { length, .. } => *length = value,
                 Region::Box { lengths } => *lengths = [value; 2],
-                Region::Plane => {}
+                _ => return Err(missing()),
             },
             Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
         }

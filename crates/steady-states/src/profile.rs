@@ -1,44 +1,53 @@
-//! A droplet as its curve and the particles on it.
+//! Shape of a droplet and the particles on it, as trigonometric polynomials.
 
 use std::f64::consts::TAU;
 
-use fourier::PeriodicSeries;
-use motile::ib_core::Vec2;
+use motile::motile_base::Region;
+use motile::setup::{DropletShape, Setup};
+use motile_base::{PeriodicSeries, Vec2, same_length};
 use num_complex::Complex64;
 
 use crate::SteadyError;
+use crate::iteration::MOST_ITERATIONS;
 
-/// Newton iterations for a place on a curve.
-const MOST_ITERATIONS: usize = 50;
-/// Modes below this part of the mean are not worth resolving.
-const FLAT: f64 = 1e-3;
-/// Waves of the density of nodes that are kept: that many, or one for this number of nodes where there are few, whose
-/// error it would follow.
-const SMOOTH_WAVES: f64 = 12.0;
+/// Crowding of nodes (length): they stand 1.3 times as densely where the concentration changes by its mean over a
+/// length of 1.
+pub(crate) const CROWDING: f64 = 0.8;
+/// Largest wave number of the density of nodes: beyond it a concentration would be resolved no better, and with few
+/// nodes to a wave the density would follow their errors.
+const MOST_WAVES: f64 = 12.0;
 const NODES_PER_WAVE: f64 = 7.0;
+/// Amplitude of modes, over the mean, below which there is nothing to resolve, as in the concentration at rest.
+const FLAT: f64 = 1e-3;
+/// Tail of the Fourier series above which the nodes on the way, and those of a branch, are placed anew.
+pub(crate) const RESOLVED: f64 = 5e-4;
+/// Change of the parameter of a place on a curve below which it is found.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 
-/// A closed curve and the particles on it, node k of N at the parameter 2 pi k/N: trigonometric polynomials, so that
-/// everything between the nodes is known to spectral accuracy.
+/// Droplet in its steady state: a closed curve and the density of particles on it.
+///
+/// Both are given at N nodes, node k at the parameter a = 2 pi k/N, and are the trigonometric polynomials through these
+/// values, so that they are known between the nodes to spectral accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// Positions of the nodes (length), counter-clockwise.
     pub positions: Vec<Vec2>,
-    /// Particles per parameter: the concentration times the derivative of the arc length by the parameter.
+    /// Particles per parameter at the nodes, m = c |dx/da|, with the concentration c in particles per length.
     pub density: Vec<f64>,
-    /// Centres of the rigid discs inside (length).
+    /// Centres of the rigid discs inside (length), in the order of the description.
     pub nuclei: Vec<Vec2>,
 }
 
 /// Offsets (length) and densities at nodes.
 pub(crate) type Fields = (Vec<f64>, Vec<f64>);
 
-/// Curve and density as series that can be asked for anywhere.
+/// Curve and density as series, for evaluation at any parameter.
 pub(crate) struct Sampler {
     curve: PeriodicSeries,
     density: PeriodicSeries,
 }
 
-/// A place on a curve: position and its derivative by the parameter, density.
+/// Point of a curve: position, its derivative by the parameter, density.
 pub(crate) struct Place {
     pub(crate) position: Vec2,
     pub(crate) tangent: Vec2,
@@ -50,76 +59,103 @@ impl Sampler {
         let count = profile.positions.len();
         let (mut curve, mut density) = (PeriodicSeries::new(count)?, PeriodicSeries::new(count)?);
         curve.analyse_vectors(&profile.positions)?;
-        density.analyse(profile.density.iter().map(|&value| Complex64::new(value, 0.0)))?;
+        analyse(&mut density, profile.density.iter())?;
         Ok(Self { curve, density })
     }
 
     pub(crate) fn at(&self, parameter: f64) -> Place {
-        let (curve, density) = (self.curve.coefficients(), self.density.coefficients());
-        let len = curve.len();
-        let unit = Complex64::cis(parameter);
-        let (mut position, mut tangent, mut value) = (curve[0], Complex64::ZERO, density[0].re);
-        let mut power = unit;
-        for m in 1..len.div_ceil(2) {
-            let (up, down) = (curve[m] * power, curve[len - m] * power.conj());
-            position += up + down;
-            tangent += Complex64::new(0.0, m as f64) * (up - down);
-            value += 2.0 * (density[m] * power).re;
-            power *= unit;
-        }
         let vector = |z: Complex64| Vec2::new(z.re, z.im);
-        Place { position: vector(position), tangent: vector(tangent), density: value }
+        let (position, tangent) = evaluated(self.curve.coefficients(), parameter);
+        let (density, _) = evaluated(self.density.coefficients(), parameter);
+        Place { position: vector(position), tangent: vector(tangent), density: density.re }
     }
 }
 
-/// Derivative by the parameter of a real function given at the nodes, and the size of its last modes over that of all
-/// but the mean.
-pub(crate) fn derivative(series: &mut PeriodicSeries, values: &[f64]) -> Result<Vec<f64>, SteadyError> {
-    series.analyse(values.iter().map(|&value| Complex64::new(value, 0.0)))?;
+/// Series through real values at the nodes.
+pub(crate) fn analyse<'a>(
+    series: &mut PeriodicSeries,
+    values: impl ExactSizeIterator<Item = &'a f64>,
+) -> Result<(), SteadyError> {
+    Ok(series.analyse(values.map(|&value| Complex64::new(value, 0.0)))?)
+}
+
+/// Derivative by the parameter of a real function given at the nodes.
+fn derivative(values: &[f64]) -> Result<Vec<f64>, SteadyError> {
+    let mut series = PeriodicSeries::new(values.len())?;
+    analyse(&mut series, values.iter())?;
     series.differentiate();
     Ok(series.values().iter().map(|z| z.re).collect())
 }
 
+/// Integral over the parameter of a real function given at the nodes: its mean, and the periodic remainder as a series.
+fn integral(values: &[f64]) -> Result<(f64, PeriodicSeries), SteadyError> {
+    let mut series = PeriodicSeries::new(values.len())?;
+    analyse(&mut series, values.iter())?;
+    let mean = series.coefficients()[0].re;
+    series.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { Complex64::new(0.0, -1.0 / wave) });
+    Ok((mean, series))
+}
+
+/// Value and derivative of a trigonometric polynomial at a parameter, from its coefficients.
+fn evaluated(coefficients: &[Complex64], parameter: f64) -> (Complex64, Complex64) {
+    let (len, unit) = (coefficients.len(), Complex64::cis(parameter));
+    let (mut value, mut rate, mut power) = (coefficients[0], Complex64::ZERO, unit);
+    for m in 1..len.div_ceil(2) {
+        let (up, down) = (coefficients[m] * power, coefficients[len - m] * power.conj());
+        value += up + down;
+        rate += Complex64::new(0.0, m as f64) * (up - down);
+        power *= unit;
+    }
+    (value, rate)
+}
+
 impl Profile {
-    /// The droplet whose markers and segments (segment k from marker k to the next) these are.
+    /// Profile of a droplet from its N markers (length) and the numbers of particles on its N segments, segment k from
+    /// marker k to the next: markers become nodes, and the series of the density has these means over the segments.
     ///
     /// # Errors
-    /// Lists of different length.
+    /// Lists of different length, or longer than a transform takes.
     pub fn from_markers(markers: &[Vec2], numbers: &[f64]) -> Result<Self, SteadyError> {
         let count = markers.len();
-        motile::ib_core::input::same_length("particle numbers", count, numbers.len())?;
-        // The density is the derivative of the number of particles up to a parameter; that of segment k is its mean
-        // there, whose Fourier coefficients are those of the density times sin(m/2)/(m/2).
+        same_length("particle numbers", count, numbers.len())?;
+        // The number on segment k is the density's mean over it times the step. The means have the Fourier coefficients
+        // of the density times sin(w)/w exp(i w), w half a step times the wave number.
         let step = TAU / count as f64;
         let mut series = PeriodicSeries::new(count)?;
-        series.analyse(numbers.iter().map(|&n| Complex64::new(n / step, 0.0)))?;
+        analyse(&mut series, numbers.iter())?;
         series.multiply(|wave| {
             let half = 0.5 * wave * step;
             let mean = if half == 0.0 { 1.0 } else { half.sin() / half };
-            Complex64::cis(-half) / mean
+            Complex64::cis(-half) / (mean * step)
         });
         let density = series.values().iter().map(|z| z.re).collect();
         Ok(Self { positions: markers.to_vec(), density, nuclei: Vec::new() })
     }
 
-    /// The same droplet with rigid discs inside, at these centres (length).
+    /// Profile with rigid discs inside, at these centres (length).
     #[must_use]
     pub fn with_nuclei(self, nuclei: Vec<Vec2>) -> Self {
         Self { nuclei, ..self }
     }
 
-    /// Moves it along x.
+    /// Shifts the droplet along x (length).
     pub(crate) fn shift(&mut self, x: f64) {
         self.positions.iter_mut().chain(&mut self.nuclei).for_each(|position| position.x += x);
     }
 
-    /// Number of nodes.
+    /// Droplet with its centroid at x = 0.
+    pub(crate) fn centred(mut self) -> Result<Self, SteadyError> {
+        self.shift(-self.moments()?.centroid.x);
+        Ok(self)
+    }
+
+    /// Number N of nodes.
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.positions.len()
     }
 
-    /// The same droplet mirrored at the x axis.
+    /// Mirror image of the droplet at the x axis, counter-clockwise from the image of the first node.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let n = self.nodes();
@@ -131,11 +167,8 @@ impl Profile {
         }
     }
 
-    /// The mirror-symmetric droplet next to this one: its mean with its mirror image at the x axis, its first node
-    /// being where it crosses the axis in front.
-    ///
-    /// # Errors
-    /// A curve that is not finite.
+    /// Mirror-symmetric droplet next to this one: its centroid is shifted to the x axis, its first node to where it
+    /// crosses the axis in front, and it is averaged with its mirror image.
     pub(crate) fn symmetrised(&self) -> Result<Self, SteadyError> {
         let centroid = self.moments()?.centroid;
         let count = self.nodes();
@@ -157,7 +190,7 @@ impl Profile {
         Ok(Self { positions, density, nuclei }.mean_with_image())
     }
 
-    /// The mean of this droplet, whose first node is on the x axis, and its mirror image.
+    /// Mean of this droplet, whose first node is on the x axis, and its mirror image.
     pub(crate) fn mean_with_image(mut self) -> Self {
         let image = self.mirrored();
         self.positions.iter_mut().zip(&image.positions).for_each(|(here, there)| *here = 0.5 * (*here + *there));
@@ -169,21 +202,51 @@ impl Profile {
     /// Arc length from the first node (length) and concentration (particles per length) at the nodes.
     ///
     /// # Errors
-    /// A curve that is not finite.
+    /// More nodes than a transform takes.
     pub fn concentrations(&self) -> Result<(Vec<f64>, Vec<f64>), SteadyError> {
         let rates: Vec<f64> = self.tangents()?.iter().map(|t| t.length()).collect();
-        let mut series = PeriodicSeries::new(self.nodes())?;
-        series.analyse(rates.iter().map(|&rate| Complex64::new(rate, 0.0)))?;
-        let mean = series.coefficients()[0].re;
-        series.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { Complex64::new(0.0, -1.0 / wave) });
-        let periodic = series.values();
+        let (mean, mut periodic) = integral(&rates)?;
+        let periodic = periodic.values();
         let step = TAU / rates.len() as f64;
         let lengths =
             periodic.iter().enumerate().map(|(k, z)| mean * step * k as f64 + z.re - periodic[0].re).collect();
         Ok((lengths, self.density.iter().zip(&rates).map(|(m, rate)| m / rate).collect()))
     }
 
-    /// Derivative of the positions by the parameter.
+    /// Refuses a droplet that reaches into a wall or its own periodic image, or that does not hold all of its discs.
+    pub(crate) fn check_room(&self, setup: &Setup) -> Result<(), SteadyError> {
+        let extent = |way: Vec2| self.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
+        let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
+        let fits = match setup.region {
+            Region::Channel { length, width, .. } => left + right < length && top.max(bottom) < 0.5 * width,
+            region => left + right < region.lengths()[0] && top + bottom < region.lengths()[1],
+        };
+        if !fits {
+            return Err(SteadyError::Unsupported {
+                what: format!(
+                    "the droplet does not fit: it reaches from y = {:.3} to {top:.3} and is {:.3} long",
+                    -bottom,
+                    left + right
+                ),
+                remedy: "give a larger region, a smaller droplet or another place for it",
+            });
+        }
+        same_length("the nuclei of the profile", setup.rigid_bodies.len(), self.nuclei.len())?;
+        for (body, centre) in setup.rigid_bodies.iter().zip(&self.nuclei) {
+            let DropletShape::Round { radius } = body.shape else { continue };
+            let arms = || self.positions.iter().map(|x| *x - *centre);
+            let turn: f64 = arms().zip(arms().cycle().skip(1)).map(|(a, b)| a.angle_to(b)).sum();
+            if turn.abs() < 0.5 * TAU || !arms().all(|arm| arm.length() > radius) {
+                return Err(SteadyError::Unsupported {
+                    what: format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
+                    remedy: "give a smaller disc or another place in the droplet",
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Derivative of the positions by the parameter at the nodes (length).
     pub(crate) fn tangents(&self) -> Result<Vec<Vec2>, SteadyError> {
         let mut series = PeriodicSeries::new(self.nodes())?;
         series.analyse_vectors(&self.positions)?;
@@ -193,71 +256,56 @@ impl Profile {
         Ok(tangents)
     }
 
-    /// The same droplet with `nodes` nodes. Where `crowding` is positive nodes crowd where the concentration is
-    /// steep, by the density `sqrt(1 + (crowding/c0 dc/ds)^2)` smoothed; otherwise they have equal spacing.
-    ///
-    /// # Errors
-    /// A curve that is not finite.
+    /// Droplet at another number of nodes, of equal spacing or, where `crowding` is positive, crowding where the
+    /// concentration is steep: with the density of nodes `sqrt(1 + (crowding/c0 dc/ds)^2)` over the arc length,
+    /// smoothed.
     pub(crate) fn resampled(&self, nodes: usize, crowding: f64) -> Result<Self, SteadyError> {
         let fine = 4 * self.nodes().max(nodes);
         let sampler = Sampler::new(self)?;
         let places: Vec<Place> = (0..fine).map(|k| sampler.at(TAU * k as f64 / fine as f64)).collect();
-        let lengths: Vec<f64> = places.iter().map(|place| place.tangent.length()).collect();
-        let mut series = PeriodicSeries::new(fine)?;
-        let mut weights = lengths.clone();
+        let mut weights: Vec<f64> = places.iter().map(|place| place.tangent.length()).collect();
         if crowding > 0.0 {
-            let concentration: Vec<f64> = places.iter().zip(&lengths).map(|(place, g)| place.density / g).collect();
-            let mean = concentration.iter().sum::<f64>() / fine as f64;
-            let slopes = derivative(&mut series, &concentration)?;
-            let steep =
-                slopes.iter().zip(&lengths).map(|(slope, g)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt());
-            series.analyse(steep.map(|value| Complex64::new(value, 0.0)))?;
-            let waves = SMOOTH_WAVES.min(nodes as f64 / NODES_PER_WAVE);
+            let concentrations: Vec<f64> = places.iter().zip(&weights).map(|(place, g)| place.density / g).collect();
+            let mean = concentrations.iter().sum::<f64>() / fine as f64;
+            let slopes = derivative(&concentrations)?;
+            let steep = |(slope, g): (&f64, &f64)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt();
+            let mut series = PeriodicSeries::new(fine)?;
+            analyse(&mut series, slopes.iter().zip(&weights).map(steep).collect::<Vec<_>>().iter())?;
+            let waves = MOST_WAVES.min(nodes as f64 / NODES_PER_WAVE);
             series.scale(|m| (-(m as f64 / waves).powi(2)).exp());
-            for (weight, smooth) in weights.iter_mut().zip(series.values()) {
-                *weight *= smooth.re;
-            }
+            weights.iter_mut().zip(series.values()).for_each(|(weight, smooth)| *weight *= smooth.re);
         }
-        // Cumulative weight as a function of the parameter: linear part and periodic part.
-        series.analyse(weights.iter().map(|&value| Complex64::new(value, 0.0)))?;
-        let slope = series.coefficients()[0].re;
-        series.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { Complex64::new(0.0, -1.0 / wave) });
-        let periodic = series.coefficients().to_vec();
+        // Nodes divide the integral of the weight into equal parts.
+        let (mean, periodic) = integral(&weights)?;
         let weight = |parameter: f64| {
-            let unit = Complex64::cis(parameter);
-            let (mut power, mut sum, mut rate) = (unit, 0.0, slope);
-            for (m, c) in periodic.iter().enumerate().take(fine / 2).skip(1) {
-                let term = c * power;
-                sum += 2.0 * term.re;
-                rate -= 2.0 * m as f64 * term.im;
-                power *= unit;
-            }
-            (slope * parameter + sum, rate)
+            let (sum, rate) = evaluated(periodic.coefficients(), parameter);
+            (mean * parameter + sum.re, mean + rate.re)
         };
         let start = weight(0.0).0;
         let (positions, density) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes));
         let mut result = Self { positions, density, nuclei: self.nuclei.clone() };
         let mut parameter = 0.0;
         for k in 0..nodes {
-            let goal = start + slope * TAU * k as f64 / nodes as f64;
+            let goal = start + mean * TAU * k as f64 / nodes as f64;
             for _ in 0..MOST_ITERATIONS {
                 let (value, rate) = weight(parameter);
                 let step = (goal - value) / rate;
                 parameter += step;
-                if step.abs() < 1e-14 {
+                if step.abs() < ROUND_OFF {
                     break;
                 }
             }
             let Place { position, density, .. } = sampler.at(parameter);
+            let stretch = mean / weight(parameter).1;
             result.positions.push(position);
-            result.density.push(density * slope / weight(parameter).1);
-            parameter += TAU / nodes as f64 * slope / weight(parameter).1;
+            result.density.push(density * stretch);
+            parameter += TAU / nodes as f64 * stretch;
         }
         Ok(result)
     }
 
-    /// This droplet on lines along normals of another curve: the offsets along them, and the density by the parameter
-    /// of that curve; none where it is too far from that curve.
+    /// Droplet as offsets along the normals of another curve and density per parameter of that curve; `None` where the
+    /// normals do not cross the droplet one after the other.
     pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<Fields>, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = origins.len();
@@ -276,8 +324,8 @@ impl Profile {
                 let Place { position, tangent, .. } = sampler.at(parameter);
                 let step = -(position - origin).perp_dot(normal) / tangent.perp_dot(normal);
                 parameter += step.clamp(-0.5, 0.5);
-                if step.abs() < 1e-14 {
-                    converged = true;
+                converged = step.abs() < ROUND_OFF;
+                if converged {
                     break;
                 }
             }
@@ -292,7 +340,7 @@ impl Profile {
         }
         let step = TAU / count as f64;
         let excess: Vec<f64> = parameters.iter().enumerate().map(|(k, p)| p - step * k as f64).collect();
-        let rates = derivative(&mut PeriodicSeries::new(count)?, &excess)?;
+        let rates = derivative(&excess)?;
         if rates.iter().any(|rate| *rate <= -1.0) {
             return Ok(None);
         }
@@ -305,7 +353,8 @@ impl Profile {
     }
 }
 
-/// Centroid and aspect ratio of an area.
+/// Centroid (length) of the area inside a curve, and its aspect ratio: square root of its second moments along x over
+/// those along y, about the centroid.
 pub(crate) struct AreaMoments {
     pub(crate) centroid: Vec2,
     pub(crate) aspect_ratio: f64,
@@ -328,7 +377,7 @@ impl Profile {
         Ok(AreaMoments { centroid, aspect_ratio: (along / across).sqrt() })
     }
 
-    /// The same series at twice the nodes.
+    /// Series at twice the nodes, for integrals of products of three.
     fn resample_fine(&self) -> Result<Self, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = 2 * self.nodes();
@@ -345,7 +394,7 @@ impl Profile {
         Ok(curvature.fold(f64::INFINITY, f64::min))
     }
 
-    /// Largest and smallest concentration (particles per length).
+    /// Largest and smallest concentration (particles per length), between the nodes too.
     pub(crate) fn extrema(&self) -> Result<[f64; 2], SteadyError> {
         let sampler = Sampler::new(self)?;
         let at = |parameter: f64| {
@@ -373,7 +422,7 @@ impl Profile {
         Ok([extremum(1.0), extremum(-1.0)])
     }
 
-    /// Size of the last modes over the largest, of the shape and of the density.
+    /// Ratio of the last eighth of the Fourier coefficients to the largest, of the shape and of the density.
     pub(crate) fn tails(&self) -> Result<[(&'static str, f64); 2], SteadyError> {
         let count = self.nodes();
         let sampler = Sampler::new(self)?;

@@ -1,41 +1,31 @@
-//! Steady states and what is measured of them.
+//! Steady states and their measured properties.
 
 use std::f64::consts::TAU;
+use std::time::Instant;
 
-use motile::active_interface::observables::InterfaceState;
-use motile::active_interface::{Convention, Observables, observe};
-use motile::ib_core::{FlowSample, Vec2, input::same_length};
-use motile::{DropletShape, Region, Setup};
+use motile::active_interface::observables::{Convention, InterfaceState, Observables, observe};
+use motile::motile_base::FlowSample;
+use motile::motile_base::Region;
+use motile::setup::Setup;
+use motile_base::Vec2;
 
+use crate::iteration::Outcome;
 use crate::model::FrameMotion;
 use crate::modes::Part;
-use crate::newton::{Outcome, REMEDY, centred};
-use crate::profile::Sampler;
-use crate::spectrum::{Eigenmode, ModeShape, Spectrum};
+use crate::profile::{CROWDING, Sampler};
+use crate::spectrum::{Eigenmode, ModeShape, Spectrum, eigenvalues};
 use crate::system::{Point, System};
-use crate::{Parameter, Profile, SteadyError};
+use crate::{Profile, SteadyError};
 
-/// Points for observables between the nodes, for each node.
+/// Markers for each node in observables, which are of second order in the spacing of markers.
 const REFINEMENT: usize = 16;
-/// Size of the last modes over that of all from which on a state is not resolved.
+/// Tail of the Fourier series from which on a state is not resolved: measured values would err by a part in a thousand.
 const LONGEST_TAIL: f64 = 0.01;
-/// Nodes with which a state is looked for first.
-const COARSE: usize = 64;
-/// Part of the activity with which a state is looked for where it is not found directly, and the least step from
-/// there.
-const WEAKER: f64 = 0.5;
-const LEAST_STEP: f64 = 0.01;
-/// Most nodes on the way, and the change by a step in time after which Newton's method takes over: the first attempt is
-/// the quickest one.
-const ATTEMPTS: [(usize, f64); 3] = [(0, 0.02), (160, 0.02), (160, 0.003)];
-/// Largest relative change of the velocity by Newton's method.
-const SAME_SPEED: f64 = 0.3;
 
-/// A droplet that moves without changing, by Newton's method.
+/// Steady state of a droplet: shape and concentration are constant in a frame that moves, and may turn, with it.
 ///
-/// Its shape and concentration are constant in a frame that moves with it, as trigonometric polynomials on the nodes of
-/// [`motile::IntegralMethod`] (the cells of that method have no part in this), so that errors fall faster than any
-/// power of their number.
+/// Found by Newton's method. Both are trigonometric polynomials on the nodes of [`motile::setup::IntegralMethod`] (its
+/// cells have no part in this), so errors fall faster than any power of the number of nodes.
 #[derive(Debug, Clone)]
 pub struct SteadyState {
     setup: Setup,
@@ -44,155 +34,111 @@ pub struct SteadyState {
     outcome: Outcome,
     mirror: bool,
     tail: f64,
-    /// Of the centroid (length per time).
+    /// Velocity of the centroid (length per time).
     velocity: Vec2,
-    /// D/R^2 (1/time).
+    /// Rate D/R^2 (1/time).
     rate: f64,
 }
 
-/// What is measured of a steady state.
+/// Measured properties of a steady state, to spectral accuracy.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Measured {
     /// Speed (length per time).
     pub speed: f64,
-    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest, not a number
-    /// of a droplet with a nucleus, whose part in it is not known.
+    /// Stresslet S_uu along the direction u of motion (force times length), as the far field has it: the traceless
+    /// part of the force dipole, with the double layer of the viscosity contrast. Zero at rest; not a number for a
+    /// droplet with a disc inside, whose share is not known.
     pub stresslet: f64,
-    /// Aspect ratio from area moments, along x over across it.
+    /// Aspect ratio: square root of the second moment of the area along x over that along y.
     pub aspect_ratio: f64,
-    /// Largest and smallest concentration, over their mean on a circle.
+    /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension).
     pub concentration: [f64; 2],
-    /// Length of the interface (length).
+    /// Perimeter of the interface (length).
     pub perimeter: f64,
-    /// Centroid (length).
+    /// Centroid of the area (length).
     pub centroid: Vec2,
-    /// Least curvature (1/length): negative for shapes with a hollow.
+    /// Least curvature of the interface (1/length): negative where it is concave.
     pub least_curvature: f64,
 }
 
+/// Time (seconds) of the parts of a Newton iteration and of a spectrum, for disturbances of the state's own symmetry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Cost {
+    /// Jacobian: derivatives of the rates by central differences, two solutions of the flow a column.
+    pub jacobian: f64,
+    /// Bordering the Jacobian and factorising it.
+    pub factorisation: f64,
+    /// Eigenvalues of the Jacobian.
+    pub eigenvalues: f64,
+    /// Number of unknowns of the bordered equations.
+    pub unknowns: usize,
+}
+
 impl SteadyState {
-    /// The steady swimmer that a description leads to, its mirror image at the x axis if the start is: implicit steps
-    /// in time from the start that the description has, on few nodes, then Newton's method on its own. Where that
-    /// fails, the same at a weaker activity and from there along the activity.
-    ///
-    /// # Errors
-    /// A description of something else than one round active droplet without a grid; no convergence.
-    pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
-        Self::settled(setup).or_else(|error| {
-            let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
-            let weaker = |part: f64| Parameter::Activity.with(setup, part * goal);
-            let mut part = WEAKER;
-            let mut state = weaker(part).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
-            let mut step = 0.5 * (1.0 - part);
-            while part < 1.0 {
-                let ahead = (part + step).min(1.0);
-                match Self::from_profile(&weaker(ahead)?, &state.profile, state.point.frame, state.mirror) {
-                    Ok(next) => (part, state) = (ahead, next),
-                    Err(_) if step > LEAST_STEP => step *= 0.5,
-                    Err(_) => {
-                        return Err(SteadyError::NotFound {
-                            what: "a steady swimmer over the activity",
-                            from: part * goal,
-                            to: goal,
-                            remedy: "follow the branch from the first value, it may turn back or need more nodes",
-                        });
-                    }
-                }
-            }
-            Ok(state)
-        })
-    }
-
-    /// By steps in time and Newton's method.
-    fn settled(setup: &Setup) -> Result<Self, SteadyError> {
-        let start = start(setup)?;
-        let mirror = is_mirror(&start);
-        let part = if mirror { Part::Even } else { Part::Full };
-        let mut failed = None;
-        for (most_nodes, steady) in ATTEMPTS {
-            let mut system = System::new(&with_nodes(setup, COARSE))?;
-            let profile = centred(start.resampled(system.model.nodes(), 0.0)?)?;
-            has_room(setup, &profile)?;
-            let mut point = system.point(&profile, [0.0; 3])?;
-            let found = system
-                .settle(&mut point, part, most_nodes, steady)
-                .and_then(|_| Self::from_profile(setup, &system.profile(&point), point.frame, mirror));
-            let unit = system.model.radius * system.model.diffusion_rate();
-            let near = |a: f64, b: f64| (a - b).abs() < SAME_SPEED * (a.abs() + unit);
-            match found {
-                Ok(found) if found.point.frame.iter().zip(point.frame).take(2).all(|(a, b)| near(*a, b)) => {
-                    return Ok(found);
-                }
-                // Another state, far away.
-                Ok(found) => {
-                    let Outcome { residual, iterations, .. } = found.outcome;
-                    failed = Some(SteadyError::NoConvergence { residual, iterations, remedy: REMEDY });
-                }
-                Err(error) => failed = Some(error),
-            }
-        }
-        Err(failed.unwrap_or(SteadyError::Singular { what: "the start", remedy: REMEDY }))
-    }
-
-    /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever
-    /// it has room.
+    /// State of rest of a description: a circle of uniform concentration, steady wherever it has room.
     ///
     /// # Errors
     /// As [`SteadyState::find`].
     pub fn uniform(setup: &Setup) -> Result<Self, SteadyError> {
-        let nodes = nodes_of(setup)?;
         let model = System::new(setup)?.model;
-        let (radius, mean) = (model.radius, model.concentration);
+        let (nodes, radius, mean) = (model.nodes(), model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
         let centre = Vec2::from(setup.droplets[0].centre);
         let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre) - centre).collect();
         let profile = Profile { positions, density: vec![radius * mean; nodes], nuclei };
-        let (system, point, outcome) = Self::newton(setup, &profile, [0.0; 3], true, 0.0)?;
-        Self::of(&system, point, outcome, true)
+        let (system, point, outcome) = Self::newton(setup, &profile, [0.0; 3], Part::Even, 0.0)?;
+        Self::of(&system, point, outcome, Part::Even)
     }
 
-    /// Newton's method from a droplet that is near a steady state, such as one from a run ([`Profile::from_markers`])
-    /// or a neighbour ([`SteadyState::profile`]) with its velocity; `mirror` says that only states which are their own
-    /// mirror image at the x axis are looked for, from the mean of the droplet and its image.
+    /// Steady state near a droplet, such as one from a run ([`Profile::from_markers`]) or of a neighbouring state
+    /// ([`SteadyState::profile`]), with its velocity (length per time), by Newton's method. With `mirror` only states
+    /// that are their own mirror image at the x axis are looked for, from the mean of the droplet and its image.
     ///
     /// # Errors
     /// As [`SteadyState::find`].
     pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
         if mirror {
-            return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], true);
+            return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], Part::Even);
         }
-        // Across a channel nothing goes on for ever.
+        // No state moves steadily across a channel.
         let across = if matches!(setup.region, Region::Channel { .. }) { 0.0 } else { velocity.y };
-        Self::from_profile(setup, profile, [velocity.x, across, 0.0], false)
+        Self::from_profile(setup, profile, [velocity.x, across, 0.0], Part::Full)
     }
 
-    fn from_profile(setup: &Setup, profile: &Profile, frame: FrameMotion, mirror: bool) -> Result<Self, SteadyError> {
-        // The nodes of the first serve the start, those of the second what was found.
-        let (system, point, _) = Self::newton(setup, profile, frame, mirror, CROWDING)?;
-        let (system, point, outcome) = Self::newton(setup, &system.profile(&point), point.frame, mirror, CROWDING)?;
-        Self::of(&system, point, outcome, mirror)
+    /// Newton's method twice: on nodes that suit the start, then on those that suit the result.
+    pub(crate) fn from_profile(
+        setup: &Setup,
+        profile: &Profile,
+        frame: FrameMotion,
+        part: Part,
+    ) -> Result<Self, SteadyError> {
+        let (system, point, _) = Self::newton(setup, profile, frame, part, CROWDING)?;
+        let (system, point, outcome) = Self::newton(setup, &system.profile(&point), point.frame, part, CROWDING)?;
+        Self::of(&system, point, outcome, part)
     }
 
     fn newton(
         setup: &Setup,
         profile: &Profile,
         frame: FrameMotion,
-        mirror: bool,
+        part: Part,
         crowding: f64,
     ) -> Result<(System, Point, Outcome), SteadyError> {
         let mut system = System::new(setup)?;
-        let mut profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
-        if mirror {
+        let mut profile = profile.resampled(system.model.nodes(), crowding)?.centred()?;
+        if part == Part::Even {
             profile = profile.mean_with_image();
         }
-        has_room(setup, &profile)?;
+        profile.check_room(setup)?;
         let mut point = system.point(&profile, frame)?;
-        let part = if mirror { Part::Even } else { Part::Full };
         let outcome = system.newton(&mut point, part, None)?;
         Ok((system, point, outcome))
     }
 
-    pub(crate) fn of(system: &System, point: Point, outcome: Outcome, mirror: bool) -> Result<Self, SteadyError> {
+    /// State of a point to which Newton's method has converged; refused where the nodes do not resolve it.
+    pub(crate) fn of(system: &System, point: Point, outcome: Outcome, part: Part) -> Result<Self, SteadyError> {
         let profile = system.profile(&point);
         let tails = profile.tails()?;
         if let Some((what, tail)) = tails.into_iter().find(|(_, tail)| *tail > LONGEST_TAIL) {
@@ -202,37 +148,46 @@ impl SteadyState {
         let rate = system.model.diffusion_rate();
         let [x, y, turn] = point.frame;
         let velocity = Vec2::new(x, y) + turn * profile.moments()?.centroid.perp();
-        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, velocity, rate })
+        let setup = system.model.setup.clone();
+        Ok(Self { setup, point, profile, outcome, mirror: part == Part::Even, tail, velocity, rate })
     }
 
-    /// This state with another description, nearby, over the same nodes.
+    /// State of a neighbouring description, over the same nodes unless the droplet changes much.
     pub(crate) fn moved_to(&self, setup: &Setup) -> Result<Self, SteadyError> {
         let mut system = System::new(setup)?;
         let mut point = self.point.clone();
-        let part = if self.mirror { Part::Even } else { Part::Full };
-        let outcome = system.newton(&mut point, part, None)?;
+        let outcome = system.newton(&mut point, self.part(), None)?;
         if !system.is_far(&point) {
-            return Self::of(&system, point, outcome, self.mirror);
+            return Self::of(&system, point, outcome, self.part());
         }
-        Self::from_profile(setup, &system.profile(&point), point.frame, self.mirror)
+        Self::from_profile(setup, &system.profile(&point), point.frame, self.part())
+    }
+
+    /// Part of the state space that the state was found in.
+    pub(crate) fn part(&self) -> Part {
+        if self.mirror { Part::Even } else { Part::Full }
     }
 
     pub(crate) fn point(&self) -> &Point {
         &self.point
     }
 
-    /// The rate D/R^2 (1/time).
+    pub(crate) fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+
+    /// Rate D/R^2 (1/time).
     pub(crate) fn diffusion_rate(&self) -> f64 {
         self.rate
     }
 
-    /// The description.
+    /// Description of the scene.
     #[must_use]
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// The droplet.
+    /// Shape and density of particles.
     #[must_use]
     pub fn profile(&self) -> &Profile {
         &self.profile
@@ -244,61 +199,62 @@ impl SteadyState {
         self.velocity
     }
 
-    /// Rate at which the droplet turns, counter-clockwise (1/time): in the plane it may swim in a circle, whose radius
-    /// is the speed over it.
+    /// Rate at which the droplet turns (1/time), counter-clockwise. In the plane it then swims in a circle, of a radius
+    /// of the speed over this rate.
     #[must_use]
     pub fn turning_rate(&self) -> f64 {
         self.point.frame[2]
     }
 
-    /// Whether it is its own mirror image at the x axis.
+    /// True for a state that is its own mirror image at the x axis.
     #[must_use]
     pub fn is_mirror_symmetric(&self) -> bool {
         self.mirror
     }
 
-    /// Largest rate of change that is left of any Fourier coefficient of shape and density over their size (1/time).
+    /// Residual (1/time): the largest rate of change of a Fourier coefficient of shape or density, in units of the
+    /// radius and the mean density.
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.outcome.residual
     }
 
-    /// Size of the last Fourier modes over that of all, of shape or concentration, whichever is larger: measured values
-    /// have errors of about a tenth of it or less.
+    /// Tail of the Fourier series (no dimension): the ratio of the last coefficients to the largest, of shape or
+    /// density, whichever is larger. Measured values err by a tenth of it or less.
     #[must_use]
     pub fn tail(&self) -> f64 {
         self.tail
     }
 
-    /// Newton iterations.
+    /// Number of Newton iterations.
     #[must_use]
     pub fn iterations(&self) -> usize {
         self.outcome.iterations
     }
 
-    /// Condition number of the linear equations in the 1-norm, rows being scaled.
+    /// Condition number of the last linear equations in the 1-norm, rows being scaled to a largest entry of 1.
     #[must_use]
     pub fn condition(&self) -> f64 {
         self.outcome.condition
     }
 
-    /// Eigenvalues of the linearised equations.
+    /// Spectrum of the equations linearised about this state: growth rates and frequencies of small disturbances.
     ///
     /// # Errors
-    /// Eigenvalues that do not converge.
+    /// Eigenvalues that do not converge; a flow that cannot be solved for.
     pub fn spectrum(&self) -> Result<Spectrum, SteadyError> {
-        System::new(&self.setup)?.spectrum(&self.point, self.mirror)
+        System::new(&self.setup)?.spectrum(&self.point, self.part())
     }
 
-    /// The shape of a mode of [`SteadyState::spectrum`].
+    /// Shape of a mode of [`SteadyState::spectrum`]: displacements and changes of concentration at the nodes.
     ///
     /// # Errors
-    /// A value that is no eigenvalue.
+    /// A mode that cannot be found at its eigenvalue; a flow that cannot be solved for.
     pub fn mode_shape(&self, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
         System::new(&self.setup)?.mode_shape(&self.point, mode)
     }
 
-    /// What is measured, to spectral accuracy.
+    /// Speed, stresslet, shape and concentration, to spectral accuracy.
     ///
     /// # Errors
     /// A flow that cannot be solved for.
@@ -321,7 +277,7 @@ impl SteadyState {
                 }
             }
         }
-        // Turned into axes along the motion.
+        // The component of the traceless, symmetric part along the motion.
         let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
         let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
         let (xx, xy) = (0.5 * (dipole[0][0] - dipole[1][1]), 0.5 * (dipole[0][1] + dipole[1][0]));
@@ -336,9 +292,9 @@ impl SteadyState {
         })
     }
 
-    /// Velocity, its gradient and the pressure at points (length), inside the droplet and outside of it, at any
-    /// distance from the interface, in the frame of the laboratory, to spectral accuracy. Which side of the interface a
-    /// point on it is on is not defined: take points 1e-5 radii beside it.
+    /// Flow at points (length), inside the droplet or outside of it, at any distance from the interface: velocity, its
+    /// gradient and the pressure in the frame of the laboratory, to spectral accuracy. Gradient and pressure jump at
+    /// the interface: take points 1e-5 radii beside it.
     ///
     /// # Errors
     /// Points that are not finite; a flow that cannot be solved for.
@@ -348,16 +304,33 @@ impl SteadyState {
         system.model.sample(points)
     }
 
-    /// All observables of a run ([`Observables::get`] has them by name), from markers between the nodes, of second
-    /// order in their spacing: 16 for each node.
+    /// Cost of a Newton iteration and a spectrum at this state, by doing each part once more.
     ///
     /// # Errors
-    /// A flow that cannot be solved for; a droplet with a nucleus, whose force moments are not known.
+    /// As [`SteadyState::spectrum`].
+    pub fn cost(&self) -> Result<Cost, SteadyError> {
+        let mut system = System::new(self.setup())?;
+        let part = self.part();
+        let started = Instant::now();
+        let matrix = system.jacobian(self.point(), part)?;
+        let jacobian = started.elapsed().as_secs_f64();
+        let unknowns = system.border(self.point(), part, &matrix, None)?.len();
+        let factorisation = started.elapsed().as_secs_f64() - jacobian;
+        eigenvalues(&matrix)?;
+        let eigenvalues = started.elapsed().as_secs_f64() - jacobian - factorisation;
+        Ok(Cost { jacobian, factorisation, eigenvalues, unknowns })
+    }
+
+    /// Observables of a run (by name: [`Observables::get`]), from 16 markers for each node, of second order in their
+    /// spacing.
+    ///
+    /// # Errors
+    /// A flow that cannot be solved for; a droplet with a disc inside, whose force moments are not known.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
         if !self.profile.nuclei.is_empty() {
             return Err(SteadyError::Unsupported {
-                what: "force moments of a droplet with a nucleus are not known".to_owned(),
-                remedy: "use what is measured, or observe a run",
+                what: "the force moments of a droplet with a disc inside are not known".to_owned(),
+                remedy: "use `measured`, or observe a run",
             });
         }
         let mut system = System::new(&self.setup)?;
@@ -385,74 +358,8 @@ impl SteadyState {
                 viscosities: model.viscosities,
                 inside: None,
                 filled: None,
-                stresslet: None,
             },
             Convention::FarField,
         )?)
     }
-}
-
-/// How strongly nodes crowd where the concentration is steep.
-pub(crate) const CROWDING: f64 = 0.8;
-
-/// The nodes of a description.
-pub(crate) fn nodes_of(setup: &Setup) -> Result<usize, SteadyError> {
-    Ok(System::new(setup)?.model.nodes())
-}
-
-/// The same description with other nodes.
-pub(crate) fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
-    let method = motile::Method::Integral(motile::IntegralMethod { nodes, cells: 4 * nodes });
-    Setup { method, ..setup.clone() }
-}
-
-/// The droplet that a run of this description starts from.
-fn start(setup: &Setup) -> Result<Profile, SteadyError> {
-    let fine = with_nodes(setup, nodes_of(setup)?.max(2 * COARSE));
-    let droplet = fine.droplet(&fine.droplets[0])?;
-    let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
-    Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
-}
-
-/// Refuses a droplet that reaches beyond a wall or its own periodic image, or that has not all of its discs inside.
-fn has_room(setup: &Setup, profile: &Profile) -> Result<(), SteadyError> {
-    let extent = |way: Vec2| profile.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
-    let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
-    let fits = match setup.region {
-        Region::Plane => true,
-        Region::Box { lengths: [x, y] } => left + right < x && top + bottom < y,
-        Region::Channel { length, width, .. } => left + right < length && top.max(bottom) < 0.5 * width,
-    };
-    let refused = || SteadyError::Unsupported {
-        what: format!(
-            "the droplet does not fit: it reaches from {:.3} to {top:.3} across and is {:.3} long",
-            -bottom,
-            left + right
-        ),
-        remedy: "give a larger region, a smaller droplet or another place for it",
-    };
-    fits.then_some(()).ok_or_else(refused)?;
-    same_length("the nuclei of the profile", setup.rigid_bodies.len(), profile.nuclei.len())?;
-    for (body, centre) in setup.rigid_bodies.iter().zip(&profile.nuclei) {
-        let DropletShape::Round { radius } = body.shape else { continue };
-        let arms = || profile.positions.iter().map(|x| *x - *centre);
-        let turn: f64 = arms().zip(arms().cycle().skip(1)).map(|(a, b)| a.angle_to(b)).sum();
-        if turn.abs() < 0.5 * TAU || !arms().all(|arm| arm.length() > radius) {
-            return Err(SteadyError::Unsupported {
-                what: format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
-                remedy: "give a smaller disc or another place in the droplet",
-            });
-        }
-    }
-    Ok(())
-}
-
-/// Whether a droplet is its own mirror image at the x axis.
-fn is_mirror(profile: &Profile) -> bool {
-    let other = profile.mirrored();
-    let size = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6 * size;
-    let places = || profile.positions.iter().chain(&profile.nuclei);
-    places().zip(other.positions.iter().chain(&other.nuclei)).all(|(a, b)| a.distance(*b) < 1e-6)
-        && profile.density.iter().zip(&other.density).all(same)
 }

@@ -1,18 +1,21 @@
-//! The equations of a steady state, their derivative, and what makes them regular.
+//! Equations of a steady state, their derivative, and the bordering that makes it regular.
 
-use motile::ib_core::Vec2;
+use motile_base::Vec2;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
+use crate::iteration::USUAL_CHANGE;
 use crate::model::{Base, FrameMotion, Model};
 use crate::modes::{Modes, Part};
+use crate::profile::CROWDING;
 use crate::{Parameter, Profile, SteadyError};
 
-/// Relative change of a parameter for its derivative.
-const PARAMETER_STEP: f64 = 1e-5;
-/// A turning of less effect than this is none: the droplet is round.
-const LEAST_TURN: f64 = 1e-7;
+/// Relative step of central differences: the cube root of the round-off of rates (1e-15), where it and the truncation
+/// leave an error of 1e-10.
+pub(crate) const DIFFERENCE: f64 = 1e-5;
+/// Derivatives of the coefficients below this are zero: turning a round droplet, or the area in antisymmetric shapes.
+pub(crate) const NO_EFFECT: f64 = 1e-7;
 
-/// A state over a base curve, in a frame of its own.
+/// State over a base curve, in a frame that moves.
 #[derive(Debug, Clone)]
 pub(crate) struct Point {
     pub(crate) base: Base,
@@ -20,15 +23,28 @@ pub(crate) struct Point {
     pub(crate) frame: FrameMotion,
 }
 
-/// An equation for the parameter besides those of the state: `along . (state, parameter) = 0` for a correction.
+impl Point {
+    /// Point after a part of a correction.
+    pub(crate) fn corrected(&self, correction: &Correction, part: f64) -> Self {
+        let mut next = self.clone();
+        next.state += part * &correction.state;
+        for (frame, change) in next.frame.iter_mut().zip(correction.frame) {
+            *frame += part * change;
+        }
+        next
+    }
+}
+
+/// Equation for a parameter besides those of the state: corrections are at right angles to a direction,
+/// `direction . (state, parameter) = 0`.
 #[derive(Debug, Clone)]
 pub(crate) struct Along {
     pub(crate) parameter: Parameter,
-    /// Coefficients of the part, then that of the parameter.
+    /// Component for each coefficient of the part, then the one for the parameter.
     pub(crate) direction: DVector<f64>,
 }
 
-/// A correction of a point.
+/// Correction of state, frame and parameter.
 #[derive(Debug, Clone)]
 pub(crate) struct Correction {
     pub(crate) state: DVector<f64>,
@@ -44,7 +60,7 @@ pub(crate) struct Equations {
     motions: Vec<FrameMotion>,
 }
 
-/// The equations of a description.
+/// Equations of a description at its nodes.
 #[derive(Debug)]
 pub(crate) struct System {
     pub(crate) model: Model,
@@ -52,14 +68,20 @@ pub(crate) struct System {
 }
 
 impl System {
-    pub(crate) fn new(setup: &motile::Setup) -> Result<Self, SteadyError> {
+    pub(crate) fn new(setup: &motile::setup::Setup) -> Result<Self, SteadyError> {
         let model = Model::new(setup)?;
         let scales = [model.radius, model.radius * model.concentration];
         let modes = Modes::new(model.nodes(), scales, model.nuclei())?;
         Ok(Self { model, modes })
     }
 
-    /// A profile as a point over itself, its centre at x = 0, or over an earlier base.
+    /// System at another value of a parameter.
+    pub(crate) fn moved(&self, parameter: Parameter, by: f64) -> Result<Self, SteadyError> {
+        let setup = &self.model.setup;
+        Self::new(&parameter.with(setup, parameter.get(setup).unwrap_or(0.0) + by)?)
+    }
+
+    /// Profile as a point over itself: offsets zero.
     pub(crate) fn point(&mut self, profile: &Profile, frame: FrameMotion) -> Result<Point, SteadyError> {
         let base = Base::new(profile)?;
         let x = profile.nuclei.iter().map(|centre| centre.x);
@@ -70,44 +92,68 @@ impl System {
         Ok(Point { base, state, frame })
     }
 
+    /// Droplet of a point.
     pub(crate) fn profile(&self, point: &Point) -> Profile {
-        let (offsets, mut density) = self.modes.synthesise(&point.state);
-        let shifted = point.base.positions.iter().zip(&point.base.normals).zip(&offsets);
-        let positions: Vec<Vec2> = shifted.map(|((x, n), h)| *x + *h * *n).collect();
+        self.profile_over(&point.base, &point.state)
+    }
+
+    /// Droplet of a state over a curve.
+    pub(crate) fn profile_over(&self, base: &Base, state: &DVector<f64>) -> Profile {
+        let (offsets, mut density) = self.modes.synthesise(state);
+        let positions: Vec<Vec2> = base.displaced(&offsets).collect();
         let y = density.split_off(positions.len());
         let nuclei = offsets[positions.len()..].iter().zip(y).map(|(x, y)| Vec2::new(*x, y)).collect();
         Profile { positions, density, nuclei }
     }
 
+    /// Ratio of the last Fourier coefficients of a point to the largest, of shape or density.
+    pub(crate) fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
+        Ok(self.profile(point).tails()?.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest)))
+    }
+
+    /// True where offsets from the base are so large that nodes along its normals serve the droplet badly.
+    pub(crate) fn is_far(&self, point: &Point) -> bool {
+        let (offsets, _) = self.modes.synthesise(&point.state);
+        offsets[..self.modes.nodes()].iter().any(|h| h.abs() > USUAL_CHANGE * self.model.radius)
+    }
+
+    /// Droplet of a point as its own base, with nodes placed anew.
+    pub(crate) fn rebased(&mut self, point: &Point) -> Result<Point, SteadyError> {
+        let profile = self.profile(point).resampled(self.model.nodes(), CROWDING)?.centred()?;
+        self.point(&profile, point.frame)
+    }
+
+    /// Takes over a point and solves for its flow.
     pub(crate) fn load(&mut self, point: &Point) -> Result<(), SteadyError> {
         let (offsets, density) = self.modes.synthesise(&point.state);
         self.model.load(&point.base, &offsets, &density)
     }
 
-    /// Rates of all coefficients (1/time).
+    /// Rates of change of all coefficients at a point (1/time).
     pub(crate) fn residual(&mut self, point: &Point) -> Result<DVector<f64>, SteadyError> {
         self.load(point)?;
         let (h, m) = self.model.rates(&point.base, point.frame)?;
         self.modes.analyse(h, m)
     }
 
-    /// Derivative of the rates of a part by the coefficients of it (1/time), by central differences.
+    /// Derivatives of the rates of a part of the state by its coefficients (1/time), by central differences.
     pub(crate) fn jacobian(&mut self, point: &Point, part: Part) -> Result<DMatrix<f64>, SteadyError> {
-        self.differences(point, part, 1e-5, None)
+        self.differences(point, part, DIFFERENCE, None)
     }
 
-    /// The same by differences from the rates at the point, at half the cost: to six digits, which are enough on the
-    /// way to a state.
+    /// Jacobian by differences from the rates at the point, at half the cost: to six digits, enough on the way to a
+    /// state.
     pub(crate) fn rough_jacobian(
         &mut self,
         point: &Point,
         part: Part,
         rates: &DVector<f64>,
     ) -> Result<DMatrix<f64>, SteadyError> {
-        self.differences(point, part, 1e-6, Some(rates))
+        self.differences(point, part, 0.1 * DIFFERENCE, Some(rates))
     }
 
-    /// Differences over a step, which is less for short waves; with the rates at the point to one side.
+    /// Jacobian by differences, central or, given the rates at the point, one-sided. Steps fall with the wave number,
+    /// since curvature and slope of a wave grow with it.
     fn differences(
         &mut self,
         point: &Point,
@@ -136,7 +182,8 @@ impl System {
         Ok(jacobian)
     }
 
-    /// Rigid motions that leave the equations as they are and concern a part.
+    /// Rigid motions of one part of the state that leave the equations as they are: shifts along the region, across it
+    /// but for channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
         let (plane, channel) = (self.model.in_plane(), self.model.in_channel());
         let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, !channel), ([0.0, 0.0, 1.0], true, plane)];
@@ -144,7 +191,8 @@ impl System {
         all.into_iter().filter(|(_, odd, there)| *there && fits(*odd)).map(|(motion, ..)| motion).collect()
     }
 
-    /// What motions do to the coefficients of a part of the loaded state; those without effect are left out.
+    /// Rigid motions and the derivatives of the coefficients of the loaded state by them; motions without effect, such
+    /// as turns of a circle, are left out.
     pub(crate) fn generators(
         &mut self,
         base: &Base,
@@ -155,7 +203,7 @@ impl System {
         for motion in self.motions(part) {
             let (h, m) = self.model.rigid_rates(base, motion)?;
             let generator = self.modes.analyse(h, m)?.rows(range.start, range.len()).into_owned();
-            if generator.norm() > LEAST_TURN {
+            if generator.norm() > NO_EFFECT {
                 motions.push(motion);
                 generators.push(generator);
             }
@@ -163,8 +211,8 @@ impl System {
         Ok((motions, generators))
     }
 
-    /// Derivatives of area and number of particles, over their values for a circle, by the coefficients of a part of
-    /// the loaded state.
+    /// Derivatives of area and number of particles, over the area and number of the droplet, by the coefficients of a
+    /// part of the loaded state.
     pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<[DVector<f64>; 2], SteadyError> {
         let range = self.modes.part(part);
         // The integral of a coefficient's function times the gradient at the nodes: half of its Fourier coefficient,
@@ -180,16 +228,14 @@ impl System {
         Ok([gradient, number].map(|full| full.rows(range.start, range.len()).into_owned()))
     }
 
-    /// Derivative of the rates by a parameter (1/time per its unit).
-    fn parameter_derivative(&mut self, point: &Point, parameter: Parameter) -> Result<DVector<f64>, SteadyError> {
-        let setup = self.model.setup.clone();
-        let value = parameter.get(&setup).unwrap_or(0.0);
-        let step = PARAMETER_STEP * value.abs().max(0.01);
-        let rates = |value: f64| System::new(&parameter.with(&setup, value)?)?.residual(point);
-        Ok((rates(value + step)? - rates(value - step)?) / (2.0 * step))
+    /// Derivative of the rates by a parameter (1/time over the parameter's unit).
+    fn parameter_derivative(&self, point: &Point, parameter: Parameter) -> Result<DVector<f64>, SteadyError> {
+        let step = DIFFERENCE * parameter.scale(&self.model.setup);
+        let [above, below] = [step, -step].map(|by| self.moved(parameter, by)?.residual(point));
+        Ok((above? - below?) / (2.0 * step))
     }
 
-    /// The equations for a correction at a point.
+    /// Linear equations for a correction at a point.
     pub(crate) fn equations(
         &mut self,
         point: &Point,
@@ -200,7 +246,8 @@ impl System {
         self.border(point, part, &jacobian, along)
     }
 
-    /// The same with a Jacobian that is there.
+    /// Linear equations for a correction from a Jacobian: bordered by the rigid motions, which fix the frame's
+    /// velocity, by area and number of particles, and by the equation for a parameter. Leaves the point loaded.
     pub(crate) fn border(
         &mut self,
         point: &Point,
@@ -220,7 +267,7 @@ impl System {
             matrix.view_mut((0, n + k), (n, 1)).copy_from(&-generator);
             matrix.view_mut((n + k, 0), (1, n)).copy_from(&generator.transpose());
         }
-        // Sources that do nothing in a solution, since area and number are conserved.
+        // Uniform sources of area and particles, which vanish in a solution since both are conserved.
         for (k, gradient) in conserved.iter().enumerate() {
             matrix[(self.modes.index(k == 1, false, 0), n + frames + k)] = 1.0;
             matrix.view_mut((n + frames + k, 0), (1, n)).copy_from(&gradient.transpose());
@@ -230,24 +277,16 @@ impl System {
             matrix.view_mut((0, size - 1), (n, 1)).copy_from(&derivative.rows(range.start, n));
             matrix.view_mut((size - 1, 0), (1, n)).copy_from(&direction.rows(0, n).transpose());
             matrix[(size - 1, size - 1)] = direction[n];
-            self.load(point)?;
         }
         Ok(Equations { lu: matrix.clone().lu(), matrix, part, motions })
     }
 
-    /// The correction that takes the rates of a point to zero, or of the last equation to `excess`.
-    pub(crate) fn correction(
-        &mut self,
-        equations: &Equations,
-        residual: &DVector<f64>,
-    ) -> Result<Correction, SteadyError> {
+    /// Correction that takes the rates of the loaded point to zero, and area and particles to those of the droplet.
+    pub(crate) fn correction(&self, equations: &Equations, residual: &DVector<f64>) -> Result<Correction, SteadyError> {
         let range = self.modes.part(equations.part);
-        let mut right = DVector::zeros(equations.matrix.nrows());
+        let mut right = DVector::zeros(equations.len());
         right.rows_mut(0, range.len()).copy_from(&-residual.rows(range.start, range.len()));
-        let [area, number] = self.model.present();
-        let conserved = self.model.conserved();
-        let lacks = [1.0 - area / conserved[0], 1.0 - number / conserved[1]];
-        for (k, lack) in lacks.into_iter().enumerate() {
+        for (k, lack) in self.model.lacks().into_iter().enumerate() {
             right[range.len() + equations.motions.len() + k] = lack;
         }
         equations.solve(&right).map(|solution| equations.correction(self, &solution))
@@ -259,7 +298,7 @@ impl Equations {
     pub(crate) fn solve(&self, right: &DVector<f64>) -> Result<DVector<f64>, SteadyError> {
         let singular = || SteadyError::Singular {
             what: "a steady state",
-            remedy: "start from another state or go on from a neighbour",
+            remedy: "start from another or from a neighbouring state",
         };
         self.lu.solve(right).filter(|x| x.iter().all(|value| value.is_finite())).ok_or_else(singular)
     }
@@ -269,7 +308,7 @@ impl Equations {
         self.matrix.nrows()
     }
 
-    /// A solution by what it is of.
+    /// Splits a solution vector into corrections of state, frame and parameter.
     pub(crate) fn correction(&self, system: &System, solution: &DVector<f64>) -> Correction {
         let range = system.modes.part(self.part);
         let mut state = DVector::zeros(system.modes.len());
@@ -292,8 +331,7 @@ impl Equations {
             let largest = row.amax();
             row /= largest;
         }
-        let norm =
-            |matrix: &DMatrix<f64>| matrix.column_iter().map(|c| c.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max);
+        let norm = |matrix: &DMatrix<f64>| matrix.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
         let size = norm(&scaled);
         scaled.try_inverse().map_or(f64::INFINITY, |inverse| size * norm(&inverse))
     }

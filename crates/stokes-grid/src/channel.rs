@@ -1,23 +1,17 @@
-//! The streamfunction solver of a channel.
+//! Direct solver for a channel, by its streamfunction.
 
-mod conditions;
-mod drive;
 mod mean_flow;
 mod modes;
-mod walls;
 
-use input_checks::positive;
+use motile_base::{Drive, SolveReport, positive, sum};
 use num_complex::Complex64;
 
-use crate::error::checks::{check_grids, not_finite};
-use crate::field::sum;
-use crate::transform::RowTransform;
-use crate::{CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Work, stencil};
-use conditions::Conditions;
-pub use drive::Drive;
+use crate::{
+    CentreField, Grid, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, Work, stencil,
+    transform::RowTransform,
+};
 use mean_flow::MeanFlow;
 use modes::ChannelModes;
-pub use walls::{Wall, WallMotion};
 
 /// Stokes flow with one viscosity in a channel, periodic in x with no-slip walls in y, by its streamfunction psi:
 ///
@@ -27,23 +21,27 @@ pub use walls::{Wall, WallMotion};
 /// which is the same as `psi[-1] = psi[1] - 2 h U`. The solution is that of the whole discrete system of momentum and
 /// continuity to round-off; nothing is iterated.
 ///
-/// Per wave number of x it takes two tridiagonal sweeps for the Dirichlet problems `lap w = curl f / eta`, `lap psi =
-/// w` and a 2 x 2 system for the two wall values of w (minus the vorticity there) that make the walls no-slip. There is
-/// no transform in y: one forward and one inverse transform in x, each fused with half of the sweeps.
+/// For each wave number of x there are two tridiagonal systems for the Dirichlet problems `lap w = curl f / eta`,
+/// `lap psi = w` and a 2 x 2 system for the two wall values of w (minus the vorticity there) that make the walls
+/// no-slip. Nothing is transformed in y: there is one forward and one inverse transform in x, each fused with half of
+/// the sweeps.
 ///
-/// **Forces on the walls.** The y components in the first and last row lie on the walls; they are ignored (a wall takes
-/// up any force on it).
+/// **Forces on the walls.** The y components in the first and last row lie on the walls, which take up any force; they
+/// are ignored.
 ///
-/// **Mean flow.** [`Drive`] says whether the mean pressure gradient or the flux is prescribed; [`SolveReport`] has the
-/// mean pressure gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
+/// **Mean flow.** [`Drive`] prescribes the mean pressure gradient or the flux; [`SolveReport`] has the mean pressure
+/// gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
 ///
-/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3, 5, 7 and 11
-/// are fast; `ny` may be anything.
+/// **Sizes.** Any numbers of cells work. Only `nx` is transformed: even values without prime factors other than 2, 3,
+/// 5, 7 and 11 are fast.
 #[derive(Debug, Clone)]
 pub struct ChannelStokes {
     grid: Grid,
     viscosity: f64,
-    conditions: Conditions,
+    drive: Drive,
+    walls: WallMotion,
+    /// Fourier coefficients of the velocities of the bottom and the top wall.
+    wall_spectra: [Vec<Complex64>; 2],
     modes: ChannelModes,
     mean: MeanFlow,
     rows: RowTransform,
@@ -70,7 +68,9 @@ impl ChannelStokes {
         Ok(Self {
             grid,
             viscosity,
-            conditions: Conditions::new(width),
+            drive: Drive::default(),
+            walls: WallMotion::AT_REST,
+            wall_spectra: [vec![Complex64::ZERO; width], vec![Complex64::ZERO; width]],
             modes: ChannelModes::new(nx, ny),
             mean: MeanFlow::new(&grid, viscosity),
             rows,
@@ -81,20 +81,27 @@ impl ChannelStokes {
         })
     }
 
-    /// Chooses what drives the flow in the solutions to come.
+    /// Prescribes the mean pressure gradient or the flux of the solutions to come.
     ///
     /// # Errors
     /// A value that is not finite.
     pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
-        self.conditions.set_drive(drive)
+        drive.check()?;
+        self.drive = drive;
+        Ok(())
     }
 
-    /// Moves the walls in the solutions to come.
+    /// Prescribes the velocities of the walls in the solutions to come.
     ///
     /// # Errors
     /// Walls of a channel with another number of cells.
     pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
-        self.conditions.set_walls(walls, &self.grid, &mut self.rows)
+        walls.check(&self.grid)?;
+        for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
+            walls.spectrum(wall, &mut self.rows, spectrum);
+        }
+        self.walls = walls;
+        Ok(())
     }
 }
 
@@ -108,15 +115,15 @@ impl StokesSolver for ChannelStokes {
     }
 
     fn walls(&self) -> &WallMotion {
-        &self.conditions.walls
+        &self.walls
     }
 
     fn drive(&self) -> Drive {
-        self.conditions.drive
+        self.drive
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grids(&self.grid, &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
+        self.grid.check([("the force", force.grid()), ("the velocity", velocity.grid())])?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let width = self.rows.width();
         let (fx, fy) = (force.x(), force.y());
@@ -133,10 +140,10 @@ impl StokesSolver for ChannelStokes {
             self.mean_u[j] = self.mean_u[j - 1] - row[0].re / (scale * nx as f64);
             self.modes.eliminate(j, &below[below.len().saturating_sub(width)..], row);
         }
-        let Conditions { drive, walls, spectra: [bottom, top] } = &self.conditions;
+        let [bottom, top] = &self.wall_spectra;
         self.modes.descend(&mut self.spectrum, bottom, top);
-        let walls = [walls.mean(Wall::Bottom), walls.mean(Wall::Top)];
-        let gradient = self.mean.solve(*drive, walls, &mut self.mean_u);
+        let walls = [Wall::Bottom, Wall::Top].map(|wall| self.walls.mean(wall));
+        let gradient = self.mean.solve(self.drive, walls, &mut self.mean_u);
 
         // On the way up again: the second Dirichlet problem, the transform back and the differences.
         let (u, v) = velocity.components_mut();
@@ -144,9 +151,12 @@ impl StokesSolver for ChannelStokes {
         for (j, row) in (1..ny).zip(self.spectrum.chunks_exact_mut(width)) {
             self.modes.ascend(j, row);
             let psi = self.rows.inverse(row);
-            // What is not finite in the force, or overflows on the way, reaches every value of this row.
+            // A number that is not finite in the force, or an overflow, reaches every value of this row.
             if j == 1 && !(psi[0] + self.mean_u[0]).is_finite() {
-                return Err(not_finite("the velocity", &[("the force", fx), ("the force", &fy[nx..ny * nx])]));
+                return Err(StokesError::not_finite(
+                    "the velocity",
+                    &[("the force", fx), ("the force", &fy[nx..ny * nx])],
+                ));
             }
             stencil::across(&mut v[j * nx..][..nx], psi, 0.0);
             let mean = self.mean_u[j - 1];
@@ -168,8 +178,8 @@ impl StokesSolver for ChannelStokes {
         Ok(SolveReport { mean_pressure_gradient: [gradient, 0.0], ..SolveReport::default() })
     }
 
-    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one forward and one inverse transform; no
-    /// Poisson problem.
+    /// Integrates the momentum balance along x, `dp/dx = eta lap u + fx`, by one forward and one inverse transform,
+    /// without a Poisson problem.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -178,11 +188,11 @@ impl StokesSolver for ChannelStokes {
     ) -> Result<(), StokesError> {
         let fields =
             [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
-        check_grids(&self.grid, &fields)?;
+        self.grid.check(fields)?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let (fx, fy, u) = (force.x(), force.y(), velocity.x());
 
-        // The part that does not depend on x balances the mean force along y.
+        // The pressure averaged over x balances the mean force along y.
         let mut means = 0.0;
         let mut mean = 0.0;
         for j in 1..ny {
@@ -192,7 +202,7 @@ impl StokesSolver for ChannelStokes {
         mean = -means / ny as f64;
 
         let row = &mut self.spectrum[..self.rows.width()];
-        let walls = &self.conditions.walls;
+        let walls = &self.walls;
         let stress = self.viscosity / (h * h);
         for j in 0..ny {
             if j > 0 {
@@ -223,7 +233,7 @@ impl StokesSolver for ChannelStokes {
             p.copy_from_slice(self.rows.inverse(row));
             if !p[0].is_finite() {
                 let given = [("the force", fx), ("the force", &fy[nx..ny * nx]), ("the velocity", u)];
-                return Err(not_finite("the pressure", &given));
+                return Err(StokesError::not_finite("the pressure", &given));
             }
         }
         self.work.forward_transforms += 1;

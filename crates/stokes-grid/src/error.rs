@@ -1,14 +1,12 @@
-//! What can go wrong on a grid.
+//! Errors of solvers and grids: the value that cannot be used and the remedy.
 
-pub(crate) mod checks;
+use motile_base::{InputError, finite};
 
-use input_checks::InputError;
-
-/// An error of this crate, with the offending values and the remedy.
+/// An error of this crate; its message names the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StokesError {
-    /// A number or list that cannot be used.
+    /// A number out of its range, or a list of the wrong length.
     #[error(transparent)]
     Input(#[from] InputError),
     /// A grid with too few cells in one direction.
@@ -18,7 +16,7 @@ pub enum StokesError {
         nx: usize,
         /// Cells in y.
         ny: usize,
-        /// The least number that works.
+        /// Least number in each direction.
         minimum: usize,
     },
     /// A grid whose fields do not fit into memory.
@@ -28,27 +26,27 @@ pub enum StokesError {
         nx: usize,
         /// Cells in y.
         ny: usize,
-        /// The largest number of cells.
+        /// Largest number in all.
         maximum: usize,
     },
     /// A field made for another grid than that of the solver or transfer.
-    #[error("{name} lives on another grid: make both from the same grid")]
+    #[error("{name} belongs to another grid: make both from the same grid")]
     GridMismatch {
-        /// The field.
+        /// Name of the field.
         name: &'static str,
     },
     /// A periodic box where walls are needed, or the other way round.
     #[error("this needs {needed}: build the grid with {remedy}")]
     WrongBoundary {
-        /// What is needed.
+        /// Boundaries that are needed.
         needed: &'static str,
-        /// The constructor to use.
+        /// Constructor of a grid that has them.
         remedy: &'static str,
     },
     /// A result beyond the range of double precision.
     #[error("{name} is beyond the range of double precision: scale the forces down")]
     Overflow {
-        /// The quantity.
+        /// Name of the quantity.
         name: &'static str,
     },
     /// An iteration that did not reach its tolerance.
@@ -61,11 +59,19 @@ pub enum StokesError {
         iterations: usize,
         /// True relative residual at the end.
         residual: f64,
-        /// What was asked for.
+        /// Relative residual asked for.
         tolerance: f64,
         /// Relative residuals at the start and after each iteration.
         history: Vec<f64>,
     },
 }
 
-input_checks::debug_as_explanation!(StokesError);
+motile_base::debug_as_explanation!(StokesError);
+
+impl StokesError {
+    /// Error of a `result` that is not finite: the first number given that is not, or an overflow.
+    pub(crate) fn not_finite(result: &'static str, given: &[(&'static str, &[f64])]) -> Self {
+        let found = given.iter().find_map(|&(name, values)| values.iter().find_map(|&value| finite(name, value).err()));
+        found.map_or(Self::Overflow { name: result }, Self::Input)
+    }
+}

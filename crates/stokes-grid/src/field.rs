@@ -1,11 +1,8 @@
-//! Fields on a staggered grid.
+//! Scalars and vectors on a staggered grid.
 
-mod sum;
-
-use input_checks::same_length;
+use motile_base::same_length;
 
 use crate::{Grid, StokesError};
-pub(crate) use sum::sum;
 
 macro_rules! scalar_field {
     ($(#[$doc:meta])* $name:ident, $rows:ident, $what:literal) => {
@@ -23,7 +20,7 @@ macro_rules! scalar_field {
                 Self { grid, values: vec![0.0; grid.nx() * grid.$rows()] }
             }
 
-            /// A field from its values, row after row.
+            /// A field of these values, row after row.
             ///
             /// # Errors
             /// The wrong number of values.
@@ -32,19 +29,19 @@ macro_rules! scalar_field {
                 Ok(Self { grid, values })
             }
 
-            /// The grid it lives on.
+            /// Grid of the field.
             #[must_use]
             pub fn grid(&self) -> &Grid {
                 &self.grid
             }
 
-            /// The values, row after row (x contiguous).
+            /// Values, row after row (x contiguous).
             #[must_use]
             pub fn values(&self) -> &[f64] {
                 &self.values
             }
 
-            /// The values, to be written.
+            /// Values for writing, row after row.
             pub fn values_mut(&mut self) -> &mut [f64] {
                 &mut self.values
             }
@@ -82,7 +79,7 @@ impl StaggeredField {
         Self { grid, x, y }
     }
 
-    /// A field from its components, row after row.
+    /// A field of these components, each row after row.
     ///
     /// # Errors
     /// The wrong number of values in a component.
@@ -93,25 +90,25 @@ impl StaggeredField {
         Ok(Self { grid, x, y })
     }
 
-    /// The grid it lives on.
+    /// Grid of the field.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The x components, row after row.
+    /// x components, row after row.
     #[must_use]
     pub fn x(&self) -> &[f64] {
         &self.x
     }
 
-    /// The y components, row after row.
+    /// y components, row after row.
     #[must_use]
     pub fn y(&self) -> &[f64] {
         &self.y
     }
 
-    /// Both components, to be written.
+    /// Both components for writing, each row after row.
     pub fn components_mut(&mut self) -> (&mut [f64], &mut [f64]) {
         (&mut self.x, &mut self.y)
     }
@@ -122,14 +119,14 @@ impl StaggeredField {
         self.y.fill(value);
     }
 
-    /// Becomes a copy of `source`, without an allocation where both have as many values.
+    /// Becomes a copy of `source`; allocates only if that has more values.
     pub fn copy_from(&mut self, source: &Self) {
         self.grid = source.grid;
         self.x.clone_from(&source.x);
         self.y.clone_from(&source.y);
     }
 
-    /// `self = keep * self + factor * term` for a field of the same grid.
+    /// Sets `self = keep * self + factor * term` for a field of the same grid.
     pub fn combine(&mut self, keep: f64, factor: f64, term: &Self) {
         for (values, terms) in [(&mut self.x, &term.x), (&mut self.y, &term.y)] {
             values.iter_mut().zip(terms).for_each(|(value, term)| *value = keep * *value + factor * term);

@@ -1,8 +1,8 @@
 //! Rectangular grids of square cells.
 
-use input_checks::{all_finite, finite, positive};
+use motile_base::{all_finite, finite, positive};
 
-use crate::{StokesError, error::checks::check_size};
+use crate::StokesError;
 
 /// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two
 /// walls.
@@ -27,10 +27,10 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The least number of cells in each direction.
+    /// Least number of cells in each direction: with one cell a periodic difference is zero.
     pub const MINIMUM_CELLS: usize = 2;
 
-    /// The most cells in all: velocities on them take 1 GB, a scene has some ten such fields.
+    /// Largest number of cells in all: the velocities take 1 GB, and a scene has some ten such fields.
     pub const MAXIMUM_CELLS: usize = 1 << 26;
 
     /// A doubly periodic box of `nx` x `ny` cells of width `h` (length), centred on the origin of coordinates.
@@ -56,14 +56,29 @@ impl Grid {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: Self::MINIMUM_CELLS });
         }
         positive("grid spacing", h)?;
-        check_size(nx, ny)?;
+        Self::check_size(nx, ny)?;
         let lengths = [nx, ny].map(|cells| cells as f64 * h);
         all_finite("the extents of the grid", &lengths)?;
         let origin = lengths.map(|length| -0.5 * length);
         Ok(Self { nx, ny, h, origin, walls })
     }
 
-    /// The same grid with its lower left corner at `origin` (length).
+    /// Refuses more than [`Grid::MAXIMUM_CELLS`] values.
+    pub(crate) fn check_size(nx: usize, ny: usize) -> Result<(), StokesError> {
+        let maximum = Self::MAXIMUM_CELLS;
+        let fits = ny.checked_mul(nx).is_some_and(|cells| cells <= maximum);
+        if fits { Ok(()) } else { Err(StokesError::GridTooLarge { nx, ny, maximum }) }
+    }
+
+    /// Refuses fields that belong to another grid, by the name of the first.
+    pub(crate) fn check<const N: usize>(&self, fields: [(&'static str, &Self); N]) -> Result<(), StokesError> {
+        match fields.into_iter().find(|(_, grid)| *grid != self) {
+            None => Ok(()),
+            Some((name, _)) => Err(StokesError::GridMismatch { name }),
+        }
+    }
+
+    /// A copy of the grid with its lower left corner at `origin` (length).
     ///
     /// # Errors
     /// A coordinate that is not finite.
@@ -90,19 +105,19 @@ impl Grid {
         self.h
     }
 
-    /// The lower left corner (length).
+    /// Lower left corner (length).
     #[must_use]
     pub fn origin(&self) -> [f64; 2] {
         self.origin
     }
 
-    /// The extents `[nx h, ny h]` (length).
+    /// Extents `[nx h, ny h]` (length).
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         [self.nx as f64 * self.h, self.ny as f64 * self.h]
     }
 
-    /// Whether y is bounded by no-slip walls (otherwise it is periodic).
+    /// True if y is bounded by no-slip walls, false if it is periodic.
     #[must_use]
     pub fn has_walls(&self) -> bool {
         self.walls

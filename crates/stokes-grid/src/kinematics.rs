@@ -1,21 +1,18 @@
-//! What follows from a velocity field.
+//! Strain rates, vorticity, streamfunction, flux and wall stress of a velocity field.
 //!
 //! Each function checks that its fields share a grid and then writes `out`; nothing is allocated.
 
-use input_checks::same_length;
+use motile_base::{same_length, sum};
 
-use crate::error::checks::check_grids;
-use crate::field::sum;
-use crate::stencil::{self, left, right};
-use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion};
+use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion, stencil};
 
-/// The divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
+/// Divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
 ///
 /// # Errors
 /// Fields of different grids.
 pub fn divergence(velocity: &StaggeredField, out: &mut CentreField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grids(&grid, &[("the divergence", out.grid())])?;
+    grid.check([("the divergence", out.grid())])?;
     divergence_unchecked(velocity, out);
     Ok(())
 }
@@ -29,7 +26,7 @@ pub(crate) fn divergence_unchecked(velocity: &StaggeredField, out: &mut CentreFi
     }
 }
 
-/// The normal strain rates `D_xx = du/dx` and `D_yy = dv/dy` (1/time) at the centres.
+/// Normal strain rates `D_xx = du/dx` and `D_yy = dv/dy` (1/time) at the centres.
 ///
 /// # Errors
 /// Fields of different grids.
@@ -39,22 +36,16 @@ pub fn normal_strain_rates(
     yy: &mut CentreField,
 ) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grids(&grid, &[("the strain rate", xx.grid())])?;
-    check_grids(&grid, &[("the strain rate", yy.grid())])?;
+    grid.check([("the strain rate", xx.grid()), ("the strain rate", yy.grid())])?;
     let (nx, h) = (grid.nx(), grid.spacing());
     for (j, (xx, yy)) in xx.values_mut().chunks_exact_mut(nx).zip(yy.values_mut().chunks_exact_mut(nx)).enumerate() {
-        let u = &velocity.x()[j * nx..][..nx];
-        let (v, v_above) = v_rows(velocity, j);
-        for i in 0..nx {
-            xx[i] = (u[right(i, nx)] - u[i]) / h;
-            yy[i] = (v_above[i] - v[i]) / h;
-        }
+        stencil::normal_steps(velocity, j, |i, u_step, v_step| (xx[i], yy[i]) = (u_step / h, v_step / h));
     }
     Ok(())
 }
 
-/// The shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it is the one that balances
-/// momentum with the flow, see [`wall_shear_stress`]; `walls` are those of the solver, at rest in a periodic box.
+/// Shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it has the value that balances
+/// momentum ([`wall_shear_stress`]); `walls` are those of the solver, at rest in a periodic box.
 ///
 /// # Errors
 /// Fields of different grids, or walls that do not belong to them.
@@ -66,7 +57,7 @@ pub fn shear_strain_rate(
     cross_differences(velocity, walls, out, |u_slope, v_slope| 0.5 * (u_slope + v_slope))
 }
 
-/// The vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are
+/// Vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are
 /// those of the solver, at rest in a periodic box.
 ///
 /// # Errors
@@ -75,7 +66,7 @@ pub fn vorticity(velocity: &StaggeredField, walls: &WallMotion, out: &mut NodeFi
     cross_differences(velocity, walls, out, |u_slope, v_slope| v_slope - u_slope)
 }
 
-/// `combine(du/dy, dv/dx)` at the nodes.
+/// Writes `combine(du/dy, dv/dx)` at the nodes.
 fn cross_differences(
     velocity: &StaggeredField,
     walls: &WallMotion,
@@ -83,28 +74,16 @@ fn cross_differences(
     combine: impl Fn(f64, f64) -> f64,
 ) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grids(&grid, &[("the field at the nodes", out.grid())])?;
+    grid.check([("the field at the nodes", out.grid())])?;
     walls.check(&grid)?;
-    let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
-    let u = |i: usize, j: usize| velocity.x()[j * nx + i];
-    for (j, out) in out.values_mut().chunks_exact_mut(nx).enumerate() {
-        let v = &velocity.y()[j * nx..][..nx];
-        for (i, out) in out.iter_mut().enumerate() {
-            let u_step = if grid.has_walls() && j == 0 {
-                2.0 * (u(i, 0) - walls.at(Wall::Bottom, i))
-            } else if grid.has_walls() && j == ny {
-                2.0 * (walls.at(Wall::Top, i) - u(i, ny - 1))
-            } else {
-                u(i, j) - u(i, if j > 0 { j - 1 } else { ny - 1 })
-            };
-            let v_step = v[i] - v[left(i, nx)];
-            *out = combine(u_step / h, v_step / h);
-        }
+    let h = grid.spacing();
+    for (j, out) in out.values_mut().chunks_exact_mut(grid.nx()).enumerate() {
+        stencil::shear_steps(velocity, walls, j, |i, u_step, v_step| out[i] = combine(u_step / h, v_step / h));
     }
     Ok(())
 }
 
-/// The streamfunction (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence,
+/// Streamfunction psi (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence,
 /// by summation; accurate to a few units of round-off times the number of cells in a row.
 ///
 /// In a channel psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which
@@ -114,7 +93,7 @@ fn cross_differences(
 /// Fields of different grids.
 pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grids(&grid, &[("the streamfunction", out.grid())])?;
+    grid.check([("the streamfunction", out.grid())])?;
     let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
     let psi = out.values_mut();
     if grid.has_walls() {
@@ -142,18 +121,17 @@ pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<
     Ok(())
 }
 
-/// The flux along x (area per time): the integral of u over y, averaged over x.
+/// Flux along x (area per time): the integral of u over y, averaged over x.
 #[must_use]
 pub fn flux(velocity: &StaggeredField) -> f64 {
     sum(velocity.x()) * velocity.grid().spacing() / velocity.grid().nx() as f64
 }
 
-/// The shear stress on the fluid at a wall (force per length in 2D), `eta du/dy`, at the columns of nodes; `out` has
-/// `nx` values.
+/// Shear stress `eta du/dy` at a wall (force per length in 2D) at the columns of nodes; `out` has `nx` values.
 ///
-/// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, the value that balances momentum with the
-/// forces in the fluid exactly: force per length on the fluid is plus this at the top, minus this at the bottom. It is
-/// second-order accurate.
+/// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, of second order, which balances momentum
+/// with the forces in the fluid exactly: the force per length of the wall on the fluid is this at the top, minus this
+/// at the bottom.
 ///
 /// # Errors
 /// A periodic grid, walls of another grid, or an `out` of the wrong length.
@@ -179,12 +157,4 @@ pub fn wall_shear_stress(
         *out = sign * 2.0 * viscosity * (u - walls.at(wall, i)) / h;
     }
     Ok(())
-}
-
-/// The y velocities below and above row `j` of centres.
-fn v_rows(velocity: &StaggeredField, j: usize) -> (&[f64], &[f64]) {
-    let grid = velocity.grid();
-    let nx = grid.nx();
-    let above = if j + 1 == grid.node_rows() { 0 } else { j + 1 };
-    (&velocity.y()[j * nx..][..nx], &velocity.y()[above * nx..][..nx])
 }

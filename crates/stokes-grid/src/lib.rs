@@ -1,9 +1,9 @@
-//! Stokes flow on staggered grids: given forces, the velocity of a viscous fluid without inertia, exactly free of
+//! Stokes flow on staggered grids: the velocity of a viscous fluid without inertia for given forces, exactly free of
 //! divergence.
 //!
 //! The equations are `eta lap(v) - grad p + f = 0`, `div v = 0` in two dimensions, with a viscosity eta and a force
 //! density f (force per volume). The fluid fills a box that is periodic in both directions or a channel that is
-//! periodic in x and has no-slip walls in y, at rest or sliding. A [`Grid`] says which; fields on it are a
+//! periodic in x and has no-slip walls in y, at rest or sliding, as its [`Grid`] is made. Fields on a grid are a
 //! [`StaggeredField`] (velocities, forces), a [`CentreField`] or a [`NodeField`].
 //!
 //! | solver | region | method | real transforms of a field |
@@ -13,16 +13,18 @@
 //! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of these | a solve an iteration |
 //!
 //! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
-//! the marker-and-cell grid) to round-off. They are plans behind one trait, [`StokesSolver`]: made once for a grid, run
-//! many times, without an allocation per run.
+//! the marker-and-cell grid) to round-off. They share the trait [`StokesSolver`]: a solver is made once for a grid and
+//! run many times without allocating.
 //!
 //! A solve gives the velocity alone. The pressure ([`StokesSolver::pressure`]), [`streamfunction`], [`vorticity`],
-//! [`normal_strain_rates`], [`shear_strain_rate`], [`divergence`], [`flux`] and [`wall_shear_stress`] come on request.
+//! [`normal_strain_rates`], [`shear_strain_rate`], [`divergence`], [`flux`] and [`wall_shear_stress`] are computed on
+//! request.
 //!
-//! **Contract of the mean values.** In a box the velocity has mean zero (or what [`PeriodicStokes::set_mean_velocity`]
-//! says) and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`] prescribes the mean
-//! pressure gradient or the flux. Either way [`SolveReport::mean_pressure_gradient`] has the uniform part of grad p,
-//! and [`StokesSolver::pressure`] the rest, with mean zero.
+//! **Mean values.** In a box the velocity has mean zero unless [`PeriodicStokes::set_mean_velocity`] prescribes another
+//! one, and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`](motile_base::Drive)
+//! prescribes the mean pressure gradient or the flux.
+//! [`SolveReport::mean_pressure_gradient`](motile_base::SolveReport::mean_pressure_gradient) has the uniform part of
+//! grad p, and [`StokesSolver::pressure`] gives the periodic part of p, with mean zero.
 //!
 //! # Example
 //!
@@ -30,9 +32,8 @@
 //! Poiseuille flow, whose fastest fluid has the speed `width^2 / (8 eta)`.
 //!
 //! ```
-//! use stokes_grid::{
-//!     CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence,
-//! };
+//! use motile_base::Drive;
+//! use stokes_grid::{CentreField, ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence};
 //!
 //! # fn main() -> Result<(), stokes_grid::StokesError> {
 //! let grid = Grid::periodic(64, 48, 0.1)?;
@@ -65,7 +66,7 @@
 //!
 //! # Speed and sizes
 //!
-//! Every size is correct, odd and prime ones included. Numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are
+//! Any numbers of cells work, odd and prime ones included. Those without prime factors other than 2, 3, 5, 7 and 11 are
 //! fast, and an even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a
 //! channel this concerns `nx` alone.
 //!
@@ -89,16 +90,17 @@ mod solver;
 mod stencil;
 mod transform;
 mod two_phase;
+mod walls;
 
-pub use channel::{ChannelStokes, Drive, Wall, WallMotion};
+pub use channel::ChannelStokes;
 pub use error::StokesError;
 pub use field::{CentreField, NodeField, StaggeredField};
 pub use grid::Grid;
-pub use input_checks::InputError;
 pub use kinematics::{
     divergence, flux, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 pub use periodic::PeriodicStokes;
-pub use solver::{SolveReport, StokesSolver, Work};
+pub use solver::{StokesSolver, Work};
 pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;
+pub use walls::{Wall, WallMotion};

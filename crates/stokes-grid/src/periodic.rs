@@ -1,29 +1,25 @@
-//! The streamfunction solver of a doubly periodic box.
+//! Direct solver for a doubly periodic box, by its streamfunction.
 
 #[cfg(feature = "rayon")]
 mod parallel;
 
-use input_checks::{finite, positive};
+use motile_base::{SolveReport, finite, positive, sum};
 
-use crate::error::checks::{check_grids, not_finite};
-use crate::field::sum;
-use crate::{
-    CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work, stencil,
-};
+use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, StokesSolver, Symbol, Work, stencil};
 
 /// Stokes flow in a doubly periodic box with one viscosity, by its streamfunction psi:
 ///
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
-/// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. It is the same
-/// discrete solution as that of Cowley's projection (2.21)-(2.30), for one forward and one inverse transform of a
-/// real field in place of three and three.
+/// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. The discrete
+/// solution is that of Cowley's projection (2.21)-(2.30), by one forward and one inverse transform of a real field in
+/// place of three and three.
 ///
-/// **Mean force and mean velocity.** The velocity has exactly the prescribed mean, zero unless
-/// [`PeriodicStokes::set_mean_velocity`] says otherwise. A uniform force moves nothing: it is balanced by a uniform
-/// pressure gradient, which [`SolveReport::mean_pressure_gradient`] has.
+/// **Mean force and mean velocity.** The velocity has exactly the mean that [`PeriodicStokes::set_mean_velocity`]
+/// prescribes, zero by default. A uniform force moves nothing: it is balanced by a uniform pressure gradient,
+/// [`SolveReport::mean_pressure_gradient`].
 ///
-/// **Sizes.** Every size is correct; even `nx` and numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are
+/// **Sizes.** Any numbers of cells work; those without prime factors other than 2, 3, 5, 7 and 11, and even `nx`, are
 /// fast.
 #[derive(Debug, Clone)]
 pub struct PeriodicStokes {
@@ -68,7 +64,7 @@ impl PeriodicStokes {
         })
     }
 
-    /// Prescribes the mean velocity (length per time) of the solutions to come: a uniform flow that is added to them.
+    /// Prescribes the mean velocity (length per time) of the solutions to come, a uniform flow that is added to them.
     ///
     /// # Errors
     /// A component that is not finite.
@@ -77,7 +73,7 @@ impl PeriodicStokes {
         Ok(())
     }
 
-    /// One forward and one inverse transform on one thread. Returns the sums of the force.
+    /// Solves by one forward and one inverse transform on one thread; returns the sums of the components of the force.
     fn solve_serial(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<[f64; 2], StokesError> {
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
         let (fx, fy) = (force.x(), force.y());
@@ -115,7 +111,7 @@ impl PeriodicStokes {
         Ok(total)
     }
 
-    /// The same on the threads of the current pool.
+    /// Solves on the threads of the current pool; returns the sums of the components of the force.
     #[cfg(feature = "rayon")]
     fn solve_parallel(
         &mut self,
@@ -137,7 +133,7 @@ impl PeriodicStokes {
         }
     }
 
-    /// The prescribed mean velocity (length per time).
+    /// Prescribed mean velocity (length per time).
     #[must_use]
     pub fn mean_velocity(&self) -> [f64; 2] {
         self.mean_velocity
@@ -154,7 +150,7 @@ impl StokesSolver for PeriodicStokes {
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grids(&self.grid, &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
+        self.grid.check([("the force", force.grid()), ("the velocity", velocity.grid())])?;
         #[cfg(feature = "rayon")]
         let total = if parallel::pays(self.grid.nx() * self.grid.ny()) {
             self.solve_parallel(force, velocity)
@@ -171,7 +167,7 @@ impl StokesSolver for PeriodicStokes {
         Ok(SolveReport { mean_pressure_gradient: total.map(|f| f / cells), ..SolveReport::default() })
     }
 
-    /// One Poisson problem, `lap p = div f`; the velocity is not needed.
+    /// Solves the Poisson problem `lap p = div f`; the velocity is not needed.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -180,18 +176,18 @@ impl StokesSolver for PeriodicStokes {
     ) -> Result<(), StokesError> {
         let fields =
             [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
-        check_grids(&self.grid, &fields)?;
+        self.grid.check(fields)?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let poisson = self.poisson.get_or_insert_with(|| Symbol::inverse_laplacian(nx, ny, -h));
         let out = pressure.values_mut();
-        // Both are of the grid's size, so that the call cannot fail.
+        // Symbol and transform have the size of the grid, so that the call cannot fail.
         let _ = self.transform.filter(
             poisson,
             |j, row| stencil::divergence(force, j, row),
             |j, row| out[j * nx..][..nx].copy_from_slice(row),
         );
         if !out[0].is_finite() {
-            return Err(not_finite("the pressure", &[("the force", force.x()), ("the force", force.y())]));
+            return Err(StokesError::not_finite("the pressure", &[("the force", force.x()), ("the force", force.y())]));
         }
         self.work.forward_transforms += 1;
         self.work.inverse_transforms += 1;
@@ -203,11 +199,11 @@ impl StokesSolver for PeriodicStokes {
     }
 }
 
-/// The sum of a row with a value that is not finite is not finite.
+/// Refuses sums that are not finite, as they are wherever the force is not.
 fn check_total(total: [f64; 2], force: &StaggeredField) -> Result<(), StokesError> {
     if total.into_iter().all(f64::is_finite) {
         Ok(())
     } else {
-        Err(not_finite("the sum of the force", &[("the force", force.x()), ("the force", force.y())]))
+        Err(StokesError::not_finite("the sum of the force", &[("the force", force.x()), ("the force", force.y())]))
     }
 }

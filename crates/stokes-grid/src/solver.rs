@@ -1,22 +1,12 @@
-//! What every Stokes solver does.
+//! The trait of Stokes solvers, and the count of their work.
 
-use serde::{Deserialize, Serialize};
+use motile_base::{Drive, SolveReport};
 
-use crate::{CentreField, Drive, Grid, StaggeredField, StokesError, WallMotion};
-
-/// What one solve needed and found.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct SolveReport {
-    /// Iterations (0 for a direct solver).
-    pub iterations: usize,
-    /// Relative residual (0 for a direct solver, which is exact to round-off).
-    pub residual: f64,
-    /// Mean pressure gradient (force per volume): the part of grad p that is uniform. Periodic box: the mean force.
-    pub mean_pressure_gradient: [f64; 2],
-}
+use crate::{CentreField, Grid, StaggeredField, StokesError, WallMotion};
 
 /// Work done since a solver was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Work {
     /// Calls of [`StokesSolver::solve`].
     pub solves: usize,
@@ -24,7 +14,7 @@ pub struct Work {
     pub forward_transforms: usize,
     /// Real transforms from wave numbers to space, each of a whole scalar field.
     pub inverse_transforms: usize,
-    /// Iterations of iterative solvers.
+    /// Iterations; 0 for direct solvers.
     pub iterations: usize,
 }
 
@@ -32,34 +22,34 @@ pub struct Work {
 ///
 /// `eta lap(v) - grad p + f = 0`, `div v = 0`.
 ///
-/// A solver is a plan: it is made once for a grid, owns its scratch, and allocates nothing per call.
+/// A solver is made once for a grid, owns its working memory, and allocates nothing per call.
 pub trait StokesSolver: std::fmt::Debug + Send {
-    /// The grid of the fields it takes and gives.
+    /// Grid of the forces and velocities.
     fn grid(&self) -> &Grid;
 
     /// Dynamic viscosity eta (stress times time).
     fn viscosity(&self) -> f64;
 
-    /// How the walls of a channel move; at rest in a periodic box.
+    /// Velocities of the walls of a channel; at rest in a periodic box.
     fn walls(&self) -> &WallMotion {
         static AT_REST: WallMotion = WallMotion::AT_REST;
         &AT_REST
     }
 
-    /// What is held fixed along a channel; no mean pressure gradient is imposed on a periodic box.
+    /// Prescribed mean pressure gradient or flux of a channel; no mean pressure gradient in a periodic box.
     fn drive(&self) -> Drive {
         Drive::default()
     }
 
-    /// The velocity for a force density; it is discretely divergence free.
+    /// Computes the velocity (length per time) for a force density (force per volume); its discrete divergence is zero.
     ///
     /// # Errors
     /// Fields of another grid, a force that is not finite (the velocity is then left as it was), a result beyond the
     /// range of double precision; for iterative solvers, no convergence.
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
 
-    /// The periodic part of the pressure (force per length in 2D), mean zero, that belongs to a force density and the
-    /// velocity that [`StokesSolver::solve`] gave for it. The uniform part of its gradient is
+    /// Computes the periodic part of the pressure (force per length in 2D), with mean zero, from a force density and
+    /// the velocity that [`StokesSolver::solve`] has computed for it. The uniform part of the pressure gradient is
     /// [`SolveReport::mean_pressure_gradient`].
     ///
     /// # Errors

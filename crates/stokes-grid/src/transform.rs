@@ -1,14 +1,13 @@
-//! Two-dimensional transforms of real fields.
+//! Fourier transforms of real fields: along x alone and in two dimensions.
 
 mod columns;
-mod rows;
 mod symbol;
 
+use motile_base::{InputError, RealTransform};
 use num_complex::Complex64;
 
-use crate::{StokesError, error::checks::check_size};
+use crate::{Grid, StokesError};
 pub(crate) use columns::ColumnTransform;
-pub(crate) use rows::RowTransform;
 pub use symbol::Symbol;
 pub(crate) use symbol::second_difference;
 
@@ -20,13 +19,13 @@ pub(crate) use symbol::second_difference;
 /// `F[m, n] = sum over i, j of f[i, j] exp(-2 pi I (m i / nx + n j / ny))`,
 ///
 /// and entries with m > nx / 2 follow from `F[nx - m, ny - n] = conj(F[m, n])`. Neither direction is normalised:
-/// forward and inverse one after the other multiply by `nx ny`.
+/// forward and inverse transform together multiply by `nx ny`.
 ///
 /// Rows are transformed one by one; columns are gathered a few at a time into a buffer that stays in the cache, so
 /// that no pass walks through memory with a large stride and nothing is transposed as a whole.
 ///
-/// Every size is correct. Sizes whose only prime factors are 2, 3, 5, 7 and 11 are fast; an odd `nx` takes about a
-/// third longer, and other prime factors take two to nine times as long (measured from 235 to 1009).
+/// Any sizes work. Those whose only prime factors are 2, 3, 5, 7 and 11 are fast; an odd `nx` takes about a third
+/// longer, and other prime factors take two to nine times as long (measured from 235 to 1009).
 #[derive(Debug, Clone)]
 pub struct RealFft2 {
     nx: usize,
@@ -45,7 +44,7 @@ impl RealFft2 {
         if nx == 0 || ny == 0 {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
         }
-        check_size(nx, ny)?;
+        Grid::check_size(nx, ny)?;
         let (rows, columns) = (RowTransform::new(nx)?, ColumnTransform::new(ny)?);
         let spectrum = vec![Complex64::ZERO; rows.width() * ny];
         Ok(Self { nx, ny, rows, columns, spectrum })
@@ -73,9 +72,9 @@ impl RealFft2 {
         }
     }
 
-    /// The operator with this symbol applied to a field whose rows `input(j, row)` writes; `output(j, row)` gets the
-    /// rows of the result. One forward and one inverse transform, with the symbol applied to each column while it is in
-    /// the cache.
+    /// Applies the operator with this symbol to a field whose rows `input(j, row)` writes; `output(j, row)` gets the
+    /// rows of the result. This takes one forward and one inverse transform, with the symbol applied to each column
+    /// while it is in the cache.
     ///
     /// # Errors
     /// A symbol made for another size.
@@ -92,6 +91,37 @@ impl RealFft2 {
         self.filter_columns(symbol);
         self.inverse_rows(output);
         Ok(())
+    }
+}
+
+/// A plan for the transform of single real rows of `nx` values to `nx / 2 + 1` complex ones and back, not normalised.
+#[derive(Debug, Clone)]
+pub(crate) struct RowTransform {
+    plan: RealTransform,
+    row: Vec<f64>,
+}
+
+impl RowTransform {
+    pub(crate) fn new(nx: usize) -> Result<Self, InputError> {
+        Ok(Self { plan: RealTransform::new(nx)?, row: vec![0.0; nx] })
+    }
+
+    /// Number of complex numbers in a transformed row.
+    pub(crate) fn width(&self) -> usize {
+        self.plan.spectrum_len()
+    }
+
+    /// Transforms the row that `fill` writes.
+    pub(crate) fn forward(&mut self, fill: impl FnOnce(&mut [f64]), out: &mut [Complex64]) {
+        fill(&mut self.row);
+        // Row and spectrum have the lengths of the plan, so that the call cannot fail.
+        let _ = self.plan.forward(&mut self.row, out);
+    }
+
+    /// Transforms a spectrum, which is overwritten, back into a row.
+    pub(crate) fn inverse(&mut self, spectrum: &mut [Complex64]) -> &[f64] {
+        let _ = self.plan.inverse(spectrum, &mut self.row);
+        &self.row
     }
 }
 

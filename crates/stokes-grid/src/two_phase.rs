@@ -1,33 +1,43 @@
-//! Stokes flow with a viscosity that varies in space.
+//! Stokes flow with a viscosity that varies in space, by conjugate gradients.
 
 mod viscous_force;
 
-use input_checks::positive;
+use motile_base::{Drive, SolveReport, positive};
 
-use crate::error::checks::check_grids;
-use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+use crate::{CentreField, NodeField, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 use viscous_force::ViscousForce;
+
+/// Relative residual at first: far below the error of second order on any grid that is used.
+const TOLERANCE: f64 = 1e-6;
+/// Iterations after which a solution fails at first: conjugate gradients take `sqrt(ratio)/2 ln(2/tolerance)`, so that
+/// as many are enough for a ratio of viscosities of 7e4.
+const MOST_ITERATIONS: usize = 2000;
+/// Starts of the conjugate gradients in one solve: a second one ends the drift by round-off, a third one that of the
+/// second.
+const MOST_STARTS: usize = 3;
+/// Ratio of the true residual to the goal, squared, that is taken for round-off: 10 % of the residual.
+const DRIFT: f64 = 1.21;
 
 /// Stokes flow with a viscosity eta(x, y) that varies in space,
 ///
 /// `div(2 eta D(v)) - grad p + f = 0`, `div v = 0`,
 ///
-/// around any solver S of one viscosity, whose grid, walls and drive it takes over (Cowley section 2.2.4).
+/// on the grid and with the walls and the drive of a solver S of one viscosity (Cowley section 2.2.4).
 ///
-/// It is solved by conjugate gradients among the velocities without divergence, with a solve of S as preconditioner:
-/// each iteration costs one solve and one viscous force. The number of iterations grows like the square root of the
-/// ratio of the largest to the smallest viscosity, does not depend on the grid, nor on the viscosity of S; for a
-/// uniform viscosity one is enough. Normal stresses take the viscosity at the centres, shear stresses that at the
-/// nodes.
+/// The method is conjugate gradients among the velocities without divergence, preconditioned by S: each iteration costs
+/// one solve of S and one viscous force. The number of iterations grows like the square root of the ratio of the
+/// largest to the smallest viscosity and depends neither on the grid nor on the viscosity of S; for a uniform viscosity
+/// one is enough, and none where it is that of S. Normal stresses take the viscosity at the centres, shear stresses
+/// that at the nodes.
 ///
 /// **Start.** Each solution starts from the linear extrapolation of the two before, which halves the iterations where
 /// the viscosity and the forces move slowly.
 ///
 /// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below
-/// [`TwoPhaseStokes::tolerance`] times that of the forces. The true residual is recomputed from the solution and is
-/// what [`SolveReport::residual`] has.
+/// [`TwoPhaseStokes::tolerance`] times that of the forces. [`SolveReport::residual`] is the true residual, recomputed
+/// from the solution.
 ///
-/// [`StokesSolver::viscosity`] is that of S, the exterior fluid' by convention.
+/// [`StokesSolver::viscosity`] is that of S, by convention that of the exterior fluid.
 ///
 /// ```
 /// use stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes};
@@ -48,12 +58,14 @@ use viscous_force::ViscousForce;
 pub struct TwoPhaseStokes<S> {
     solver: S,
     force: ViscousForce,
+    /// True if the viscosity is that of the solver everywhere.
+    uniform: bool,
     tolerance: f64,
     most: usize,
-    /// The flow without forces and the uniform force along x that its mean pressure gradient stands for.
+    /// Flow without forces, and its mean pressure gradient.
     imposed: StaggeredField,
     gradient: [f64; 2],
-    /// Solutions of the last two solves, the latest first.
+    /// Solutions of the last two solves, the latest first, and the number of those that are known.
     previous: [StaggeredField; 2],
     known: usize,
     residual: StaggeredField,
@@ -68,7 +80,7 @@ pub struct TwoPhaseStokes<S> {
 }
 
 impl<S: StokesSolver> TwoPhaseStokes<S> {
-    /// The solver, with the viscosity of `solver` everywhere at first and a tolerance of 1e-6.
+    /// A solver with the viscosity of `solver` everywhere at first, a tolerance of 1e-6 and at most 2000 iterations.
     ///
     /// # Errors
     /// Those of `solver`.
@@ -84,8 +96,9 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         Ok(Self {
             solver,
             force: ViscousForce::new(centres, nodes),
-            tolerance: 1e-6,
-            most: 2000,
+            uniform: true,
+            tolerance: TOLERANCE,
+            most: MOST_ITERATIONS,
             imposed,
             gradient,
             previous: [field(), field()],
@@ -96,12 +109,12 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
             image: field(),
             solution: field(),
             imposed_pressure: CentreField::zeros(grid),
-            history: Vec::with_capacity(2001),
+            history: Vec::with_capacity(MOST_ITERATIONS + 1),
             work: Work::default(),
         })
     }
 
-    /// The same with another tolerance of the relative residual.
+    /// Sets the tolerance of the relative residual.
     ///
     /// # Errors
     /// A tolerance that is not positive and finite.
@@ -110,7 +123,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         Ok(self)
     }
 
-    /// The same with another largest number of iterations.
+    /// Sets the largest number of iterations.
     #[must_use]
     pub fn with_most_iterations(mut self, most: usize) -> Self {
         self.most = most;
@@ -118,13 +131,13 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self
     }
 
-    /// The last solutions, the latest first, from which the next iteration starts: none at first, two after two solves.
+    /// Last solutions, the latest first, from which the next iteration starts: none at first, two after two solves.
     pub fn solutions(&self) -> impl Iterator<Item = &StaggeredField> {
         self.previous.iter().take(self.known)
     }
 
-    /// Takes over the last solutions, the latest first, as [`TwoPhaseStokes::solutions`] of the same solver had them.
-    /// More than two are ignored.
+    /// Takes over the last solutions, the latest first, as [`TwoPhaseStokes::solutions`] lists them. More than two are
+    /// ignored.
     ///
     /// # Errors
     /// Fields on another grid.
@@ -134,38 +147,38 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     ) -> Result<(), StokesError> {
         self.known = 0;
         for (own, solution) in self.previous.iter_mut().zip(solutions) {
-            check_grids(self.solver.grid(), &[("a solution", solution.grid())])?;
+            self.solver.grid().check([("a solution", solution.grid())])?;
             own.copy_from(solution);
             self.known += 1;
         }
         Ok(())
     }
 
-    /// The tolerance of the relative residual.
+    /// Tolerance of the relative residual.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// The solver of one viscosity.
+    /// Solver of one viscosity.
     #[must_use]
     pub fn solver(&self) -> &S {
         &self.solver
     }
 
-    /// The viscosity (stress times time) at the centres and at the nodes.
+    /// Viscosity (stress times time) at the centres and at the nodes.
     #[must_use]
     pub fn viscosity_fields(&self) -> (&CentreField, &NodeField) {
         self.force.viscosity()
     }
 
-    /// Relative residuals of the last solve: at its start and after each iteration.
+    /// Relative residuals of the last solve, at its start and after each iteration.
     #[must_use]
     pub fn history(&self) -> &[f64] {
         &self.history
     }
 
-    /// Takes the viscosity (stress times time) from a function of x and y.
+    /// Sets the viscosity (stress times time) to a function of x and y (length).
     ///
     /// # Errors
     /// A value that is not positive and finite; the viscosity is then left as it was.
@@ -180,35 +193,37 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self.set_viscosity_fields(&centres, &nodes)
     }
 
-    /// Takes the viscosity (stress times time) at the centres and at the nodes.
+    /// Sets the viscosity (stress times time) at the centres and at the nodes.
     ///
     /// # Errors
     /// Fields of another grid, or a value that is not positive and finite; the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
-        check_grids(self.solver.grid(), &fields)?;
+        self.solver.grid().check(fields)?;
         for &value in centres.values().iter().chain(nodes.values()) {
             positive("viscosity", value)?;
         }
         let (at_centres, at_nodes) = self.force.viscosity_mut();
         at_centres.copy_from_slice(centres.values());
         at_nodes.copy_from_slice(nodes.values());
+        let viscosity = self.solver.viscosity();
+        self.uniform = centres.values().iter().chain(nodes.values()).all(|value| *value == viscosity);
         Ok(())
     }
 
-    /// Forgets the solutions so far, so that the next one starts from the flow without forces.
+    /// Drops the last solutions, so that the next one starts from the flow without forces.
     pub fn forget(&mut self) {
         self.known = 0;
     }
 
-    /// The preconditioner: `self.preconditioned` from `self.residual`, and the product of both.
+    /// Computes `self.preconditioned` from `self.residual`; returns the product of both and the mean pressure gradient.
     fn precondition(&mut self) -> Result<(f64, [f64; 2]), StokesError> {
         let report = self.solver.solve(&self.residual, &mut self.preconditioned)?;
         self.preconditioned.combine(1.0, -1.0, &self.imposed);
         Ok((dot(&self.residual, &self.preconditioned), report.mean_pressure_gradient))
     }
 
-    /// `self.residual` of `self.solution`.
+    /// Computes `self.residual` of `self.solution`.
     fn fill_residual(&mut self, force: &StaggeredField) {
         let Self { force: viscous, solution, solver, residual, gradient, .. } = self;
         viscous.add(solution, solver.walls(), 1.0, Some(force), residual);
@@ -217,7 +232,8 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         }
     }
 
-    /// Conjugate gradients from `self.solution`, whose residual is `square`, until it is below `goal`; iterations done.
+    /// Runs conjugate gradients from `self.solution`, whose squared residual is `square`, until this is below `goal`;
+    /// returns the iterations done.
     fn iterate(&mut self, mut square: f64, goal: f64, scale: f64, mut left: usize) -> Result<usize, StokesError> {
         let mut done = 0;
         self.direction.copy_from(&self.preconditioned);
@@ -259,8 +275,13 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grids(self.solver.grid(), &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
+        self.solver.grid().check([("the force", force.grid()), ("the velocity", velocity.grid())])?;
         self.history.clear();
+        if self.uniform {
+            self.known = 0;
+            self.work.solves += 1;
+            return self.solver.solve(force, velocity);
+        }
         self.solution.copy_from(&self.imposed);
         self.fill_residual(force);
         let (scale, mut gradient) = self.precondition()?;
@@ -278,19 +299,19 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
             }
             let goal = self.tolerance * self.tolerance * scale;
             self.history.push((square.max(0.0) / scale).sqrt());
-            // Round-off lets the recurrence drift from the true residual; then the iteration restarts from where it
-            // is.
-            for _ in 0..3 {
+            // Round-off lets the recurrence drift from the true residual; the iteration then starts again from the
+            // solution that it has reached.
+            for _ in 0..MOST_STARTS {
                 iterations += self.iterate(square, goal, scale, self.most - iterations)?;
                 self.fill_residual(force);
                 (square, gradient) = self.precondition()?;
-                if square <= 1.21 * goal || iterations >= self.most {
+                if square <= DRIFT * goal || iterations >= self.most {
                     break;
                 }
             }
             residual = (square.max(0.0) / scale).sqrt();
             self.work.iterations += iterations;
-            if square.is_nan() || square > 1.21 * goal {
+            if square.is_nan() || square > DRIFT * goal {
                 self.known = 0;
                 let (tolerance, history) = (self.tolerance, self.history.clone());
                 return Err(StokesError::NoConvergence { iterations, residual, tolerance, history });
@@ -304,7 +325,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
-    /// From the force that the viscous stress leaves, with the pressure of the solver of one viscosity.
+    /// Computes the pressure of the solver of one viscosity for the force that is left by the viscous stress.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -313,13 +334,13 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     ) -> Result<(), StokesError> {
         let fields =
             [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
-        check_grids(self.solver.grid(), &fields)?;
+        self.solver.grid().check(fields)?;
         self.solution.copy_from(velocity);
         self.fill_residual(force);
         let Self { solver, residual, direction, image, imposed, imposed_pressure: own, .. } = self;
         solver.solve(residual, direction)?;
         solver.pressure(residual, direction, pressure)?;
-        // The solver's own flow without forces, of moving walls say, has a pressure as well.
+        // The flow of the solver without forces, of moving walls say, has a pressure as well.
         image.fill(0.0);
         solver.pressure(image, imposed, own)?;
         for (pressure, own) in pressure.values_mut().iter_mut().zip(own.values()) {
@@ -334,18 +355,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     }
 }
 
+/// Scalar product of two fields.
 fn dot(a: &StaggeredField, b: &StaggeredField) -> f64 {
-    let product = |a: &[f64], b: &[f64]| {
-        const LANES: usize = 8;
-        let (a, a_rest) = a.as_chunks::<LANES>();
-        let (b, b_rest) = b.as_chunks::<LANES>();
-        let mut lanes = [0.0; LANES];
-        for (a, b) in a.iter().zip(b) {
-            for lane in 0..LANES {
-                lanes[lane] += a[lane] * b[lane];
-            }
-        }
-        lanes.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
-    };
-    product(a.x(), b.x()) + product(a.y(), b.y())
+    motile_base::dot(a.x(), b.x()) + motile_base::dot(a.y(), b.y())
 }

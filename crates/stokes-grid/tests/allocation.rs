@@ -1,8 +1,9 @@
 //! A solver in steady state allocates nothing.
 
 use allocation_counter::measure;
+use motile_base::Drive;
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes, WallMotion,
+    CentreField, ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes, WallMotion,
 };
 
 fn allocations(solver: &mut dyn StokesSolver) -> u64 {

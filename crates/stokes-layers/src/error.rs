@@ -1,12 +1,12 @@
-//! What can go wrong.
+//! Errors of layers: the value that cannot be used and the remedy.
 
-use input_checks::InputError;
+use motile_base::{InputError, Vec2};
 
-/// An error of this crate, with the offending value and the remedy.
+/// An error of this crate; its message names the offending value and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LayerError {
-    /// A number or list that cannot be used.
+    /// A number out of its range, or a list of the wrong length.
     #[error(transparent)]
     Input(#[from] InputError),
     /// A region without images where they are needed.
@@ -15,7 +15,7 @@ pub enum LayerError {
     /// A position, force or velocity on a curve or at a point is not a finite number.
     #[error("{what} number {point} (curve {curve}) is ({x}, {y}): give finite numbers")]
     NonFinite {
-        /// What it is.
+        /// Name of the quantity.
         what: &'static str,
         /// Number of the curve; 0 for points off the curves.
         curve: usize,
@@ -26,17 +26,17 @@ pub enum LayerError {
         /// y component.
         y: f64,
     },
-    /// A curve that goes on by something else than the period of the region along x.
+    /// A curve whose advance in a turn of the parameter is neither zero nor the period of the region along x.
     #[error(
-        "curve {curve} goes on by ({x}, {y}) in a turn: give (0, 0) for a closed curve, ({expected}, 0) or \
+        "curve {curve} advances by ({x}, {y}) in a turn: give (0, 0) for a closed curve, ({expected}, 0) or \
          (-{expected}, 0) for an open one in a region with that period along x"
     )]
     Period {
         /// Number of the curve.
         curve: usize,
-        /// What it advances by in x.
+        /// Advance in x (length).
         x: f64,
-        /// What it advances by in y.
+        /// Advance in y (length).
         y: f64,
         /// The period of the region along x (length), 0 if it has none.
         expected: f64,
@@ -48,40 +48,43 @@ pub enum LayerError {
         curve: usize,
     },
     /// A node of a curve lies beyond a wall.
-    #[error("node {node} of curve {curve} at ({x}, {y}) is {depth} beyond the wall, more than {allowed}")]
+    #[error(
+        "node {node} of curve {curve} at ({x}, {y}) is {depth} beyond the wall, more than {allowed}: move the curve \
+         away, use a smaller time step or more nodes"
+    )]
     BeyondWall {
         /// Number of the curve.
         curve: usize,
         /// Number of the node.
         node: usize,
-        /// Its x coordinate.
+        /// Its x coordinate (length).
         x: f64,
-        /// Its y coordinate.
+        /// Its y coordinate (length).
         y: f64,
-        /// How far beyond (length).
+        /// Distance beyond the wall (length).
         depth: f64,
-        /// What is allowed (length).
+        /// Distance that passes for round-off (length).
         allowed: f64,
     },
     /// Rigid walls in a region that is no channel.
-    #[error("rigid walls and obstacles stand in a channel: give one that is wider than they are")]
+    #[error("rigid walls and obstacles need a channel around them: use a channel wider than they are")]
     NoChannel,
     /// Rigid walls that cross or touch each other, or themselves.
     #[error("wall {first} crosses or touches wall {second} near ({x}, {y}): leave fluid between them")]
     WallsCross {
-        /// Number of a wall.
+        /// Number of one wall.
         first: usize,
-        /// Number of the other one, the same where it crosses itself.
+        /// Number of the other wall, equal to the first where a wall crosses itself.
         second: usize,
-        /// Where, in x.
+        /// x coordinate of the place (length).
         x: f64,
-        /// Where, in y.
+        /// y coordinate of the place (length).
         y: f64,
     },
-    /// Rigid walls whose forces cannot be found.
-    #[error("the forces on the rigid walls cannot be found: use more nodes, or leave more fluid between the walls")]
+    /// Rigid walls with a singular matrix, so that the forces on them are not determined.
+    #[error("the forces on the rigid walls are not determined: use more nodes, or leave more fluid between the walls")]
     SingularWalls,
-    /// An interface beyond a rigid wall or in an obstacle.
+    /// An interface beyond a rigid wall or inside an obstacle.
     #[error(
         "interface {curve} is beyond rigid wall {wall} at ({x}, {y}): move it away, use a smaller time step or more \
          nodes"
@@ -89,15 +92,18 @@ pub enum LayerError {
     CrossesWall {
         /// Number of the interface.
         curve: usize,
-        /// Where, x coordinate (length).
+        /// x coordinate of a node beyond the wall (length).
         x: f64,
-        /// Where, y coordinate (length).
+        /// y coordinate of the node (length).
         y: f64,
         /// Number of the wall.
         wall: usize,
     },
-    /// The solution for a viscosity contrast did not converge.
-    #[error("the solution stopped at a residual of {residual:e} after {iterations} iterations, above {tolerance:e}")]
+    /// An iteration for a viscosity contrast that did not reach its tolerance.
+    #[error(
+        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: use more nodes, \
+         allow more iterations, or ask for less"
+    )]
     NoConvergence {
         /// Iterations done.
         iterations: usize,
@@ -108,4 +114,12 @@ pub enum LayerError {
     },
 }
 
-input_checks::debug_as_explanation!(LayerError);
+motile_base::debug_as_explanation!(LayerError);
+
+/// Refuses vectors that are not finite; `curve` is the number of the curve that they belong to.
+pub(crate) fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
+    match values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {
+        Some(point) => Err(LayerError::NonFinite { what, curve, point, x: values[point].x, y: values[point].y }),
+        None => Ok(()),
+    }
+}

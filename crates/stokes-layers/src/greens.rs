@@ -3,15 +3,11 @@
 //! They are normalised to `lap G - grad p = -4 pi delta`, so that a force F in a fluid of viscosity eta moves it with
 //! `G F/(4 pi eta)`.
 
-mod logarithm;
 mod nodes;
 mod pair;
 mod point;
-mod stress;
 pub(crate) mod walls;
 
-pub(crate) use logarithm::ln;
-pub(crate) use nodes::{Nodes, Vectors};
-pub(crate) use pair::{FreePair, LatticePair, PairKernel, RowPair, Stokeslet};
-pub(crate) use point::{Flow, GreensFunction, Kernels, half_turns, row_of_turns, row_weighted, weighted};
-pub(crate) use stress::{Sources, StressKernel};
+pub(crate) use nodes::{Nodes, Vectors, Window};
+pub(crate) use pair::{AnyPair, FreePair, LatticePair, PairKernel, RowPair, Stokeslet};
+pub(crate) use point::{Flow, GreensFunction, Kernels, half_turns, ln, row_of_turns, row_weighted, weighted};

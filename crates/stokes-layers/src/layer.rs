@@ -1,15 +1,10 @@
-//! Single and double layers on curves, at their nodes and at points anywhere.
+//! Single and double layers on curves in a region, at the nodes of the curves.
 //!
 //! A layer is the sum of four contributions: of the nodes of curves that are close to each other, summed directly; of
 //! all other curves and images, by multipoles; of what the region adds (walls, a mean flow); and of a correction at
-//! nodes and points that are so close to a curve that its nodes do not resolve the Green's function.
+//! nodes that are so close to a curve that its nodes do not resolve the Green's function.
 
-mod dipoles;
-mod direct;
-mod plan;
-mod points;
-mod stokeslets;
-mod sums;
+mod close;
 mod walls;
 
 use std::{
@@ -17,289 +12,270 @@ use std::{
     ops::Range,
 };
 
-use input_checks::InputError;
+use motile_base::{InputError, Vec2, within};
 use num_complex::Complex64;
 
+use crate::images::{Images, check};
 use crate::{
-    Forcing, Geometry, LayerError,
-    close::{CloseCorrection, Crossing},
-    curve::{Curve, GivenCurve, REFINEMENT},
+    LayerError, Symmetry,
+    curve::{Curve, LayerCurve},
+    density::{Density, StoredLayers},
+    direct::DirectSums,
     greens::{GreensFunction, Vectors},
     multipole::Multipoles,
+    plan::Plan,
+    transforms::REFINEMENT,
 };
-pub(crate) use dipoles::Dipoles;
-use direct::DirectSums;
-pub(crate) use direct::{DirectPair, Pair};
-pub(crate) use plan::{Kept, Plan};
+use close::CloseCorrection;
+pub(crate) use close::Crossing;
+use motile_base::{Drive, Region};
 use walls::Walls;
 
-/// Velocities at the nodes, x then y, curve after curve, and what each curve's are multiplied by in a double layer (the
-/// viscosity inside less that outside); curves behind these have no double layer.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Density<'a> {
-    pub(crate) values: &'a [f64],
-    pub(crate) contrasts: &'a [f64],
-}
-
-impl<'a> Density<'a> {
-    /// Nodes of each curve.
-    pub(crate) fn nodes(&self) -> usize {
-        self.values.len() / (2 * self.contrasts.len()).max(1)
-    }
-
-    /// The components at the nodes of one curve.
-    pub(crate) fn of(&self, curve: usize) -> (&'a [f64], &'a [f64]) {
-        let nodes = self.nodes();
-        self.values[2 * nodes * curve..2 * nodes * (curve + 1)].split_at(nodes)
-    }
-
-    /// What the velocities of a curve are multiplied by.
-    pub(crate) fn contrast(&self, curve: usize) -> f64 {
-        self.contrasts.get(curve).copied().unwrap_or(0.0)
-    }
-
-    fn vanishes(&self) -> bool {
-        self.contrasts.iter().all(|contrast| *contrast == 0.0)
-    }
-}
-
-/// Layers on curves in a region. Flows are 4 pi times velocity times viscosity.
+/// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
 #[derive(Debug, Clone)]
 pub(crate) struct Layers {
-    pub(crate) geometry: Geometry,
-    greens: GreensFunction,
+    pub(crate) region: Region,
+    pub(crate) greens: GreensFunction,
     pub(crate) plans: Vec<Plan>,
     pub(crate) curves: Vec<Curve>,
     /// The first node of each curve among those of all, and their number.
     pub(crate) starts: Vec<usize>,
-    /// Curves whose forces come later.
-    pub(crate) kept: Kept,
-    /// Number of curves at the end that stay as they are when others are loaded.
+    pub(crate) stored: StoredLayers,
+    /// Number of curves at the end that stay when others are loaded.
     fixed: usize,
     direct: DirectSums,
     multipoles: Multipoles,
-    walls: Option<Walls>,
+    pub(crate) walls: Option<Walls>,
     close: CloseCorrection,
-    /// The flow at the nodes.
-    pub(crate) out: Vec<Vectors>,
+    /// Flow of the last layer at the nodes.
+    pub(crate) flow: Vec<Vectors>,
     /// Velocities at the fine nodes, curve after curve.
-    fine: Vec<Complex64>,
-    points: points::PointSums,
+    pub(crate) fine: Vec<Complex64>,
 }
 
 impl Layers {
-    /// Where `symmetric`, corrections of the single layer for close nodes are the same in both directions.
-    pub(crate) fn new(geometry: Geometry, tolerance: f64, symmetric: bool) -> Result<Self, InputError> {
-        let walls = if let Geometry::Channel { length, width, forcing } = geometry {
-            Some(Walls::new(length, width, forcing, tolerance))
+    /// Layers without curves.
+    ///
+    /// # Errors
+    /// Lengths of the region that are not positive and finite, periods of which one is more than 20 times the other, a
+    /// forcing that is not finite, a tolerance outside of 1e-15 to 1e-3.
+    pub(crate) fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, InputError> {
+        check(&region)?;
+        within("the tolerance", tolerance, 1e-15, 1e-3)?;
+        let walls = if let Region::Channel { length, width, drive } = region {
+            Some(Walls::new(length, width, drive, tolerance))
         } else {
             None
         };
         Ok(Self {
-            geometry,
-            greens: GreensFunction::new(&geometry, tolerance),
+            region,
+            greens: GreensFunction::new(&region, tolerance),
             plans: Vec::new(),
             curves: Vec::new(),
             starts: vec![0],
-            kept: Kept { first: 0, among: false },
+            stored: StoredLayers { first: 0, mutual: false },
             fixed: 0,
             direct: DirectSums::default(),
-            multipoles: Multipoles::new(geometry, tolerance)?,
+            multipoles: Multipoles::new(region, tolerance)?,
             walls,
-            close: CloseCorrection::new(tolerance, symmetric),
-            out: Vec::new(),
+            close: CloseCorrection::new(tolerance, symmetry),
+            flow: Vec::new(),
             fine: Vec::new(),
-            points: points::PointSums::new(tolerance),
         })
     }
 
-    /// Keeps the present curves as they are when others are loaded, in front of them.
+    /// Keeps the present curves, behind those that are loaded from now on.
     pub(crate) fn fix(&mut self) {
         self.fixed = self.curves.len();
     }
 
-    /// Takes over curves, in place of all that are not fixed; the single layers of the fixed ones come later, or of all
-    /// of them.
+    /// Takes over curves with their forces (none if these are given later), in place of all that are not fixed. The
+    /// layers of the fixed curves are stored, or those of all curves if `all_stored`.
     ///
     /// # Errors
-    /// Numbers that are not finite, too few or too many points, a clockwise curve, a curve that goes on by something
-    /// else than the period, a node beyond a wall.
+    /// Numbers that are not finite, too few or too many points, a clockwise curve, an advance that is not the period of
+    /// the region, a node beyond a wall.
     pub(crate) fn load<'a>(
         &mut self,
-        curves: impl Iterator<Item = GivenCurve<'a>>,
-        all_later: bool,
+        curves: impl Iterator<Item = (LayerCurve<'a>, &'a [Vec2])>,
+        all_stored: bool,
     ) -> Result<(), LayerError> {
         let mut count = 0;
         let mut loaded = self.curves.len() - self.fixed;
         self.starts.truncate(1);
         for (index, given) in curves.enumerate() {
-            let plan = Plan::find(&mut self.plans, given.nodes)?;
+            let nodes = given.0.nodes;
+            let plan = Plan::find(&mut self.plans, nodes)?;
             if index == loaded {
-                self.curves.insert(index, Curve::new(given.nodes));
-                self.out.insert(index, Vectors::default());
+                self.curves.insert(index, Curve::new(nodes));
+                self.flow.insert(index, Vectors::default());
                 loaded += 1;
-            } else if self.curves[index].len() != given.nodes {
-                self.curves[index] = Curve::new(given.nodes);
+            } else if self.curves[index].len() != nodes {
+                self.curves[index] = Curve::new(nodes);
             }
             let curve = &mut self.curves[index];
             curve.plan = plan;
-            curve.load(&mut self.plans[plan].transforms, given, &self.geometry, index)?;
+            curve.load(&mut self.plans[plan].transforms, given, &self.region, index)?;
             count += 1;
         }
         self.curves.drain(count..loaded);
-        self.out.drain(count..loaded);
+        self.flow.drain(count..loaded);
         for curve in &self.curves {
             self.starts.push(self.starts[self.starts.len() - 1] + curve.len());
         }
-        self.kept = if all_later { Kept { first: 0, among: true } } else { Kept { first: count, among: false } };
+        self.stored = StoredLayers { first: if all_stored { 0 } else { count }, mutual: all_stored };
         match &mut self.walls {
             Some(walls) => walls.load(&mut self.curves, &mut self.plans),
             None => Ok(()),
         }
     }
 
-    /// The entries of a curve in vectors over all nodes, x then y, curve after curve.
+    /// Entries of a curve in vectors over all nodes, x then y, curve after curve.
     pub(crate) fn entries(&self, curve: usize) -> Range<usize> {
         2 * self.starts[curve]..2 * self.starts[curve + 1]
     }
 
-    /// The plan of a curve.
+    /// Plan of a curve.
     pub(crate) fn plan(&mut self, curve: usize) -> &mut Plan {
         &mut self.plans[self.curves[curve].plan]
     }
 
-    /// The flow of the last layer at the nodes.
-    pub(crate) fn flow(&self) -> &[Vectors] {
-        &self.out
-    }
-
-    fn clear(&mut self) {
-        for (out, curve) in self.out.iter_mut().zip(&self.curves) {
-            out.clear(curve.len());
+    /// Adds a multiple of the flow at the nodes of a curve to values there, x then y.
+    pub(crate) fn add_flow(&self, curve: usize, factor: f64, values: &mut [f64]) {
+        let Vectors { x, y } = &self.flow[curve];
+        let (along, across) = values.split_at_mut(x.len());
+        for (values, flow) in [(along, x), (across, y)] {
+            values.iter_mut().zip(flow).for_each(|(value, flow)| *value += factor * flow);
         }
     }
 
-    /// Computes the single layer of the forces at the nodes, but for those that come later, which it prepares for. With
-    /// `double`, prepares for [`Layers::double_layer`].
+    fn clear(&mut self) {
+        for (flow, curve) in self.flow.iter_mut().zip(&self.curves) {
+            flow.clear(curve.len());
+        }
+    }
+
+    /// Computes the single layer of the forces at the nodes and stores the layers of curves whose forces are given
+    /// later. With `double`, prepares for [`Layers::double_layer`].
     pub(crate) fn single_layer(&mut self, double: bool) {
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, plans, out, kept, .. } = self;
-        let kept = *kept;
-        let wave = match self.geometry {
-            Geometry::Channel { length, .. } => Some(TAU / length),
-            Geometry::Box { lengths } if kept.first < curves.len() || curves.iter().any(Curve::is_open) => {
+        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, .. } = self;
+        let stored = *stored;
+        let wave = match self.region {
+            Region::Channel { length, .. } => Some(TAU / length),
+            Region::Box { lengths } if stored.first < curves.len() || curves.iter().any(Curve::is_open) => {
                 Some(TAU / lengths[0])
             }
             _ => None,
         };
-        direct.load(curves, kept, wave);
-        multipoles.divide(curves, kept, &mut direct.pairs);
-        close.find(curves, plans, &self.geometry.images(), kept);
+        direct.load(curves, stored, wave);
+        multipoles.divide(curves, stored, &mut direct.pairs);
+        close.find(curves, plans, &Images::of(&self.region), stored);
 
-        direct.add_forces(plans, kept, out);
-        multipoles.add_forces(&curves[..kept.first], out);
+        direct.add_forces(plans, stored, flow);
+        multipoles.add_forces(&curves[..stored.first], flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, 0..kept.first, out);
+            walls.add_forces(curves, 0..stored.first, flow);
         }
-        close.add_forces(curves, plans, kept, double, out);
+        close.add_forces(curves, plans, stored, double, flow);
         if double {
             direct.prepare_stress();
         }
     }
 
-    /// Computes the single layer of forces that came later, at the nodes of their curves, x then y, curve after curve.
-    pub(crate) fn kept_layer(&mut self, forces: &[f64]) {
-        self.set_kept(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
+    /// Computes the stored single layers for forces at the nodes of their curves, x then y, curve after curve.
+    pub(crate) fn stored_layer(&mut self, forces: &[f64]) {
+        self.set_stored(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
         self.clear();
-        let Self { direct, walls, close, curves, plans, out, kept, .. } = self;
-        direct.add_kept(curves, plans, *kept, out);
+        let Self { direct, walls, close, curves, plans, flow, stored, .. } = self;
+        direct.add_stored(curves, plans, *stored, flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, kept.first..curves.len(), out);
+            walls.add_forces(curves, stored.first..curves.len(), flow);
         }
-        close.add_kept(curves, out);
+        close.add_stored(curves, flow);
     }
 
-    /// Interpolates forces that came later to the fine nodes.
-    pub(crate) fn refine_kept(&mut self) {
-        for curve in &mut self.curves[self.kept.first..] {
+    /// Interpolates shape and forces of the stored curves to their fine nodes.
+    pub(crate) fn refine_stored(&mut self) {
+        for curve in &mut self.curves[self.stored.first..] {
             curve.refine_forces(&mut self.plans[curve.plan].transforms);
         }
     }
 
-    /// Takes over forces that come later; at the fine nodes too, where they are asked for.
-    pub(crate) fn set_kept(&mut self, forces: &[f64], fine: bool) {
+    /// Takes over forces at the nodes of the stored curves; with `fine`, at the fine nodes too.
+    pub(crate) fn set_stored(&mut self, forces: &[f64], fine: bool) {
         let mut first = 0;
-        for curve in &mut self.curves[self.kept.first..] {
+        for curve in &mut self.curves[self.stored.first..] {
             let values = &forces[first..first + 2 * curve.len()];
             curve.set_forces(&mut self.plans[curve.plan].transforms, values, fine);
             first += values.len();
         }
     }
 
-    /// Computes the double layer at the nodes: walls and multipoles to an accuracy relative to the velocities.
+    /// Computes the double layer at the nodes, walls and multipoles to an `accuracy` relative to the velocities.
     pub(crate) fn double_layer(&mut self, density: Density<'_>, accuracy: f64) {
         if self.walls.as_ref().is_some_and(Walls::is_refined) {
             self.refine(density);
         }
         let mean = self.mean_flow(density);
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, fine, out, kept, .. } = self;
-        for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..kept.first]).enumerate() {
+        let Self { direct, multipoles, walls, close, curves, fine, flow, stored, .. } = self;
+        for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..stored.first]).enumerate() {
             let weight = density.contrasts[index] * curve.weight();
             arrays.dipoles.fill(density.of(index), &curve.nodes.tangent, weight);
         }
 
-        direct.add_dipoles(curves, out);
+        direct.add_dipoles(curves, flow);
         let dipoles = direct.curves.iter().map(|arrays| &arrays.dipoles);
-        multipoles.add_dipoles(&curves[..kept.first], dipoles, accuracy, out);
+        multipoles.add_dipoles(&curves[..stored.first], dipoles, accuracy, flow);
         if let Some(walls) = walls {
-            walls.add_dipoles(curves, density, fine, accuracy, out);
+            walls.add_dipoles(curves, density, fine, accuracy, flow);
         }
         if let Some(mean) = mean {
-            for out in &mut *out {
-                out.x.iter_mut().for_each(|u| *u -= mean.re);
-                out.y.iter_mut().for_each(|v| *v -= mean.im);
+            for flow in &mut *flow {
+                flow.x.iter_mut().for_each(|u| *u -= mean.re);
+                flow.y.iter_mut().for_each(|v| *v -= mean.im);
             }
         }
-        close.add_dipoles(density, out);
+        close.add_dipoles(density, flow);
     }
 
-    /// Velocity at height y of the flow that the forcing of a channel drives.
-    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> f64 {
-        self.walls.as_ref().map_or(0.0, |walls| walls.forced_flow(y, viscosity))
+    /// Velocity (length per time) and shear rate (1/time) at the height y of the flow that the drive of a channel
+    /// drives in fluid of that viscosity.
+    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> [f64; 2] {
+        self.walls.as_ref().map_or([0.0; 2], |walls| walls.forced_flow(y, viscosity))
     }
 
-    /// Drives the flow by a mean pressure gradient (force per volume).
+    /// Prescribes the mean pressure gradient along a channel (force per volume).
     pub(crate) fn set_gradient(&mut self, gradient: f64) {
         if let Some(walls) = &mut self.walls {
-            walls.forcing = Forcing::Gradient(gradient);
+            walls.drive = Drive::Gradient(gradient);
         }
     }
 
-    /// The two curves and the place where a node lies on the wrong side of a fixed curve, as far as the last single
-    /// layer has seen.
+    /// A node on the wrong side of a stored curve, if the last single layer has come across one.
     pub(crate) fn crossing(&self) -> Option<Crossing> {
         self.close.crossing()
     }
 
-    /// What the flux through the channel of the forces of some curves, without a mean pressure gradient, is `1/(2 l
-    /// eta)` times of.
+    /// First moment M of the forces on some curves (force times area): at zero mean pressure gradient they drive the
+    /// flux M/(2 l eta) through a channel of period l.
     pub(crate) fn force_moment(&self, from: Range<usize>) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.force_moment(&self.curves[from]))
     }
 
-    /// The same of a double layer.
+    /// First moment of a double layer, which drives the flux M/(2 l eta) like that of forces.
     pub(crate) fn dipole_moment(&self, density: Density<'_>) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.dipole_moment(&self.curves, density))
     }
 
-    /// Mean pressure gradient along x (force per volume).
+    /// Mean pressure gradient along a channel (force per volume), zero elsewhere.
     pub(crate) fn pressure_gradient(&self, density: Density<'_>, viscosity: f64) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, viscosity))
     }
 
     /// Interpolates velocities to the fine nodes.
-    fn refine(&mut self, density: Density<'_>) {
+    pub(crate) fn refine(&mut self, density: Density<'_>) {
         let nodes = density.nodes();
         let len = REFINEMENT * nodes;
         self.fine.resize(len * density.contrasts.len(), Complex64::default());
@@ -309,9 +285,9 @@ impl Layers {
         }
     }
 
-    /// 4 pi/area times the sum of X v.n in a box, whose mean velocity is zero.
-    fn mean_flow(&self, density: Density<'_>) -> Option<Complex64> {
-        let Geometry::Box { lengths: [lx, ly] } = self.geometry else { return None };
+    /// Mean of the double layer in a box, 4 pi/area times the sum of X v.n, which its flow is reduced by.
+    pub(crate) fn mean_flow(&self, density: Density<'_>) -> Option<Complex64> {
+        let Region::Box { lengths: [lx, ly] } = self.region else { return None };
         let mut sum = Complex64::default();
         for (index, (curve, contrast)) in self.curves.iter().zip(density.contrasts).enumerate() {
             let (vx, vy) = density.of(index);

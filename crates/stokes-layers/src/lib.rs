@@ -1,14 +1,14 @@
-//! Layer potentials of two-dimensional Stokes flow: spectrally accurate, at any distance from the curves, in the plane,
+//! Layer potentials of two-dimensional Stokes flow, spectrally accurate at any distance from the curves, in the plane,
 //! in periodic boxes and in channels.
 //!
 //! # Example
 //!
 //! An ellipse of fluid ten times as viscous as the fluid around it, with a surface tension of 1, relaxes to a circle.
-//! The velocity of its tip, and the flow at its centre and close to it:
+//! This computes the velocity of its tip, and the flow at its centre and close to the tip:
 //!
 //! ```
-//! use stokes_layers::{FlowSample, Interface, InterfaceFlow, PeriodicCalculus, Geometry, Settings};
-//! use stokes_layers::{TensionPlacement, Vec2};
+//! use motile_base::{FlowSample, Region, Vec2};
+//! use stokes_layers::{Interface, InterfaceFlow, PeriodicCalculus, Settings, TensionPlacement};
 //!
 //! # fn main() -> Result<(), stokes_layers::LayerError> {
 //! let count = 128;
@@ -17,7 +17,7 @@
 //! let mut forces = vec![Vec2::ZERO; count];
 //! PeriodicCalculus::new(count)?.tension_forces(&positions, &[1.0; 128], TensionPlacement::Points, &mut forces)?;
 //!
-//! let mut flow = InterfaceFlow::new(Geometry::Plane, 1.0, Settings::default())?;
+//! let mut flow = InterfaceFlow::new(Region::Plane, 1.0, Settings::default())?;
 //! flow.load([Interface::closed(&positions, &forces, [10.0, 1.0])].into_iter())?;
 //! let solution = flow.solve()?;
 //! let mut velocities = vec![Vec2::ZERO; count];
@@ -35,51 +35,55 @@
 //!
 //! # Method
 //!
-//! With the Green's function G of a region and its stress T, `lap G - grad p = -4 pi delta`, forces F per length on
-//! curves and velocities v on them have the flows
+//! With the Green's function G of a region, `lap G - grad p = -4 pi delta`, and its stress T, forces F per length on
+//! curves and velocities v on them have the flows (Pozrikidis, Boundary Integral and Singularity Methods, 1992)
 //!
 //! ```text
 //! single layer  1/(4 pi eta) INT G(x, y) F(y) ds(y)        double layer  1/(4 pi) INT v(y) T(x, y) n(y) ds(y)
 //! ```
 //!
-//! and with fluid of another viscosity inside the two together give an integral equation for v ([`InterfaceFlow`]).
+//! With fluid of another viscosity inside the curves the two together give an integral equation for v
+//! ([`InterfaceFlow`]).
 //!
-//! * Curves are truncated Fourier series on equally spaced values of their parameter, plus a straight line for those
-//!   that are open and go on periodically along x. These have the Green's function of a row of images, all else is the
-//!   same.
+//! * Curves are truncated Fourier series on equally spaced values of their parameter. Open curves, which continue
+//!   periodically along x, are a straight line more, and have the Green's function of a row of images.
 //! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
 //!   12.3), the rest by the trapezoidal rule.
-//! * Curves that are close are summed node by node, in the plane or with a row of images in closed form in a channel.
-//!   What is left is smooth, the images of a box and curves farther away: its Taylor series, found from values on a
+//! * Curves that are close to each other are summed node by node, in a channel with a row of images in closed form. The
+//!   flow of curves farther away and of the images of a box is smooth: its Taylor series, computed from values on a
 //!   circle, is summed by moments. Walls are a Fourier series along the channel, analytic across it.
 //! * A viscosity contrast needs the double layer and GMRES ([`gmres`]); its iterations depend neither on the nodes nor,
 //!   beyond a ratio of about ten, on the ratio.
-//! * Points and nodes close to a curve use the preimage of the point under the complex parametrisation.
+//! * At points and nodes close to a curve the quadrature uses the preimage of the point under the complex
+//!   parametrisation.
 //!
-//! [`SingleLayer`] is the operator alone, for forces that follow from the velocities. Where the single layer comes from
-//! elsewhere, such as a grid, [`dense`] has the double layer as a matrix. The cost of
-//! a solution grows with the square of the number of nodes of a curve and of its close neighbours, and for pairs
-//! farther apart by some microseconds each; it suits some tens of curves.
+//! [`SingleLayer`] is the single layer as an operator, for forces that follow from the velocities. The cost of a
+//! solution grows with the square of the number of nodes of a curve and of its close neighbours; each pair of curves
+//! farther apart costs some microseconds. The method suits some tens of curves.
 
-mod close;
+mod calculus;
+mod close_weights;
 mod curve;
-pub mod dense;
+mod density;
+mod direct;
 mod error;
-mod geometry;
 pub mod gmres;
 mod greens;
+mod images;
 mod interface_flow;
 mod layer;
 mod multipole;
+mod plan;
+mod rigid_motion;
+mod sample;
 mod settings;
 mod single_layer;
+mod transforms;
 
-pub use curve::{PeriodicCalculus, TensionPlacement};
+pub use calculus::{PeriodicCalculus, TensionPlacement};
+pub use curve::LayerCurve;
 pub use error::LayerError;
-pub use geometry::{Forcing, Geometry};
-/// A position, force or velocity.
-pub use glam::DVec2 as Vec2;
-pub use input_checks::InputError;
-pub use interface_flow::{FlowSample, Inside, Interface, InterfaceFlow, RigidMotion, Solution, WarmStart};
-pub use settings::Settings;
-pub use single_layer::{LayerCurve, Reciprocity, SingleLayer};
+pub use interface_flow::{Inside, Interface, InterfaceFlow, Solution, WarmStart};
+pub use rigid_motion::RigidMotion;
+pub use settings::{Settings, Symmetry};
+pub use single_layer::SingleLayer;

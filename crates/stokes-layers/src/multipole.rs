@@ -1,26 +1,30 @@
-//! The flow between curves that are far from each other, and of images: multipole expansions.
+//! Layers between curves that are far from each other, and of images: multipole expansions.
 //!
-//! What is left of the Green's function between two curves when the images that are close have been summed node by node
-//! is smooth. Its Taylor series is summed by the moments of the sources.
+//! Without the images that are close, which are summed node by node, the Green's function between two curves is smooth.
+//! Its Taylor series is summed by the moments of the sources.
 
 mod expansion;
 mod series;
 
-use input_checks::InputError;
+use motile_base::InputError;
 use num_complex::Complex64;
 
+use crate::images::Images;
 use crate::{
-    Geometry,
     curve::Curve,
-    greens::{FreePair, LatticePair, RowPair, Vectors},
-    layer::{Dipoles, DirectPair, Kept, Pair},
+    density::StoredLayers,
+    direct::{CurvePair, Dipoles},
+    greens::{AnyPair, FreePair, LatticePair, RowPair, Vectors},
 };
 use expansion::{Expansion, Moments};
+use motile_base::Region;
 use series::{Extent, LARGEST_RATIO, MOST_DEGREES, Series, SeriesFinder};
 
-/// Fewest terms of a series.
+/// Least degree of a series: the background terms of a box read moments up to the second, and two degrees more cost
+/// nothing.
 const LEAST_DEGREE: usize = 4;
-/// Safety factor of an accuracy that is asked for.
+/// Safety factor of an accuracy that is asked for: the ratio to the power of the degree leaves out the derivative of a
+/// dipole, a factor of the degree, and the sum of all further terms, together some hundred.
 const MARGIN: f64 = 1e-3;
 
 /// A source and a target with the series between them.
@@ -34,17 +38,19 @@ struct Link {
 /// Series between curves and the moments that go with them.
 #[derive(Debug, Clone)]
 pub(crate) struct Multipoles {
-    geometry: Geometry,
+    region: Region,
     tolerance: f64,
     finder: SeriesFinder,
-    /// The series of a box around the source itself, with its unit.
+    /// Series between a curve and its own images in a box, the same for all curves, with its unit of length.
     own: Option<(Series, f64)>,
     expansion: Expansion,
     moments: Vec<Moments>,
     links: Vec<Link>,
-    /// Links in use; the others keep their memory.
+    /// Number of links in use; the others keep their memory.
     used: usize,
+    /// Unit of length of all series (length), the largest radius of a curve.
     unit: f64,
+    /// Largest degree of a series in use.
     degree: usize,
     products: Vec<Complex64>,
     fluxes: Vec<f64>,
@@ -53,9 +59,9 @@ pub(crate) struct Multipoles {
 }
 
 impl Multipoles {
-    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Result<Self, InputError> {
-        let mut finder = SeriesFinder::new(&geometry, tolerance)?;
-        let own = if let Geometry::Box { lengths: [lx, ly] } = geometry {
+    pub(crate) fn new(region: Region, tolerance: f64) -> Result<Self, InputError> {
+        let mut finder = SeriesFinder::new(&region, tolerance)?;
+        let own = if let Region::Box { lengths: [lx, ly] } = region {
             let unit = lx.min(ly);
             let mut series = Series::new();
             let extent = Extent { reach: LARGEST_RATIO * unit, unit, degree: MOST_DEGREES };
@@ -65,7 +71,7 @@ impl Multipoles {
             None
         };
         Ok(Self {
-            geometry,
+            region,
             tolerance,
             finder,
             own,
@@ -82,18 +88,17 @@ impl Multipoles {
     }
 
     /// Divides the Green's function between all curves into sums over nodes, which are added to `pairs`, and series.
-    pub(crate) fn divide(&mut self, curves: &[Curve], kept: Kept, pairs: &mut Vec<DirectPair>) {
+    pub(crate) fn divide(&mut self, curves: &[Curve], stored: StoredLayers, pairs: &mut Vec<CurvePair>) {
         self.used = 0;
         self.degree = 0;
-        // Lengths are in units of the largest radius.
         let closed = curves.iter().filter(|curve| !curve.is_open());
         self.unit = closed.map(|curve| curve.radius).fold(0.0, f64::max);
         self.moments.resize_with(curves.len(), Moments::default);
         for target in 0..curves.len() {
             for source in target..curves.len() {
-                if kept.is_kept(target) || kept.is_kept(source) || curves[target].is_open() || curves[source].is_open()
-                {
-                    if kept.pair(target, source) {
+                let [one, other] = [target, source].map(|curve| stored.has(curve) || curves[curve].is_open());
+                if one || other {
+                    if stored.couples(target, source) {
                         pairs.push(self.whole_pair(curves, [target, source]));
                     }
                 } else {
@@ -103,63 +108,57 @@ impl Multipoles {
         }
     }
 
-    /// All images summed node by node: for curves that no series reaches around, and where the sums are kept.
-    fn whole_pair(&self, curves: &[Curve], [target, source]: [usize; 2]) -> DirectPair {
+    /// A pair with all images summed node by node: for open curves, which no series reaches around, stored curves, and
+    /// curves that are close in the plane or a channel.
+    fn whole_pair(&self, curves: &[Curve], [target, source]: [usize; 2]) -> CurvePair {
         let own = target == source;
         let swap = curves[target].len() > curves[source].len();
         let [target, source] = if swap { [source, target] } else { [target, source] };
-        let offset = self.geometry.images().wrap(curves[source].centre - curves[target].centre);
+        let offset = Images::of(&self.region).wrap(curves[source].centre - curves[target].centre);
         let offset = [offset.re, offset.im];
-        let kernel = match self.geometry {
-            Geometry::Plane => Pair::Free(FreePair { offset }),
-            Geometry::Channel { length, .. } => Pair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
-            Geometry::Box { lengths } => Pair::Lattice(LatticePair::new(lengths, offset, self.tolerance)),
+        let kernel = match self.region {
+            Region::Plane => AnyPair::Free(FreePair { offset }),
+            Region::Channel { length, .. } => AnyPair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
+            Region::Box { lengths } => AnyPair::Lattice(LatticePair::new(lengths, offset, self.tolerance)),
         };
-        DirectPair { target, source, own, kernel }
+        CurvePair { target, source, own, kernel }
     }
 
-    fn divide_pair(&mut self, curves: &[Curve], [target, source]: [usize; 2], pairs: &mut Vec<DirectPair>) {
+    /// Divides the Green's function between two closed curves.
+    fn divide_pair(&mut self, curves: &[Curve], [target, source]: [usize; 2], pairs: &mut Vec<CurvePair>) {
         let own = target == source;
         let reach = curves[target].radius + curves[source].radius;
         let too_close = |distance: Complex64| reach > LARGEST_RATIO * distance.norm();
-        let distance = self.geometry.images().wrap(curves[target].centre - curves[source].centre);
+        let distance = Images::of(&self.region).wrap(curves[target].centre - curves[source].centre);
         self.direct.clear();
-        let (mut nearest, mut direct) = (distance.norm(), own || too_close(distance));
-        // The one with fewer nodes is the target of the sums.
-        let swap = curves[target].len() > curves[source].len();
-        let ends = if swap { [source, target] } else { [target, source] };
-        let mut sum_over_nodes = |kernel, own| pairs.push(DirectPair { target: ends[0], source: ends[1], own, kernel });
-        let to_source = |e: Complex64| if swap { [e.re, e.im] } else { [-e.re, -e.im] };
-        let free = |e: Complex64| Pair::Free(FreePair { offset: to_source(e) });
-        match self.geometry {
-            Geometry::Plane if direct => sum_over_nodes(free(distance), own),
-            Geometry::Channel { length, .. } if direct => {
-                let k = std::f64::consts::TAU / length;
-                sum_over_nodes(Pair::Row(RowPair::new(k, to_source(distance))), own);
-            }
-            Geometry::Plane | Geometry::Channel { .. } => {}
-            Geometry::Box { lengths: [lx, ly] } => {
-                (nearest, direct) = (f64::INFINITY, false);
-                for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))) {
-                    let e = distance + Complex64::new(f64::from(i) * lx, f64::from(j) * ly);
-                    let itself = own && (i, j) == (0, 0);
-                    if !itself && !too_close(e) {
-                        nearest = nearest.min(e.norm());
-                        continue;
-                    }
-                    self.direct.push(e);
-                    // A pair of curves serves both directions, so of two opposite images of its own one is enough.
-                    if !own || (i, j) >= (0, 0) {
-                        sum_over_nodes(free(e), itself);
-                    }
+        let mut nearest = distance.norm();
+        if let Region::Box { lengths: [lx, ly] } = self.region {
+            // The one with fewer nodes is the target of the sums.
+            let swap = curves[target].len() > curves[source].len();
+            let ends = if swap { [source, target] } else { [target, source] };
+            nearest = f64::INFINITY;
+            for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))) {
+                let e = distance + Complex64::new(f64::from(i) * lx, f64::from(j) * ly);
+                let itself = own && (i, j) == (0, 0);
+                if !itself && !too_close(e) {
+                    nearest = nearest.min(e.norm());
+                    continue;
+                }
+                self.direct.push(e);
+                // A pair of curves serves both directions, so of two opposite images of its own one is enough.
+                if !own || (i, j) >= (0, 0) {
+                    let offset = if swap { [e.re, e.im] } else { [-e.re, -e.im] };
+                    let kernel = AnyPair::Free(FreePair { offset });
+                    pairs.push(CurvePair { target: ends[0], source: ends[1], own: itself, kernel });
                 }
             }
+        } else if own || too_close(distance) {
+            pairs.push(self.whole_pair(curves, [target, source]));
+            return;
         }
-        if !direct {
-            let ratio = (reach / nearest).min(LARGEST_RATIO);
-            let degree = ((self.tolerance.ln() / ratio.ln()).ceil() as usize).clamp(LEAST_DEGREE, MOST_DEGREES);
-            self.link([target, source], distance, Extent { reach, unit: self.unit, degree });
-        }
+        let ratio = (reach / nearest).min(LARGEST_RATIO);
+        let degree = ((self.tolerance.ln() / ratio.ln()).ceil() as usize).clamp(LEAST_DEGREE, MOST_DEGREES);
+        self.link([target, source], distance, Extent { reach, unit: self.unit, degree });
     }
 
     /// Adds the series between two curves and its reverse.
@@ -168,7 +167,7 @@ impl Multipoles {
         let index = self.next(target, source);
         let series = &mut self.links[index].series;
         match &self.own {
-            _ if self.geometry == Geometry::Plane => series.free(distance, extent),
+            _ if self.region == Region::Plane => series.free(distance, extent),
             Some((own, unit)) if target == source && self.direct.len() == 1 => {
                 series.rescale(own, extent.unit / unit, extent.degree);
             }
@@ -181,7 +180,7 @@ impl Multipoles {
         }
     }
 
-    /// The number of a link that is not in use, with its memory.
+    /// Number of a link that was not in use.
     fn next(&mut self, target: usize, source: usize) -> usize {
         if self.used == self.links.len() {
             self.links.push(Link { target, source, series: Series::new() });
@@ -192,7 +191,7 @@ impl Multipoles {
         self.used - 1
     }
 
-    /// Adds the flow of the forces; `curves` are those whose sums are not kept.
+    /// Adds the flow of the forces on curves that are not stored.
     pub(crate) fn add_forces(&mut self, curves: &[Curve], out: &mut [Vectors]) {
         if self.used == 0 {
             return;
@@ -207,7 +206,7 @@ impl Multipoles {
         self.add_flow(curves, self.degree, out);
     }
 
-    /// Adds the flow of the dipoles of each curve to an accuracy relative to them.
+    /// Adds the flow of the dipoles of curves that are not stored, to an `accuracy` relative to them.
     pub(crate) fn add_dipoles<'a>(
         &mut self,
         curves: &[Curve],
@@ -218,7 +217,7 @@ impl Multipoles {
         if self.used == 0 {
             return;
         }
-        // Terms fall off geometrically: a part of the digits needs that part of the terms.
+        // Terms fall off geometrically: half of the digits need half of the terms.
         let part = ((MARGIN * accuracy).ln() / self.tolerance.ln()).clamp(0.0, 1.0);
         let degree = ((part * self.degree as f64).ceil() as usize).max(LEAST_DEGREE);
         for ((curve, dipoles), moments) in curves.iter().zip(dipoles).zip(&mut self.moments) {
@@ -246,7 +245,7 @@ impl Multipoles {
                 any = true;
             }
             if any {
-                self.expansion.add_flow(&curve.nodes.position, self.unit, self.geometry.area(), out);
+                self.expansion.add_flow(&curve.nodes.position, self.unit, Images::of(&self.region).area(), out);
             }
         }
     }

@@ -1,6 +1,8 @@
-//! How finely and how exactly layers are computed.
+//! Resolution and accuracy of layers.
 
-use input_checks::{InputError, within};
+use motile_base::{InputError, within};
+
+use crate::curve::NODES;
 
 /// Resolution and accuracy of [`crate::InterfaceFlow`].
 ///
@@ -12,13 +14,13 @@ use input_checks::{InputError, within};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Nodes of a curve, 16 to 4096: positions, forces and velocities are kept to the modes |m| <= (nodes - 1)/2.
+    /// Nodes of a curve, 16 to 4096: positions, forces and velocities have the modes |m| <= (nodes - 1)/2.
     pub nodes: usize,
-    /// Relative accuracy of everything that is truncated: images, wall modes, close quadrature and the residual of the
-    /// iteration for a viscosity contrast. Between 1e-15 and 1e-3.
+    /// Relative accuracy of everything that is truncated, between 1e-15 and 1e-3: images, wall modes, close quadrature
+    /// and the residual of the iteration for a viscosity contrast.
     pub tolerance: f64,
-    /// Start the iteration for a viscosity contrast from the velocities of the solution before. It halves the
-    /// iterations and lets results depend on what was computed before, by the order of the tolerance.
+    /// Start of the iteration for a viscosity contrast from the velocities of the solution before. It halves the
+    /// iterations and lets results depend on earlier ones, by the order of the tolerance.
     pub warm_start: bool,
     /// Iterations for a viscosity contrast after which a solution fails.
     pub most_iterations: usize,
@@ -32,8 +34,21 @@ impl Default for Settings {
 
 impl Settings {
     pub(crate) fn check(&self) -> Result<(), InputError> {
-        within("the number of nodes", self.nodes as f64, 16.0, 4096.0)?;
-        within("the tolerance", self.tolerance, 1e-15, 1e-3)?;
+        within("the number of nodes", self.nodes as f64, NODES[0], NODES[1])?;
         within("the largest number of iterations", self.most_iterations as f64, 1.0, 1e6).map(drop)
     }
+}
+
+/// Symmetry of the [`crate::SingleLayer`] between nodes that are close to each other, where the corrections of the
+/// quadrature decide on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Symmetry {
+    /// Symmetric to the accuracy to which the nodes resolve the forces: each direction is corrected by itself, so that
+    /// velocities are spectrally accurate at every node.
+    ToResolution,
+    /// Symmetric to round-off: corrections are computed at the nodes of the curve whose nodes are closer together (of
+    /// two with the same spacing the first one), and the other curve gets the transpose. Accurate for integrals over
+    /// smooth fields at the nodes, such as power.
+    ToRoundOff,
 }

@@ -1,8 +1,11 @@
 use super::*;
-use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, OutputFlags, Preset};
+use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, Preset};
 use clap::CommandFactory as _;
-use motile::ib_core::{AnyKernel, StepSize};
-use motile::{DropletSetup, Exclusion, GridMethod, Method, MethodKind, Region, Setup, Start};
+use motile::ib_core::AnyKernel;
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
+use motile_output::run::OutputFlags;
 
 #[derive(Debug, Parser)]
 struct Flags {
@@ -40,7 +43,7 @@ fn all_flags_with_their_values() {
     assert_eq!(particles.excluded_volume, Exclusion::Step(8.0));
     assert_eq!(particles.start, Start::Perturbed { amplitude: 0.05, seed: 7 });
     flags.channel.apply(&mut setup).unwrap();
-    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::stokes_grid::Drive::ZeroFlux });
+    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::motile_base::Drive::ZeroFlux });
     assert_eq!(setup.droplets[0].centre, [0.0, -0.2]);
 }
 
@@ -67,11 +70,10 @@ fn presets_set_what_is_not_said() {
     let mixed = setup("--preset thesis --dt auto --kernel bspline5").unwrap();
     let grid = GridMethod { kernel: AnyKernel::BSpline5, ..GridMethod::thesis() };
     assert_eq!(mixed, Setup { method: Method::Grid(grid), step: StepSize::OfLimit(0.5), ..Setup::thesis() });
-    // An arithmetic contrast has no mobility correction.
-    let arithmetic = setup("--contrast-method arithmetic --viscosity-in 10").unwrap();
-    assert!(matches!(arithmetic.method, Method::Grid(GridMethod { corrected: false, .. })));
-    let equal = setup("--contrast-method arithmetic").unwrap();
-    assert!(matches!(equal.method, Method::Grid(GridMethod { corrected: true, .. })));
+    // A contrast on the grid has no mobility correction.
+    assert!(matches!(setup("--preset thesis --viscosity-in 10").unwrap().method, Method::Grid(_)));
+    let refused = setup("--spacing 0.1 --viscosity-in 10").unwrap_err();
+    assert!(refused.contains("give --method layers"), "{refused}");
 }
 
 #[test]
@@ -91,8 +93,8 @@ fn flags_override_a_scene_file_and_leave_the_rest() {
     expected.droplets[0] = DropletSetup { centre: [0.0, 0.5], ..DropletSetup::active(-1.0) };
     expected.droplets[0].viscosity = Some(9.0);
     expected.region = Region::Box { lengths: [20.0, 20.0] };
-    expected.method = Method::Grid(GridMethod::of_spacing(0.1));
-    let line = "--activity -1 --viscosity-in 9 --offset 0,0.5 --box 20 --spacing 0.1";
+    expected.method = Method::Layers(LayersMethod::of_spacing(0.1));
+    let line = "--activity -1 --viscosity-in 9 --offset 0,0.5 --box 20 --method layers --spacing 0.1";
     assert_eq!(over(Some(file), line).unwrap(), expected);
 }
 
@@ -114,9 +116,12 @@ fn the_method_follows_from_the_flags() {
     for line in ["", "--nodes 64", "--spacing 0.1 --method boundary-integral", "--nodes 64 --spacing 0.1"] {
         assert_eq!(method(line), Ok(MethodKind::Integral), "{line}");
     }
-    for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis", "--contrast-method arithmetic"] {
+    for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis"] {
         assert_eq!(method(line), Ok(MethodKind::Grid), "{line}");
     }
+    let layers = setup("--method layers --nodes 64 --spacing 0.1 --kernel bspline5").unwrap().method;
+    let expected = LayersMethod { nodes: 64, cells: 256, spacing: 0.1, kernel: AnyKernel::BSpline5 };
+    assert_eq!(layers, Method::Layers(expected));
     for line in [
         "--method immersed-boundary --nodes 64",
         "--method boundary-integral --kernel roma3",
@@ -166,12 +171,6 @@ fn what_is_wrong_is_said_in_one_sentence() {
     for (line, expected) in cases {
         assert_eq!(parse(line).unwrap_err(), expected, "{line}");
     }
-}
-
-#[test]
-fn causes_are_told_once() {
-    let error = anyhow::anyhow!("no such file").context("at time 3: no such file").context("reading");
-    assert_eq!(explained(&error), "reading: at time 3: no such file");
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn what_is_wrong_with_a_pair_is_told() {
 /// What is announced is what a description takes.
 #[test]
 fn ranges_of_counts() {
-    use motile::{Method, Setup};
+    use motile::setup::{Method, Setup};
     for (text, taken) in [("15", false), ("16", true), ("4096", true), ("4097", false)] {
         assert_eq!(nodes(text).is_ok(), taken, "{text}");
         let [nodes, cells] = [text.parse().unwrap(), 16_384];

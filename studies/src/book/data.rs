@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use motile::Setup;
-use motile::ib_core::Vec2;
-use motile_examples::{Summary, explained, make_directory, say};
+use motile::motile_base::Vec2;
+use motile::setup::Setup;
+use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
 use serde::Deserialize;
 use serde_json::Value;
@@ -14,10 +14,8 @@ use toml::Table;
 
 use super::Making;
 use super::expression::Row;
-use crate::run_pool::RunPool;
-use crate::sweep::plan::Plan;
-use crate::sweep::trial::{State, Trial};
 use crate::tables;
+use motile_output::sweep::{Plan, RunPool, State, Trial};
 
 /// Where on a swimmer's axis the flow is looked at: distances from the interface (length), each that times the last.
 const NEAREST: f64 = 0.01;
@@ -38,7 +36,7 @@ const LONGEST: usize = 40;
 pub(super) struct Source {
     /// What it is, in words.
     about: String,
-    /// A plan as those of `studies sweep`, its scene in it.
+    /// A plan as those of [`motile_output::sweep`], its scene in it.
     #[serde(default)]
     plan: Option<Table>,
     /// What is other with `--quick`.
@@ -134,6 +132,7 @@ impl Source {
             // What was made from another plan is not taken for this one.
             make_directory(&trial.folder)?;
             trial.keep_scene()?;
+            trial.discard_others()?;
             if let State::Failed(failure) = trial.state() {
                 say(format_args!("{name}: left out: {}: {failure}", trial.label));
             }
@@ -160,7 +159,7 @@ impl Source {
 /// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the
 /// interface (length), as far as fluid of its own is; nothing where it is nowhere.
 fn stagnation(state: &SteadyState) -> Result<[Option<f64>; 2]> {
-    let heading = state.velocity().normalize_or_zero();
+    let heading = state.velocity().try_normalize().unwrap_or_default();
     let along = |x: &Vec2| x.dot(heading);
     let places = state.profile().positions.iter().map(along);
     let [rear, front] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);

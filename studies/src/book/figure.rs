@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context, Result, bail, ensure};
-use motile_output::{AxisScale, Marker, Plot, SERIES_COLOURS, Series};
+use motile_output::plot::{AxisScale, Marker, Plot, SERIES_COLOURS, Series};
 use serde::{Deserialize, Serialize};
 
 use super::data::Data;

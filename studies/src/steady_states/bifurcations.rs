@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Context, Result};
-use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{DropletSetup, Setup};
 use motile_tests::validation::Table;
 use steady_states::{
     Continuation, Critical, Eigenmode, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry,
@@ -182,7 +183,7 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", &header);
     let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: [String; 4]| {
         let cells = [format!("{at:.5}"), format!("{amplitude:.4}"), format!("{period:.3}"), format!("{speed:.6}")];
-        motile_examples::say(format_args!("{cells:?} {rest:?}"));
+        motile_output::run::say(format_args!("{cells:?} {rest:?}"));
         table.push(cells.into_iter().chain(rest));
     };
     push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, Default::default());

@@ -1,8 +1,9 @@
 //! Steady swimmers over the length of a channel and over viscosities.
 
 use anyhow::{Context, Result, bail};
-use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{DropletSetup, Setup};
 use motile_tests::validation::Table;
 use steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 

@@ -5,8 +5,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{Built, DropletSetup, Setup};
 use motile_tests::validation::Table;
 use steady_states::{Complex64, Continuation, Cost, Parameter, SteadyState, Symmetry};
 
@@ -215,7 +216,7 @@ pub(super) fn cost() -> Result<Vec<Table>> {
         let (_, spectrum) = timed(|| Ok(black_box(state.spectrum()?)))?;
         let settings = Continuation { most_points: 6, ..Continuation::new(Parameter::Activity, -2.0, -3.0) };
         let (branch, followed) = timed(|| Ok(settings.follow(&state, |_, _| true)?))?;
-        let Cost { jacobian, factorisation, eigenvalues, unknowns } = state.cost()?;
+        let Cost { jacobian, factorisation, eigenvalues, unknowns, .. } = state.cost()?;
         let rate = branch.points.len() as f64 / followed;
         let parts = [first, neighbour, jacobian, factorisation, eigenvalues, spectrum, rate];
         let cells = parts.map(|value| if value < 0.01 { format!("{value:.1e}") } else { format!("{value:.3}") });

@@ -3,9 +3,11 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use motile::ib_core::{AnyKernel, Hydrodynamics, Scene, Transfer, Vec2, hydrodynamics::FlowWork};
+use motile::ib_core::{AnyKernel, Transfer};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{FlowWork, Hydrodynamics, Scene};
 use motile::stokes_grid::{Grid, RealFft2, StaggeredField, Symbol};
-use motile_examples::Summary;
+use motile_output::run::Summary;
 use motile_timing::{PlainPair, median};
 
 use crate::step_cost::watched::Stopwatches;

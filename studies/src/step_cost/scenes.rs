@@ -1,11 +1,15 @@
 //! The scenes whose steps are measured.
 
 use anyhow::Result;
-use motile::elastic_solids::{Solid, mesh::fitted_strip};
-use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
-use motile::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
-use motile_examples::Summary;
+use motile::elastic_solids::Solid;
+use motile::elastic_solids::mesh::fitted_strip;
+use motile::ib_core::{ImmersedBoundary, SmearedContrast};
+use motile::motile_base::Region;
+use motile::motile_base::{Drive, Vec2};
+use motile::motile_scene::{Body, Hydrodynamics, Scene};
+use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
+use motile_output::run::Summary;
 
 use crate::step_cost::phases::Case;
 use crate::step_cost::watched::{Stopwatches, Watched};
@@ -73,7 +77,7 @@ fn name(kind: &str, grid: &Grid) -> String {
     format!("{kind}, {} x {}", grid.nx(), grid.ny())
 }
 
-/// A droplet in a box; sharp contrast if it is more viscous than the exterior fluid.
+/// A droplet in a box.
 fn in_box(kind: &'static str, plan: Plan) -> Result<Job> {
     let grid = plan.grid()?;
     let run = move |budget| {
@@ -149,7 +153,6 @@ pub(crate) fn jobs() -> Result<Vec<Job>> {
         jobs.push(in_channel("elastic channel", Plan::new(between_walls(12.0, 4.0), spacing, None), Some(0.8))?);
     }
     for cells in [60.0, 120.0, 240.0] {
-        jobs.push(in_box("contrast, sharp", Plan::new(square(6.0), 6.0 / cells, Some(THICK)))?);
         jobs.push(smeared(Plan::new(square(6.0), 6.0 / cells, Some(THICK)))?);
     }
     for nodes in [64, 128, 256] {

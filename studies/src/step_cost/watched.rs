@@ -4,10 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use motile::ib_core::{
-    Body, BodyError, Discretisation, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2,
-    body::{Guest, StepInfo, StepLimit},
-    hydrodynamics::{FlowWork, SolveReport},
+use motile::motile_base::{FlowSample, SolveReport, Vec2};
+use motile::motile_scene::{
+    Body, BodyError, FlowError, FlowWork, FluidView, Guest, Hydrodynamics, MarkerKind, Markers, StepInfo, StepLimit,
 };
 use motile::stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 
@@ -65,8 +64,8 @@ impl<B: Body> Body for Watched<B> {
         self.1.forces.time(|| self.0.write_markers(positions));
     }
 
-    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.1.forces.time(|| self.0.write_forces(discretisation, forces))
+    fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.1.forces.time(|| self.0.write_forces(view, forces))
     }
 
     fn state_len(&self) -> usize {
@@ -85,8 +84,8 @@ impl<B: Body> Body for Watched<B> {
         self.1.transport.time(|| self.0.rate(velocities, rate));
     }
 
-    fn begin_step(&mut self, discretisation: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
-        self.1.upkeep.time(|| self.0.begin_step(discretisation, step))
+    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
+        self.1.upkeep.time(|| self.0.begin_step(view, step))
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
@@ -97,16 +96,16 @@ impl<B: Body> Body for Watched<B> {
         self.1.transport.time(|| self.0.solve_implicit(factor, state));
     }
 
-    fn end_step(&mut self, discretisation: &Discretisation, dt: f64) -> Result<(), BodyError> {
-        self.1.upkeep.time(|| self.0.end_step(discretisation, dt))
+    fn end_step(&mut self, view: &FluidView, dt: f64) -> Result<(), BodyError> {
+        self.1.upkeep.time(|| self.0.end_step(view, dt))
     }
 
     fn keep_step(&mut self) {
         self.0.keep_step();
     }
 
-    fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
-        self.0.step_limits(discretisation, limits);
+    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
+        self.0.step_limits(view, limits);
     }
 
     fn as_guest(&mut self) -> Option<&mut dyn Guest> {
@@ -115,8 +114,8 @@ impl<B: Body> Body for Watched<B> {
 }
 
 impl<H: Hydrodynamics> Hydrodynamics for Watched<H> {
-    fn discretisation(&self) -> Discretisation {
-        self.0.discretisation()
+    fn fluid_view(&self) -> FluidView {
+        self.0.fluid_view()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -1,7 +1,9 @@
 //! Studies of channels.
 
-use motile::ib_core::{AnyKernel, StepSize};
-use motile::{DropletSetup, GridMethod, Method, Particles, Region, Setup};
+use motile::ib_core::AnyKernel;
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, StudyError, Table, channel, lateral, order};

@@ -1,6 +1,7 @@
 //! Droplets between elastic walls: both grid spacings, and the rigid limit without a grid.
 
-use motile::{ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, MeshKind, Method, Setup, SolidSetup};
+use motile::elastic_solids::ChannelShape;
+use motile::setup::{DropletSetup, IntegralMethod, LayersMethod, Material, MeshKind, Method, Setup, SolidSetup};
 use motile_tests::validation::Table;
 use motile_tests::validation::scene::open_channel;
 use motile_tests::validation::swimmers::speeds;
@@ -53,21 +54,19 @@ impl Case {
         Setup { viscosity, droplets: vec![droplet], ..Setup::default() }
     }
 
-    fn layers(&self) -> IntegralMethod {
-        IntegralMethod { nodes: self.nodes, cells: 4 * self.nodes }
-    }
-
     fn elastic(&self, h: f64) -> Setup {
         let mut solids = SolidSetup::walls(&ChannelShape::Straight { width: self.width }, &self.material);
         if let Material::NeoHookean { .. } = self.material {
             solids.iter_mut().for_each(|wall| wall.mesh = MeshKind::Unstructured);
         }
-        let method = Method::Grid(GridMethod { layers: self.layers(), ..GridMethod::of_spacing(h) });
+        let layers = LayersMethod { nodes: self.nodes, cells: 4 * self.nodes, ..LayersMethod::of_spacing(h) };
+        let method = Method::Layers(layers);
         Setup { region: open_channel(self.length, self.width + 3.0), method, solids, ..self.setup() }
     }
 
     fn rigid(&self) -> Setup {
-        Setup { region: open_channel(self.length, self.width), method: Method::Integral(self.layers()), ..self.setup() }
+        let method = Method::Integral(IntegralMethod { nodes: self.nodes, cells: 4 * self.nodes });
+        Setup { region: open_channel(self.length, self.width), method, ..self.setup() }
     }
 
     fn speed(&self, setup: &Setup) -> String {

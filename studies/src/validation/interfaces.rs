@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use motile::ib_core::StepSize;
-use motile::{DropletSetup, GridMethod, Method, Region, Setup};
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::growth::{Mode, rate_in_plane, rate_in_plane_limit};
 use motile_tests::validation::interfaces::{Several, passing, relax, ten_in_a_box};
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};

@@ -1,7 +1,9 @@
 //! The speed of swimmers by settings from coarse to fine, which `motile::recommend` chooses from.
 
-use motile::ib_core::StepSize;
-use motile::{DropletSetup, GridMethod, IntegralMethod, Method, Region, SceneKind, Setup};
+use motile::SceneKind;
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 use motile_tests::validation::headings::{course, off_axis};
 use motile_tests::validation::scene::{open_channel, reference, without_grid};
@@ -71,7 +73,12 @@ fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
         (format!("{nodes} nodes, {cells} cells"), Method::Integral(IntegralMethod { nodes, cells }), step)
     };
     let grid = |&h: &f64| (format!("h = {h}"), Method::Grid(GridMethod::of_spacing(h)), step);
-    let spacings = if kind == SceneKind::Channel { CHANNEL_SPACINGS } else { SPACINGS };
+    let spacings = match kind {
+        SceneKind::Box => SPACINGS,
+        // Of first order on a grid.
+        SceneKind::ViscosityContrast => &[],
+        SceneKind::Channel => CHANNEL_SPACINGS,
+    };
     let count = if quick { 2 } else { usize::MAX };
     let mut all: Vec<_> =
         INTEGRALS.iter().take(count).map(integral).chain(spacings.iter().take(count).map(grid)).collect();

@@ -1,7 +1,8 @@
 //! Two droplets that meet.
 
-use motile::ib_core::Vec2;
-use motile::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, RepulsionSetup, Setup};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, RepulsionSetup, Setup};
 use motile_tests::validation::{StudyError, Table};
 
 use super::Tables;
@@ -90,8 +91,10 @@ pub(super) fn two_droplets(quick: bool) -> Tables {
     );
     for (meeting, method, pair, time) in cases {
         let name = match &method {
+            Method::Layers(layers) => format!("layers, {} nodes", layers.nodes),
             Method::Grid(grid) => format!("grid, h = {}", grid.spacing),
             Method::Integral(integral) => format!("{} nodes", integral.nodes),
+            other => other.kind().name().to_owned(),
         };
         let repulsion = if pair[0] > 0.0 { format!("{}, {}", pair[0], pair[1]) } else { String::new() };
         table.push([meeting.0.to_owned(), repulsion, name].into_iter().chain(row(&meeting, method, pair, time)?));

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use motile::ib_core::{Every, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, System};
-use motile_examples::Summary;
+use motile::motile_scene::{Every, Hydrodynamics, Scene, System, integrator::RungeKuttaChebyshev};
+use motile_output::run::Summary;
 use motile_timing::{PlainPair, median};
 
 use crate::work_precision::settings::Stepper;
@@ -57,23 +57,12 @@ pub(crate) fn march<H: Hydrodynamics, T>(
     time: f64,
     end: impl FnOnce(&mut System<H>) -> Result<T>,
 ) -> Result<(Cost, T)> {
-    match stepper {
-        Stepper::Midpoint => go(make, time, end),
-        Stepper::Chebyshev(stages) => {
-            let integrator = || RungeKuttaChebyshev::new().with_most_stages(stages);
-            go(|| Ok(make()?.advanced_by(integrator())), time, end)
-        }
-    }
-}
-
-fn go<H: Hydrodynamics, I: Integrator, T>(
-    make: impl Fn() -> Result<Scene<H, I>>,
-    time: f64,
-    end: impl FnOnce(&mut System<H>) -> Result<T>,
-) -> Result<(Cost, T)> {
     let mut meter = Meter::new();
     for run in 1.. {
         let mut scene = make()?;
+        if let Stepper::Chebyshev(stages) = stepper {
+            scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
+        }
         meter.last = None;
         let (busy, units) = (processor_time(), meter.units);
         let mut watch = |system: &mut System<H>| -> Result<(), std::convert::Infallible> {

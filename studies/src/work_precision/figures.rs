@@ -1,15 +1,14 @@
 //! Error against cost.
 
-use motile_output::{AxisScale, Figure, Marker, Plot, Series};
+use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 
 use crate::work_precision::front::{Point, front};
 use crate::work_precision::studies::Study;
 
-const FAMILIES: [(&str, Marker); 5] = [
+const FAMILIES: [(&str, Marker); 4] = [
     ("boundary integrals", Marker::Disc),
     ("grid, corrected", Marker::Square),
     ("grid, uncorrected", Marker::Circle),
-    ("grid, arithmetic", Marker::Diamond),
     ("thesis", Marker::Triangle),
 ];
 

@@ -1,7 +1,7 @@
 //! Which settings are tried in which scene.
 
-use motile::Contrast;
-use motile::ib_core::{AnyKernel, StepSize};
+use motile::ib_core::AnyKernel;
+use motile::motile_scene::StepSize;
 
 use crate::work_precision::settings::{Flow, Settings, Stepper};
 use crate::work_precision::studies::Study;
@@ -138,12 +138,8 @@ fn thesis(spacings: &[f64]) -> Vec<Settings> {
 
 fn contrast(full: bool) -> Vec<Settings> {
     let mut list = integrals(&[16, 24, 32, 48, 64]);
-    let spacings: &[f64] = if full { &[0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.3, 0.2, 0.15, 0.1, 0.05] };
-    for ratio in [1.0, 0.5] {
-        list.extend(grids(spacings, ratio));
-    }
     let smeared: &[f64] = if full { &[0.2, 0.1, 0.05] } else { &[0.2, 0.1] };
-    list.extend(grids(smeared, 0.5).map(Settings::smeared));
+    list.extend(grids(smeared, 0.5).map(Settings::uncorrected));
     list.extend(smeared.iter().map(|&h| Settings::thesis(h, LONG)));
     list
 }
@@ -182,7 +178,7 @@ fn elastic() -> Vec<Settings> {
 pub(crate) fn series(settings: &Settings) -> String {
     let flow = match settings.flow {
         Flow::Integrals { nodes, cells } => format!("cells {}", cells / nodes),
-        Flow::Grid { ratio, contrast, .. } => format!("ratio {ratio} {}", contrast == Contrast::Sharp),
+        Flow::Grid { ratio, .. } => format!("ratio {ratio}"),
     };
     format!("{} {flow} {:?} {:?} {:?}", settings.family(), settings.kernel, settings.step, settings.stepper)
 }

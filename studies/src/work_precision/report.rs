@@ -10,7 +10,7 @@ use crate::work_precision::studies::Study;
 /// Errors that the tables are made for.
 const TARGETS: [f64; 3] = [0.01, 0.003, 0.001];
 /// Methods that are compared.
-const FAMILIES: [&str; 4] = ["boundary integrals", "grid, corrected", "grid, arithmetic", "thesis"];
+const FAMILIES: [&str; 3] = ["boundary integrals", "grid, corrected", "thesis"];
 
 /// The points on the front of each scene and the presets; the cheapest settings for given errors, and what Cowley's
 /// scheme costs in comparison.

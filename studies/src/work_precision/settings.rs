@@ -1,8 +1,9 @@
 //! One way of computing a scene.
 
-use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::{Contrast, GridMethod, IntegralMethod, Method, Setup};
-use motile_examples::Summary;
+use motile::ib_core::{AnyKernel, Kernel};
+use motile::motile_scene::StepSize;
+use motile::setup::{GridMethod, IntegralMethod, Method, Setup};
+use motile_output::run::Summary;
 use serde_json::Value;
 
 /// How velocities come from forces.
@@ -21,8 +22,6 @@ pub(crate) enum Flow {
         h: f64,
         /// Marker spacing over h.
         ratio: f64,
-        /// How a contrast is treated.
-        contrast: Contrast,
     },
 }
 
@@ -68,7 +67,7 @@ impl Settings {
     pub(crate) fn grid(h: f64, ratio: f64) -> Self {
         Self {
             preset: Preset::Default,
-            flow: Flow::Grid { h, ratio, contrast: Contrast::Sharp },
+            flow: Flow::Grid { h, ratio },
             kernel: AnyKernel::BSpline4,
             corrected: true,
             step: StepSize::OfLimit(0.5),
@@ -80,7 +79,7 @@ impl Settings {
     pub(crate) fn thesis(h: f64, step: StepSize) -> Self {
         Self {
             preset: Preset::Thesis,
-            flow: Flow::Grid { h, ratio: 0.5, contrast: Contrast::Arithmetic },
+            flow: Flow::Grid { h, ratio: 0.5 },
             kernel: AnyKernel::Peskin4,
             corrected: false,
             step,
@@ -104,14 +103,6 @@ impl Settings {
         Self { stepper, ..self }
     }
 
-    pub(crate) fn smeared(self) -> Self {
-        let flow = match self.flow {
-            Flow::Grid { h, ratio, .. } => Flow::Grid { h, ratio, contrast: Contrast::Arithmetic },
-            integrals @ Flow::Integrals { .. } => integrals,
-        };
-        Self { flow, corrected: false, ..self }
-    }
-
     /// The preset's scene with these settings.
     pub(crate) fn setup(&self) -> Setup {
         let (base, filter) = match self.preset {
@@ -120,14 +111,12 @@ impl Settings {
         };
         let method = match self.flow {
             Flow::Integrals { nodes, cells } => Method::Integral(IntegralMethod { nodes, cells }),
-            Flow::Grid { h, ratio, contrast } => Method::Grid(GridMethod {
+            Flow::Grid { h, ratio } => Method::Grid(GridMethod {
                 spacing: h,
                 marker_spacing: Some(ratio * h),
                 kernel: self.kernel,
                 corrected: self.corrected,
                 filter,
-                contrast,
-                layers: IntegralMethod::default(),
             }),
         };
         Setup { method, step: self.step, ..base }
@@ -138,7 +127,6 @@ impl Settings {
         match self.flow {
             _ if self.preset == Preset::Thesis => "thesis",
             Flow::Integrals { .. } => "boundary integrals",
-            Flow::Grid { contrast: Contrast::Arithmetic, .. } => "grid, arithmetic",
             Flow::Grid { .. } if self.corrected => "grid, corrected",
             Flow::Grid { .. } => "grid, uncorrected",
         }
@@ -154,6 +142,7 @@ impl Settings {
             StepSize::Fixed(dt) => format!("dt = {dt}"),
             StepSize::OfLimit(fraction) => format!("dt = {fraction} of the limit"),
             StepSize::Adaptive { tolerance } => format!("adaptive {tolerance:e}"),
+            other => format!("{other:?}"),
         };
         let stepper = match self.stepper {
             Stepper::Midpoint => String::new(),

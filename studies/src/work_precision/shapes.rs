@@ -3,11 +3,14 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
-use motile::AnyFlow;
-use motile::active_interface::{ActiveDroplet, Curve, Motion, curve::polygon_moments};
-use motile::boundary_integral::{self, BoundaryIntegral, Geometry, PeriodicCalculus, TensionPlacement};
-use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
-use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
+use motile::active_interface::{ActiveDroplet, Curve, Motion, polygon_moments};
+use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
+use motile::elastic_solids::mesh::fitted_strip;
+use motile::elastic_solids::{NeoHookean, Solid};
+use motile::ib_core::{AnyKernel, ImmersedBoundary};
+use motile::motile_base::{Region, Vec2};
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene};
+use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
 
@@ -25,7 +28,7 @@ fn grid_flow(settings: &Settings, h: f64) -> Result<ImmersedBoundary<PeriodicSto
 }
 
 fn integral_flow(nodes: usize) -> Result<BoundaryIntegral> {
-    let region = Geometry::Box { lengths: [6.0, 6.0] };
+    let region = Region::Box { lengths: [6.0, 6.0] };
     let settings = boundary_integral::Settings { nodes, ..boundary_integral::Settings::default() };
     Ok(BoundaryIntegral::new(region, 1.0, settings)?)
 }

@@ -4,9 +4,10 @@ use std::sync::OnceLock;
 
 use anyhow::{Result, anyhow};
 use motile::active_interface::ActiveDroplet;
-use motile::ib_core::{StepSize, System};
-use motile::stokes_grid::Drive;
-use motile::{AnyFlow, DropletSetup, Exclusion, Particles, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::{StepSize, System};
+use motile::setup::{AnyFlow, DropletSetup, Exclusion, Particles, Setup};
 use motile_tests::validation::{Reference, ReferenceFile};
 
 use crate::work_precision::cost::{Cost, march};

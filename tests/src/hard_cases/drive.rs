@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use motile::active_interface::{ActiveDroplet, Flux, curve::polygon_area};
-use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
-use motile::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, RepulsionSetup, Setup};
+use motile::active_interface::{ActiveDroplet, Flux, polygon_area};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, Scene, StepSize, System, integrator::RungeKuttaChebyshev};
+use motile::setup::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, RepulsionSetup, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
 
@@ -47,7 +48,7 @@ fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
 
 /// Areas and particle numbers of the droplets of `system`.
 fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
-    let on_grid = system.hydrodynamics().discretisation().spacing.is_some();
+    let on_grid = system.hydrodynamics().fluid_view().spacing.is_some();
     droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
 }
 
@@ -65,15 +66,15 @@ fn drift<H: Hydrodynamics>(system: &System<H>, start: &[[f64; 2]]) -> Drift {
 const MOST: usize = 2_000_000;
 
 /// Runs a scene to time `until`.
-pub(crate) fn run<I: Integrator>(mut scene: Scene<AnyFlow, I>, until: f64, step: StepSize, look: Look<'_>) -> Outcome {
+pub(crate) fn run(mut scene: Scene<AnyFlow>, until: f64, step: StepSize, look: Look<'_>) -> Outcome {
     measured(&mut scene, look, |scene| scene.run(until).step_size(step).most_steps(MOST).go())
 }
 
 /// Runs a scene as `body` does, which leaves it in the last state.
-pub(crate) fn measured<I: Integrator>(
-    scene: &mut Scene<AnyFlow, I>,
+pub(crate) fn measured(
+    scene: &mut Scene<AnyFlow>,
     look: Look<'_>,
-    body: impl FnOnce(&mut Scene<AnyFlow, I>) -> Result<(), motile::ib_core::SceneError>,
+    body: impl FnOnce(&mut Scene<AnyFlow>) -> Result<(), motile::motile_scene::SceneError>,
 ) -> Outcome {
     let start = contents(scene.system());
     let clock = Instant::now();
@@ -107,9 +108,12 @@ pub(crate) fn by(way: Way, base: &Setup) -> Setup {
     let mut setup = base.clone();
     match (way, &mut setup.method) {
         (Way::Integral, method) => *method = Method::Integral(IntegralMethod { nodes: 64, cells: 256 }),
-        (Way::Thesis, Method::Grid(grid)) => {
-            let GridMethod { spacing, marker_spacing, .. } = *grid;
-            *grid = GridMethod { spacing, marker_spacing, ..GridMethod::thesis() };
+        (Way::Thesis, method) => {
+            let (spacing, marker_spacing) = match *method {
+                Method::Grid(grid) => (grid.spacing, grid.marker_spacing),
+                other => (other.spacing().unwrap_or(GridMethod::default().spacing), None),
+            };
+            *method = Method::Grid(GridMethod { spacing, marker_spacing, ..GridMethod::thesis() });
             for droplet in &mut setup.droplets {
                 droplet.motion = MarkerMotion::WithFluid;
                 droplet.area_constraint = true;

@@ -3,7 +3,8 @@
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::elastic_solids::SolidError;
-use motile::ib_core::{BodyError, FlowError, SceneError, input::InputError};
+use motile::motile_base::InputError;
+use motile::motile_scene::{BodyError, FlowError, SceneError};
 
 /// A case that could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -44,8 +45,6 @@ pub enum Ending {
     Crossing,
     /// A marker went beyond a wall.
     BeyondWall,
-    /// A film at a wall became thinner than markers of a droplet of another viscosity see.
-    Film,
     /// Area or particles changed too much.
     NotConserved,
     /// An inverted triangle.
@@ -81,7 +80,6 @@ impl Ending {
             SceneError::Body { source, .. } => Self::of_body(source),
             SceneError::Flow { source, .. } => match source {
                 FlowError::BeyondWall { .. } => Self::BeyondWall,
-                FlowError::Film { .. } => Self::Film,
                 FlowError::NonFinite { .. } => Self::NonFinite,
                 FlowError::NoConvergence { .. } => Self::NotConverged,
                 _ => Self::Other,

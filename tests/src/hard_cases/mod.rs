@@ -20,8 +20,8 @@ pub use weight::Weight;
 
 use std::fmt;
 
-use motile::AnyFlow;
-use motile::ib_core::System;
+use motile::motile_scene::System;
+use motile::setup::AnyFlow;
 
 /// How long runs are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,8 @@
 //! Two droplets.
 
-use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, RepulsionSetup, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, RepulsionSetup, Setup};
 
 use crate::hard_cases::drive::{HELD, by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -69,7 +70,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             };
             let setup = Setup {
                 region: Region::Box { lengths: [8.0, 4.0] },
-                method: Method::Grid(GridMethod::of_spacing(0.1)),
+                method: Method::Layers(LayersMethod::of_spacing(0.1)),
                 viscosity: 10.0,
                 repulsion: Some(RepulsionSetup { strength: 2000.0, range: 0.3 }),
                 droplets: vec![droplet("first droplet", -1.05), droplet("second droplet", 1.05)],

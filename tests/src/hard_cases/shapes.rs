@@ -1,10 +1,12 @@
 //! Droplets without particles of difficult shapes, and some that are carried far.
 
-use motile::AnyFlow;
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, Geometry, Settings};
-use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
+use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::ib_core::{BSpline, ImmersedBoundary};
+use motile::motile_base::{Drive, Region, Vec2};
+use motile::motile_scene::{Hydrodynamics, Scene};
+use motile::setup::AnyFlow;
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::hard_cases::drive::{ADAPTIVE, run, run_way};
 use crate::hard_cases::{CaseError, Look, Outcome, Recipe, Trial, Way, Weight, expand};
@@ -16,14 +18,14 @@ fn relax(way: Way, curve: &Curve, side: f64, until: f64, look: Look<'_>) -> Resu
     let flow: AnyFlow = match way {
         Way::Integral => {
             let settings = Settings { nodes: 192, ..Settings::default() };
-            let flow = BoundaryIntegral::new(Geometry::Box { lengths: [side, side] }, 10.0, settings)
+            let flow = BoundaryIntegral::new(Region::Box { lengths: [side, side] }, 10.0, settings)
                 .and_then(|flow| flow.with_reference_perimeter(curve.perimeter()));
             Box::new(flow.map_err(motile::SetupError::from)?)
         }
         _ => {
             let cells = (side / SPACING).round() as usize;
             let solver = PeriodicStokes::new(Grid::periodic(cells, cells, SPACING)?, 10.0)?;
-            Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
+            Box::new(ImmersedBoundary::new(solver, BSpline::<4>))
         }
     };
     let markers = match way {
@@ -54,7 +56,7 @@ fn carried(
     let cells = [length, width].map(|side| (side / SPACING).round() as usize);
     let mut solver = ChannelStokes::new(Grid::channel(cells[0], cells[1], SPACING)?, 1.0)?;
     solver.set_drive(drive)?;
-    let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+    let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, BSpline::<4>));
     let mut scene = Scene::new(flow);
     let curve = Curve::circle(1.0)?.translated(Vec2::new(0.0, y));
     scene.add(ActiveDroplet::passive(&curve.markers_with_spacing(0.5 * SPACING)?, 10.0)?);
@@ -87,8 +89,8 @@ pub(crate) fn trials() -> Vec<Trial> {
         }),
         Recipe::new(18, "a net force in a periodic box", &[Way::Grid], |way, extent, look| {
             let solver = PeriodicStokes::new(Grid::periodic(60, 60, SPACING)?, 10.0)?;
-            let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
-            assert!(flow.discretisation().domain.walls.is_none());
+            let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, BSpline::<4>));
+            assert!(flow.fluid_view().domain.walls.is_none());
             let mut scene = Scene::new(flow);
             let curve = Curve::circle(1.0)?;
             scene.add(ActiveDroplet::passive(&curve.markers_with_spacing(0.5 * SPACING)?, 10.0)?);

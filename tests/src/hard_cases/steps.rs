@@ -1,7 +1,7 @@
 //! Time steps that are far too large.
 
-use motile::ib_core::{Scene, StepSize};
-use motile::{AnyFlow, GridMethod, Method, Setup};
+use motile::motile_scene::{Scene, StepSize};
+use motile::setup::{AnyFlow, GridMethod, Method, Setup};
 
 use crate::hard_cases::drive::{by, measured, run};
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Recipe, Trial, Way, expand};

@@ -1,8 +1,9 @@
 //! The same scene in other units.
 
 use motile::active_interface::ActiveDroplet;
-use motile::ib_core::Vec2;
-use motile::{Region, Setup};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::setup::Setup;
 
 use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Recipe, Trial, Way, expand};

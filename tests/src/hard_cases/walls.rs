@@ -1,9 +1,14 @@
 //! Elastic walls: stiff, narrow, badly meshed.
 
-use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, forces::Springs};
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid};
-use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use motile::elastic_solids::ChannelShape;
+use motile::elastic_solids::mesh::TriangleMesh;
+use motile::elastic_solids::{Mesher, Moduli, Solid, Springs};
+use motile::ib_core::{BSpline, ImmersedBoundary};
+use motile::motile_base::Region;
+use motile::motile_base::{Drive, Vec2};
+use motile::motile_scene::Scene;
+use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup};
+use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::hard_cases::drive::{HELD, by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -18,7 +23,7 @@ fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Se
     let shear = Moduli::from_thesis_spring_constant(k)?.shear();
     Ok(Setup {
         region: Region::Channel { length, width: 5.0, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(h)),
+        method: Method::Layers(LayersMethod::of_spacing(h)),
         solids: SolidSetup::walls(shape, &Material::Springs { shear }),
         ..Setup::default()
     })
@@ -49,7 +54,7 @@ fn stiff(
 fn sheared(mesh: TriangleMesh, way: Way, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
     let mut solver = ChannelStokes::new(Grid::channel(60, 40, 0.1)?, 100.0)?;
     solver.set_drive(Drive::Gradient(-10.0))?;
-    let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+    let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, BSpline::<4>));
     let mut scene = Scene::new(flow);
     let setup = Setup { method: Method::Grid(GridMethod::of_spacing(0.1)), ..Setup::default() };
     scene.add(setup.droplet(&DropletSetup { centre: [0.0, 0.3], ..DropletSetup::default() })?);

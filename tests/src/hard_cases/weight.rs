@@ -1,6 +1,7 @@
 //! A body that is pulled by a constant force.
 
-use motile::ib_core::{Body, BodyError, Discretisation, MarkerKind, Vec2};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Body, BodyError, FluidView, MarkerKind};
 
 /// Points on a circle about the origin that move with the fluid, with a constant force on the fluid shared among them.
 #[derive(Debug, Clone)]
@@ -38,7 +39,7 @@ impl Body for Weight {
         positions.copy_from_slice(&self.points);
     }
 
-    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(self.force / self.points.len() as f64);
         Ok(())
     }

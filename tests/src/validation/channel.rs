@@ -1,7 +1,9 @@
 //! Channels with no-slip walls, against boundary-integral values.
 
-use motile::ib_core::{FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, Wall, WallMotion, flux, wall_shear_stress};
+use motile::ib_core::Kernel;
+use motile::motile_base::{Drive, FlowSample, Vec2};
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::stokes_grid::{ChannelStokes, Grid, Wall, WallMotion, flux, wall_shear_stress};
 
 use crate::validation::fixed_shapes::{Errors, Shape, couple};
 use crate::validation::{Case, Reference, ReferenceFile, StudyError};
@@ -81,7 +83,7 @@ pub fn fixed_shape<K: Kernel>(
         Ok(case.select(Reference::read(file)?).select("conv", convention(drive)).select("y0", height))
     };
     let mut flow = couple(solver([6.0, 3.0], h, drive, 1.0)?, kernel, corrected);
-    let mut shape = Shape::new(case, height, h, None)?;
+    let mut shape = Shape::new(case, height, h)?;
     let report = flow.velocities(&mut shape.markers)?;
     let velocities = rows(ReferenceFile::ChannelFixedShapes)?;
     let markers = shape.compare(&velocities.clone().select("kind", "marker"))?;

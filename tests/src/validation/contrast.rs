@@ -3,25 +3,22 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
-use motile::{AnyFlow, GridMethod, IntegralMethod, Method, Region};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::setup::{AnyFlow, GridMethod, IntegralMethod, LayersMethod, Method};
 
 use crate::validation::StudyError;
 use crate::validation::scene::{flow, open_channel};
 
 mod cost;
-mod field;
 mod iterations;
 mod layer;
 mod stresslet;
-mod tables;
 
 pub use cost::{Cost, CostScene};
-pub use field::{FieldErrors, exact_flow, field_errors};
 pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
 pub use layer::{LayerErrors, layer_errors};
-pub use stresslet::StressletErrors;
-pub use tables::{RatioTen, ratio_ten};
 
 /// An ellipse with a tension along it and a viscosity inside, in a fluid of viscosity one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,8 +135,8 @@ impl Droplet {
         Ok(())
     }
 
-    /// Markers at equal steps of the parameter with exact forces.
-    fn push_exact(&self, count: usize, markers: &mut Markers) {
+    /// Adds markers at equal steps of the parameter with exact forces.
+    pub fn push_exact(&self, count: usize, markers: &mut Markers) {
         let start = markers.len();
         markers.push_group(count, self.kind(false));
         for k in 0..count {
@@ -212,27 +209,28 @@ impl Exact {
         self.centroids[droplet].length() > 0.02 * largest
     }
 
-    /// The errors of the immersed boundary method with grid spacing `h` and markers h/2 apart, droplet by droplet.
+    /// The errors of layers with `nodes` nodes, on twice as many markers, droplet by droplet.
+    ///
+    /// # Errors
+    /// What the solver can fail with.
+    pub fn errors(&self, nodes: usize) -> Result<Vec<Errors>, StudyError> {
+        let mut markers = Markers::new();
+        self.droplets.iter().for_each(|droplet| droplet.push_exact(2 * nodes, &mut markers));
+        self.compare(layers(self.region, nodes)?, markers)
+    }
+
+    /// The errors of Cowley's way, a viscosity smeared over Peskin's kernel, without a mobility correction, with grid
+    /// spacing `h` and markers h/2 apart.
     ///
     /// # Errors
     /// A spacing that does not divide the region; what the solver can fail with.
-    pub fn errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        self.compare(sharp(self.region, h)?, h)
-    }
-
-    /// The errors of Cowley's way, a viscosity smeared over Peskin's kernel, without a mobility correction.
-    ///
-    /// # Errors
-    /// As [`Exact::errors`].
     pub fn smeared_errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        self.compare(smeared(self.region, h, 1e-6)?, h)
+        let mut markers = Markers::new();
+        self.droplets.iter().try_for_each(|droplet| droplet.push_even(0.5 * h, &mut markers))?;
+        self.compare(smeared(self.region, h, 1e-6)?, markers)
     }
 
-    fn compare(&self, mut flow: AnyFlow, h: f64) -> Result<Vec<Errors>, StudyError> {
-        let mut markers = Markers::new();
-        for droplet in &self.droplets {
-            droplet.push_even(0.5 * h, &mut markers)?;
-        }
+    fn compare(&self, mut flow: AnyFlow, mut markers: Markers) -> Result<Vec<Errors>, StudyError> {
         flow.velocities(&mut markers)?;
         let mut all = Vec::new();
         for (index, group) in markers.groups().iter().enumerate() {
@@ -259,9 +257,10 @@ fn exact(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
     flow(region, Method::Integral(IntegralMethod { nodes, cells: nodes }), 1.0, 1e-10)
 }
 
-/// The immersed boundary method in a region, viscosity one.
-fn sharp(region: Region, h: f64) -> Result<AnyFlow, StudyError> {
-    flow(region, Method::Grid(GridMethod::of_spacing(h)), 1.0, 1e-6)
+/// Layers in a region, viscosity one.
+fn layers(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
+    let method = LayersMethod { nodes, cells: nodes, ..LayersMethod::of_spacing(0.05) };
+    flow(region, Method::Layers(method), 1.0, 1e-6)
 }
 
 /// Cowley's way in a region, viscosity one.

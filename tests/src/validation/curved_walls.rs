@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use motile::boundary_integral::{
-    BoundaryIntegral, Forcing, Geometry, PeriodicCalculus, RigidWall, Settings, TensionPlacement,
-};
-use motile::ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
+use motile::motile_base::{Drive, FlowSample, Region, Vec2};
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
 
 use super::{Reference, ReferenceFile, StudyError};
 
@@ -36,11 +35,11 @@ fn side(x: f64) -> f64 {
 }
 
 /// The channel of the reference values, as layers of so many nodes a wall.
-fn channel(forcing: Forcing, droplet: usize, wall: usize) -> Result<BoundaryIntegral, StudyError> {
-    let geometry = Geometry::Channel { length: PERIOD, width: WIDTH, forcing };
+fn channel(drive: Drive, droplet: usize, wall: usize) -> Result<BoundaryIntegral, StudyError> {
+    let region = Region::Channel { length: PERIOD, width: WIDTH, drive };
     let settings = Settings { nodes: droplet, tolerance: 1e-13, ..Settings::default() };
     let walls = [RigidWall::below(PERIOD, wall, |x| -side(x))?, RigidWall::above(PERIOD, wall, side)?];
-    Ok(BoundaryIntegral::new(geometry, 1.0, settings)?.with_walls(&walls)?)
+    Ok(BoundaryIntegral::new(region, 1.0, settings)?.with_walls(&walls)?)
 }
 
 /// An ellipse with tension as a function of its parameter t.
@@ -69,7 +68,7 @@ fn ellipse(
 /// # Errors
 /// Reference values that cannot be read, a scene that cannot be.
 pub fn fixed(droplet: usize, wall: usize) -> Result<CurvedErrors, StudyError> {
-    let mut flow = channel(Forcing::default(), droplet, wall)?;
+    let mut flow = channel(Drive::default(), droplet, wall)?;
     let mut errors = CurvedErrors::default();
     let (velocities, global) =
         (Reference::read(ReferenceFile::CurvedWalls)?, Reference::read(ReferenceFile::CurvedWallsGlobal)?);
@@ -134,7 +133,7 @@ pub fn film(width: f64, viscosity_inside: f64, nodes: &[[usize; 2]]) -> Result<V
         let centre = Vec2::new(0.1, side(0.1) - width - 0.65);
         let tension = |t: f64| 1.0 + 0.5 * (t - 0.7).cos();
         let mut markers = ellipse(centre, [0.65; 2], droplet, Some(viscosity_inside), tension)?;
-        channel(Forcing::default(), droplet, wall)?.velocities(&mut markers)?;
+        channel(Drive::default(), droplet, wall)?.velocities(&mut markers)?;
         Ok(markers.velocities().iter().step_by(droplet / 16).copied().collect())
     };
     let reference = velocities([256, 384])?;
@@ -153,10 +152,10 @@ pub fn film(width: f64, viscosity_inside: f64, nodes: &[[usize; 2]]) -> Result<V
 /// A scene that cannot be.
 pub fn gradient(length: f64, amplitude: f64, nodes: usize) -> Result<f64, StudyError> {
     let half = |x: f64| 1.0 + amplitude * (TAU * x / length).cos();
-    let geometry = Geometry::Channel { length, width: 2.0 * (1.5 + amplitude), forcing: Forcing::Flux(1.0) };
+    let region = Region::Channel { length, width: 2.0 * (1.5 + amplitude), drive: Drive::Flux(1.0) };
     let settings = Settings { nodes: 32, tolerance: 1e-13, ..Settings::default() };
     let walls = [RigidWall::below(length, nodes, |x| -half(x))?, RigidWall::above(length, nodes, half)?];
-    let mut flow = BoundaryIntegral::new(geometry, 1.0, settings)?.with_walls(&walls)?;
+    let mut flow = BoundaryIntegral::new(region, 1.0, settings)?.with_walls(&walls)?;
     // Fluid in fluid, which changes nothing.
     let mut markers = Markers::new();
     markers.push_group(32, MarkerKind::UnevenInterface { viscosity_inside: None });

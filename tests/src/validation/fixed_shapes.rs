@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::ib_core::{Hydrodynamics, ImmersedBoundary, Kernel, MarkerKind, Markers, Vec2};
+use motile::ib_core::{ImmersedBoundary, Kernel};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{Grid, PeriodicStokes, StokesSolver};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};
@@ -39,12 +41,6 @@ impl Case {
 
     fn tension(self, t: f64) -> f64 {
         if self == Self::EllipseUniform { 1.0 } else { 1.0 + 0.5 * t.cos() }
-    }
-
-    /// Whether a point lies inside the shape centred on the origin.
-    pub(crate) fn contains(self, point: Vec2) -> bool {
-        let a = self.axis();
-        (point.x / a).hypot(point.y * a) < 1.0
     }
 
     fn reference(self) -> Result<Reference, StudyError> {
@@ -84,7 +80,7 @@ pub fn errors<K: Kernel>(kernel: &K, corrected: bool, h: f64, case: Case) -> Res
 /// # Errors
 /// What an evaluation can fail with.
 pub fn compare<H: Hydrodynamics>(flow: &mut H, h: f64, case: Case) -> Result<(Errors, Markers), StudyError> {
-    let mut shape = Shape::new(case, 0.0, h, None)?;
+    let mut shape = Shape::new(case, 0.0, h)?;
     flow.velocities(&mut shape.markers)?;
     Ok((shape.compare(&case.reference()?)?, shape.markers))
 }
@@ -115,14 +111,14 @@ pub(crate) struct Shape {
 
 impl Shape {
     /// The shape with its centre at the height `height`, markers h/2 apart, another viscosity inside if there is one.
-    pub(crate) fn new(case: Case, height: f64, h: f64, viscosity_inside: Option<f64>) -> Result<Self, StudyError> {
+    pub(crate) fn new(case: Case, height: f64, h: f64) -> Result<Self, StudyError> {
         let a = case.axis();
         let curve = if case == Case::Circle { Curve::circle(1.0)? } else { Curve::ellipse(a, 1.0 / a)? };
         let curve = curve.translated(Vec2::new(0.0, height));
         // A multiple of eight puts markers on the reference points of the circle.
         let count = 8 * (curve.perimeter() / (4.0 * h)).round() as usize;
         let mut markers = Markers::new();
-        markers.push_group(count, MarkerKind::Interface { viscosity_inside });
+        markers.push_group(count, MarkerKind::Interface { viscosity_inside: None });
         markers.positions_mut().copy_from_slice(&curve.markers(count)?);
         let mut shape = Self { markers, case, height };
         for k in 0..count {

@@ -2,13 +2,15 @@
 
 use std::f64::consts::TAU;
 
+use motile::SetupError;
 use motile::active_interface::{
-    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion,
-    curve::polygon_moments,
+    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion, polygon_moments,
     theory::{LinearTheory, RoundDroplet},
 };
-use motile::ib_core::{Scene, StepSize, Vec2};
-use motile::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Region, Setup};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Scene, StepSize};
+use motile::setup::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Setup};
 
 use crate::validation::StudyError;
 use crate::validation::scene::flow;
@@ -154,7 +156,12 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
     };
     let count = match setup.method {
         Method::Grid(grid) => 4 * (curve.perimeter() / (2.0 * grid.spacing)).round() as usize,
+        Method::Layers(layers) => layers.cells,
         Method::Integral(integral) => integral.cells,
+        other => {
+            let (key, value) = ("method".to_owned(), other.kind().name().to_owned());
+            return Err(SetupError::Value { key, value, remedy: "give one of known resolution".to_owned() }.into());
+        }
     };
     let step = TAU / count as f64;
     let numbers = (0..count)

@@ -3,7 +3,7 @@
 //! A droplet in a square box turns: its images form a lattice, which has directions, and with the direction its speed
 //! changes by some per cent. A grid has directions too, and must add as little as possible to the turning.
 
-use motile::{Built, Method, Setup};
+use motile::setup::{Built, Method, Setup};
 
 use crate::validation::StudyError;
 use crate::validation::scene::reference;

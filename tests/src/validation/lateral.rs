@@ -1,7 +1,7 @@
 //! What becomes of a lateral offset of a swimmer in a channel.
 
 use motile::active_interface::trajectory::{LinearMode, extrema, fit_linear_mode};
-use motile::{Built, Setup};
+use motile::setup::{Built, Setup};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};
 

@@ -5,8 +5,8 @@
 //!
 //! ```
 //! use motile_tests::validation::{fixed_shapes, Case};
-//! use motile::ib_core::CubicQuadratic;
-//! let row = fixed_shapes::errors(&CubicQuadratic::default(), true, 0.1, Case::Circle)?;
+//! use motile::ib_core::BSpline;
+//! let row = fixed_shapes::errors(&BSpline::<4>, true, 0.1, Case::Circle)?;
 //! assert!(row.maximum < 0.02); // 2 per cent of the largest velocity on 60 x 60 cells
 //! # Ok::<(), motile_tests::validation::StudyError>(())
 //! ```
@@ -42,10 +42,10 @@ pub enum StudyError {
     Setup(#[from] motile::SetupError),
     /// The scene could not be run.
     #[error(transparent)]
-    Scene(#[from] motile::ib_core::SceneError),
+    Scene(#[from] motile::motile_scene::SceneError),
     /// The flow could not be computed.
     #[error(transparent)]
-    Flow(#[from] motile::ib_core::FlowError),
+    Flow(#[from] motile::motile_scene::FlowError),
     /// The grid.
     #[error(transparent)]
     Stokes(#[from] motile::stokes_grid::StokesError),

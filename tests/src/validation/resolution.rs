@@ -1,7 +1,7 @@
 //! The threshold of swimming, and what the marker spacing has to resolve.
 
-use motile::ib_core::StepSize;
-use motile::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
+use motile::motile_scene::StepSize;
+use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
 
 use crate::validation::StudyError;
 use crate::validation::scene::on_grid;

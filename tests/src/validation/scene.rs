@@ -1,9 +1,11 @@
 //! Scenes that the studies start from.
 
-use motile::boundary_integral::{self, BoundaryIntegral, Settings, forcing};
+use motile::boundary_integral::{BoundaryIntegral, Settings};
 use motile::ib_core::SmearedContrast;
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
-use motile::{AnyFlow, Contrast, Exclusion, GridMethod, IntegralMethod, Method, Region, Setup};
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::setup::{AnyFlow, Exclusion, GridMethod, IntegralMethod, LayersMethod, Method, Setup};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::validation::StudyError;
 
@@ -11,6 +13,12 @@ use crate::validation::StudyError;
 #[must_use]
 pub fn on_grid(h: f64) -> Setup {
     Setup { method: Method::Grid(GridMethod::of_spacing(h)), ..Setup::default() }
+}
+
+/// The default scene by layers beside a grid of spacing `h` (length).
+#[must_use]
+pub fn by_layers(h: f64) -> Setup {
+    Setup { method: Method::Layers(LayersMethod::of_spacing(h)), ..Setup::default() }
 }
 
 /// The default scene by boundary integrals with `nodes` nodes and `cells` cells of the concentration.
@@ -35,25 +43,18 @@ pub fn open_channel(length: f64, width: f64) -> Region {
     Region::Channel { length, width, drive: Drive::ZeroGradient }
 }
 
-/// The flow in a region by a method, with a relative tolerance for the iterations that boundary integrals and smooth
-/// viscosities take.
+/// The flow in a region by a method, with a relative tolerance for the iterations that boundary integrals and a smeared
+/// contrast take.
 ///
 /// # Errors
 /// What a setup can fail with.
 pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
     match method {
         Method::Integral(IntegralMethod { nodes, .. }) => {
-            let region = match region {
-                Region::Plane => boundary_integral::Geometry::Plane,
-                Region::Box { lengths } => boundary_integral::Geometry::Box { lengths },
-                Region::Channel { length, width, drive } => {
-                    boundary_integral::Geometry::Channel { length, width, forcing: forcing(drive) }
-                }
-            };
             let settings = Settings { nodes, tolerance, ..Settings::default() };
             Ok(Box::new(BoundaryIntegral::new(region, viscosity, settings)?))
         }
-        Method::Grid(GridMethod { spacing, kernel, contrast: Contrast::Arithmetic, .. }) => {
+        Method::Grid(GridMethod { spacing, kernel, corrected: false, .. }) => {
             let [nx, ny] = region.lengths().map(|length| (length / spacing).round() as usize);
             let Region::Channel { drive, .. } = region else {
                 let solver = PeriodicStokes::new(Grid::periodic(nx, ny, spacing)?, viscosity)?;
@@ -63,6 +64,6 @@ pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> R
             solver.set_drive(drive)?;
             Ok(Box::new(SmearedContrast::with_tolerance(solver, kernel, tolerance)?))
         }
-        Method::Grid(_) => Ok(Setup { region, method, viscosity, droplets: Vec::new(), ..Setup::default() }.flow()?),
+        _ => Ok(Setup { region, method, viscosity, droplets: Vec::new(), ..Setup::default() }.flow()?),
     }
 }

@@ -1,14 +1,14 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
-pub use motile::Surface;
 use motile::elastic_solids::{
-    ElasticForces, EnergyDensity, Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh,
+    DeformationGradient, ElasticForces, EnergyDensity, Hyperelastic, Interior, Mat2, Mesher, MooneyRivlin, NeoHookean,
+    Outline, SaintVenantKirchhoff, Solid, SolidError, Springs,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
-    forces::{Hyperelastic, Springs},
-    material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
-    mesh::{equilateral_block, equilateral_strip, fitted_strip},
+    mesh::{TriangleMesh, equilateral_block, equilateral_strip, fitted_strip},
 };
-use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, Vec2};
+use motile::ib_core::{BSpline, ImmersedBoundary, ImmersedLayers};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, Scene};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;
@@ -125,11 +125,13 @@ pub fn moduli(sample: Sample, material: Material) -> Result<MeasuredModuli, Soli
     let found = |law: &dyn ElasticForces| -> Result<MeasuredModuli, SolidError> {
         measured_moduli(&mesh, law, 1e-3, InnerPoints::Relaxed)
     };
-    let (found, bulk) = match material {
+    let (mut found, bulk) = match material {
         Material::Springs => (found(&Springs::new(&mesh, SHEAR)?)?, 2.0 * SHEAR),
         Material::NeoHookean => (found(&Hyperelastic::new(&mesh, NeoHookean::new(SHEAR, BULK)?))?, BULK),
     };
-    Ok(MeasuredModuli { shear: found.shear / SHEAR, bulk: found.bulk / bulk })
+    found.shear /= SHEAR;
+    found.bulk /= bulk;
+    Ok(found)
 }
 
 /// Turn of the seeds of unstructured walls (radians).
@@ -153,6 +155,15 @@ pub struct Layer {
     pub unstructured: bool,
     /// How its surface meets the fluid.
     pub surface: Surface,
+}
+
+/// How the surface of a solid meets the fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surface {
+    /// As a layer.
+    Layer,
+    /// Smeared over the grid like all points.
+    Plain,
 }
 
 const LENGTH: f64 = 1.6;
@@ -208,9 +219,9 @@ impl Layer {
         let grid = Grid::channel((self.length() / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
         let solver = ChannelStokes::new(grid, VISCOSITY)?;
         let flow: Box<dyn Hydrodynamics> = if self.surface == Surface::Layer {
-            Box::new(ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, 1e-8)?)
+            Box::new(ImmersedLayers::new(solver, BSpline::<4>, NODES, 1e-8)?)
         } else {
-            Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
+            Box::new(ImmersedBoundary::new(solver, BSpline::<4>))
         };
         let mut scene = Scene::new(flow);
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;

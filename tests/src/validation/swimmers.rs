@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::active_interface::{Observables, observables::net_flux};
-use motile::ib_core::{Every, Hydrodynamics, Scene, System, gap::wall_gap};
+use motile::active_interface::observables::{Observables, net_flux};
+use motile::motile_base::Region;
+use motile::motile_scene::{Every, Hydrodynamics, Scene, System, gap::wall_gap};
+use motile::setup::{AnyFlow, Built, Method, Setup};
 use motile::stokes_grid::flux;
-use motile::{AnyFlow, Built, Method, Region, Setup};
 
 use crate::validation::channel::solver;
 use crate::validation::fixed_shapes::couple;

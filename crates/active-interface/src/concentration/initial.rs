@@ -1,22 +1,20 @@
-//! Concentrations to start from.
+//! Initial concentrations.
 
 use std::f64::consts::TAU;
 
-use ib_core::Vec2;
-use ib_core::input::{all_finite, finite, not_negative, positive, within};
+use motile_base::{Vec2, all_finite, finite, not_negative, positive, within};
 
 use crate::InterfaceError;
-use crate::curve::polygon::edges;
-use crate::function::Function;
+use crate::curve::{Function, polygon::edges};
 
-/// A concentration of particles along a closed curve, to start a run from.
+/// Initial concentration of particles along a closed curve.
 ///
 /// ```
 /// use active_interface::{Curve, InitialConcentration};
 /// let markers = Curve::circle(1.0)?.markers(100)?;
 /// let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
 /// // c = c0 (1 - cos theta): none at the front, twice the mean at the rear
-/// let length = active_interface::curve::polygon_perimeter(&markers)? / 100.0;
+/// let length = active_interface::polygon_perimeter(&markers)? / 100.0;
 /// assert!(numbers[0] / length < 0.2 && (numbers[50] / length - 200.0).abs() < 0.2);
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
@@ -31,7 +29,7 @@ enum Kind {
     ArcFraction(Function<f64>),
 }
 
-/// Fourier modes of a seeded perturbation.
+/// Number of Fourier modes of a seeded perturbation.
 const MODES: usize = 8;
 
 impl InitialConcentration {
@@ -54,8 +52,8 @@ impl InitialConcentration {
     /// Fourier modes in the arc length with random weights and phases, |p| <= 1 and of mean zero. `mean` is c0
     /// (particles per length), `amplitude` lies in [0, 1).
     ///
-    /// The same seed gives the same function of the arc length on every machine and at every number of markers. The
-    /// total is c0 times the perimeter of the polygon.
+    /// A seed determines the function of the arc length, on every machine and at every number of markers. The total is
+    /// c0 times the perimeter of the polygon.
     ///
     /// # Errors
     /// A mean that is not positive, an amplitude outside [0, 1).
@@ -135,7 +133,7 @@ fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
     edges(markers)
         .map(|(a, b)| {
             let (a, b) = (a - centre, b - centre);
-            let width = a.perp_dot(b).atan2(a.dot(b));
+            let width = a.angle_to(b);
             let middle = a.y.atan2(a.x) + 0.5 * width - heading;
             // mean of cos over the interval = cos(middle) sin(width/2)/(width/2)
             let half = 0.5 * width;

@@ -1,22 +1,23 @@
-//! Keeping particle numbers from becoming negative.
+//! Repair of negative particle numbers.
 
-use ib_core::input::all_finite;
+use motile_base::all_finite;
 
 use crate::InterfaceError;
 
-/// What a repair of negative particle numbers did.
+/// Extent of repairs of negative particle numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Repair {
-    /// Segments whose number was negative.
+    /// Number of segments whose particle number was negative.
     pub segments: usize,
-    /// Particles moved.
+    /// Number of particles moved.
     pub moved: f64,
-    /// How many segments away the furthest of them came from.
+    /// Largest distance over which particles were moved, in segments.
     pub furthest: usize,
 }
 
 impl Repair {
-    /// Adds another repair to this one, for a count over a run.
+    /// Adds another repair, for the sum over a run.
     pub(crate) fn accumulate(&mut self, other: Self) {
         self.segments += other.segments;
         self.moved += other.moved;
@@ -24,14 +25,20 @@ impl Repair {
     }
 }
 
-/// Sets negative particle numbers to zero and takes what is missing from the two neighbours, in proportion to what they
-/// have, and where they have too little from the segments further out. Afterwards no number is negative, and the total
-/// is what it was but for round-off.
+/// Sets negative particle numbers to zero and takes the particles for it from the two neighbours, in proportion to
+/// their numbers, and where these have too few from the segments further out. Afterwards no number is negative, and the
+/// total is unchanged to round-off. All segments take at once, so that the mirror image of the numbers is repaired to
+/// the mirror image of the repaired ones.
+///
+/// `missing` and `shares` are working arrays, as long as the numbers.
 ///
 /// # Errors
 /// Numbers that are not finite, and a total that is negative, so that there is not enough to take from. The numbers are
 /// then as they were.
-pub(crate) fn repair_positivity(numbers: &mut [f64]) -> Result<Repair, InterfaceError> {
+pub(crate) fn repair_positivity(
+    numbers: &mut [f64],
+    [missing, shares]: [&mut [f64]; 2],
+) -> Result<Repair, InterfaceError> {
     let mut repair = Repair::default();
     if numbers.iter().all(|&number| number >= 0.0 && number.is_finite()) {
         return Ok(repair);
@@ -41,34 +48,35 @@ pub(crate) fn repair_positivity(numbers: &mut [f64]) -> Result<Repair, Interface
     if total < 0.0 {
         return Err(InterfaceError::NoParticles { total });
     }
-    let count = numbers.len();
-    for k in 0..count {
-        if numbers[k] >= 0.0 {
-            continue;
+    for (missing, number) in missing.iter_mut().zip(numbers.iter_mut()) {
+        *missing = (-*number).max(0.0);
+        if *missing > 0.0 {
+            repair.segments += 1;
+            repair.moved += *missing;
+            *number = 0.0;
         }
-        let mut missing = -numbers[k];
-        numbers[k] = 0.0;
-        repair.segments += 1;
-        repair.moved += missing;
-        for distance in 1..=count / 2 {
-            let (left, right) = ((k + count - distance) % count, (k + distance) % count);
-            let here = numbers[left].max(0.0);
-            let there = if left == right { 0.0 } else { numbers[right].max(0.0) };
-            let available = here + there;
-            if available <= 0.0 {
-                continue;
+    }
+    let count = numbers.len();
+    for distance in 1..=count / 2 {
+        let around = |k: usize| [(k + count - distance) % count, (k + distance) % count];
+        // Each of the two neighbours, once where they are the same one.
+        let once = |[left, right]: [usize; 2], of: &[f64]| of[left] + if left == right { 0.0 } else { of[right] };
+        // Where two segments ask one for more than it has it is left with nothing and they ask the others again.
+        while (0..count).any(|k| missing[k] > 0.0 && once(around(k), numbers) > 0.0) {
+            repair.furthest = distance;
+            for (k, share) in shares.iter_mut().enumerate() {
+                let available = once(around(k), numbers);
+                *share = if missing[k] > 0.0 && available > 0.0 { (missing[k] / available).min(1.0) } else { 0.0 };
             }
-            repair.furthest = repair.furthest.max(distance);
-            let share = (missing / available).min(1.0);
-            if here > 0.0 {
-                numbers[left] = (here - share * here).max(0.0);
+            for k in (0..count).filter(|&k| shares[k] > 0.0) {
+                let [left, right] = around(k).map(|other| 1.0 / once(around(other), shares).max(1.0));
+                let served = left == 1.0 && right == 1.0 && shares[k] < 1.0;
+                let [here, there] = around(k).map(|other| shares[k] * numbers[other]);
+                let taken = left * here + if around(k)[0] == around(k)[1] { 0.0 } else { right * there };
+                missing[k] = if served { 0.0 } else { (missing[k] - taken).max(0.0) };
             }
-            if there > 0.0 {
-                numbers[right] = (there - share * there).max(0.0);
-            }
-            missing -= share * available;
-            if share < 1.0 {
-                break;
+            for (k, number) in numbers.iter_mut().enumerate() {
+                *number *= (1.0 - once(around(k), shares)).max(0.0);
             }
         }
     }

@@ -1,7 +1,6 @@
-//! Does a closed polygon cross itself?
+//! Crossings of a closed polygon with itself.
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least};
+use motile_base::{Vec2, all_points_finite, at_least};
 
 use crate::InterfaceError;
 
@@ -22,9 +21,9 @@ pub(crate) struct CrossingFinder {
 }
 
 impl CrossingFinder {
-    /// The first pair of segments that meet although they are not neighbours, or that are neighbours and fold back
-    /// onto each other: each by the number of its first point, the smaller first; of several pairs the one with the
-    /// smallest first, then second number. `None` for a simple polygon.
+    /// First pair of segments that meet although they are not neighbours, or that are neighbours and fold back onto
+    /// each other: each by the number of its first point, the smaller first; of several pairs the one with the smallest
+    /// first, then second number. `None` for a simple polygon.
     ///
     /// # Errors
     /// Fewer than three points, points that are not finite.
@@ -98,7 +97,8 @@ impl CrossingFinder {
     }
 }
 
-/// The first pair of segments of a closed polygon that cross, by their numbers; `None` where it does not cross itself.
+/// First pair of segments of a closed polygon that cross or touch, segment k from point k to the next; `None` for a
+/// simple polygon.
 ///
 /// # Errors
 /// Fewer than three points, points that are not finite.
@@ -112,7 +112,7 @@ fn bucket(cell: (i64, i64), mask: usize) -> usize {
     ((hash >> 29) as usize) & mask
 }
 
-/// Whether the polygon goes once around the mean of its points, turning the same way all the time: then it is simple.
+/// Sufficient test for a simple polygon: it goes once around the mean of its points, always turning the same way.
 fn is_star_shaped(points: &[Vec2]) -> bool {
     let centre = points.iter().sum::<Vec2>() / points.len() as f64;
     let (mut turns, mut widest) = (0, 0.0_f64);
@@ -129,12 +129,12 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
     turns == 1 && least > 1e-13 * widest
 }
 
-/// Whether an edge is followed by one that runs back along it, or has no length.
+/// Tells whether the second of two successive edges runs back along the first, or one of them has no length.
 fn folds_back(first: Vec2, second: Vec2) -> bool {
     (first.perp_dot(second) == 0.0 && first.dot(second) < 0.0) || first == Vec2::ZERO || second == Vec2::ZERO
 }
 
-/// Whether the segments pq and rs have a point in common.
+/// Tells whether the segments pq and rs have a point in common.
 fn segments_meet(p: Vec2, q: Vec2, r: Vec2, s: Vec2) -> bool {
     let (along, other) = (q - p, s - r);
     let (a, b) = (along.perp_dot(r - p), along.perp_dot(s - p));

@@ -1,12 +1,11 @@
 //! Points at equal distances along a closed curve.
 
-use ib_core::Vec2;
-use ib_core::input::all_points_finite;
+use motile_base::{Vec2, all_points_finite};
 
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
 
-/// `count` points of the closed curve `point`, a function of a parameter in [0, 1], from `point(0)` on, with equal
+/// Equidistant points of the closed curve `point(t)`, t in [0, 1]: `count` of them, from `point(0)` on, with equal
 /// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it

@@ -1,17 +1,17 @@
 //! Exact geometry of the polygon through the markers.
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least};
+use motile_base::{Vec2, all_points_finite, at_least};
 
 use crate::InterfaceError;
 
-/// The edges of a closed polygon, as pairs of end points.
+/// Edges of a closed polygon, as pairs of end points.
 pub(crate) fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
 }
 
 /// Area, centroid and second moments of area of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct AreaMoments {
     /// Area (length squared), positive for counter-clockwise order.
     pub area: f64,
@@ -19,9 +19,9 @@ pub struct AreaMoments {
     pub centroid: Vec2,
     /// Integral of x^2 over the area (length^4), x and y measured from the centroid.
     pub xx: f64,
-    /// Integral of x y.
+    /// Integral of x y over the area (length^4).
     pub xy: f64,
-    /// Integral of y^2.
+    /// Integral of y^2 over the area (length^4).
     pub yy: f64,
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
     edges(points).map(|(a, b)| (b - a).length()).sum()
 }
 
-/// Exact sums over the triangles that the first point makes with the edges.
+/// Area moments as exact sums over the triangles that the first point makes with the edges.
 pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
     let origin = points.first().copied().unwrap_or_default();
     let (mut area, mut first) = (0.0, Vec2::ZERO);
@@ -72,7 +72,7 @@ pub fn polygon_area(points: &[Vec2]) -> Result<f64, InterfaceError> {
     Ok(raw_area(points))
 }
 
-/// Length of the polygon through the points, the last edge back to the first included.
+/// Perimeter of the closed polygon through the points (length).
 ///
 /// # Errors
 /// Fewer than three points, points that are not finite.

@@ -1,11 +1,11 @@
 //! Smooth closed curves through points.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use crate::curve::polygon::edges;
 use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
-/// The twice continuously differentiable cubic spline through the points of a closed polygon, in the length of the
+/// Cubic spline, twice continuously differentiable, through the points of a closed polygon, with the length along the
 /// polygon as parameter.
 #[derive(Debug, Clone)]
 pub(crate) struct PeriodicSpline {
@@ -17,7 +17,7 @@ pub(crate) struct PeriodicSpline {
 }
 
 impl PeriodicSpline {
-    /// Through at least three points, no two successive ones the same.
+    /// The spline through at least three points, no two successive ones the same.
     pub(crate) fn new(points: &[Vec2]) -> Result<Self, InterfaceError> {
         let m = points.len();
         let chords: Vec<f64> = edges(points).map(|(a, b)| (b - a).length()).collect();

@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn what_is_at_rest_stays_and_the_sum_is_kept() {
+fn equilibria_stay_and_the_sum_is_kept() {
     let exchange = Exchange::new(0.3, 0.7).unwrap();
     let lengths = [0.5, 1.0, 0.75];
     let inside = exchange.concentration_at_rest(4.0).unwrap();
@@ -12,8 +12,7 @@ fn what_is_at_rest_stays_and_the_sum_is_kept() {
     // A step of the implicit exchange alone, against the equations that it solves.
     let (factor, right) = (3.0, [1.0, 5.0, 2.0]);
     let (mut numbers, mut number) = (right, 7.0);
-    pool.before(factor, &mut numbers);
-    pool.after(factor, &lengths, &mut numbers, &mut number);
+    pool.solve(factor, &lengths, &mut numbers, &mut number, |_, _| ());
     assert!((numbers.iter().sum::<f64>() + number - 15.0).abs() < 1e-14);
     let (mut residual, mut residual_inside) = (numbers, number);
     residual_inside += pool.add(-factor, &lengths, &numbers, number, &mut residual);

@@ -1,29 +1,29 @@
-//! The part of the interface that is crowded with particles.
+//! Active region: the part of the interface that is crowded with particles.
 
-use ib_core::Vec2;
-use ib_core::input::{all_finite, all_points_finite, at_least, same_length};
+use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
 
-use super::circle_fit::fitted_curvature;
+use super::curvature::fitted_curvature;
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
 use crate::error::all_positive;
 
-/// The active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
+/// Active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
 /// counter-clockwise order (Cowley, section 2.3.4).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ActiveRegion {
-    /// Arc length from marker 0 to its start, the largest dc/ds (length).
+    /// Arc length from marker 0 to the start, where dc/ds is largest (length).
     pub start: f64,
-    /// Arc length from marker 0 to its end, the smallest dc/ds (length).
+    /// Arc length from marker 0 to the end, where dc/ds is smallest (length).
     pub end: f64,
-    /// Its length.
+    /// Length of the region (length).
     pub length: f64,
-    /// Its length over that of the whole interface (no dimension): the active fraction.
+    /// Active fraction: length of the region over that of the whole interface (no dimension).
     pub fraction: f64,
 }
 
-/// The active region of an interface with the segment lengths `lengths` and the particle numbers `numbers`, segment k
-/// from marker k to the next; `None` where the concentration is uniform to round-off.
+/// Active region of an interface with the segment lengths `lengths` (length) and the particle numbers `numbers`,
+/// segment k from marker k to the next; `None` where the concentration is uniform to round-off.
 ///
 /// dc/ds is taken at the markers, by a difference that is right to fourth order for averages over segments, and its
 /// extrema are located between them on the polynomial through five values. Segments should be equally long, to a few
@@ -67,7 +67,7 @@ pub fn active_region(lengths: &[f64], numbers: &[f64]) -> Result<Option<ActiveRe
     Ok(Some(ActiveRegion { start, end, length: span, fraction: span / perimeter }))
 }
 
-/// Where the polynomial through five values at -2, ..., 2 has the extremum next to 0, between -1 and 1.
+/// Place of the extremum next to 0, between -1 and 1, of the polynomial through five values at -2, ..., 2.
 fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
     // f(x) = c + p x + q x^2 + r x^3 + s x^4
     let p = (a - 8.0 * b + 8.0 * d - e) / 12.0;
@@ -96,10 +96,10 @@ fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
     x
 }
 
-/// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to its part by least
+/// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to the region by least
 /// squares, positive where it bulges outwards, negative where it is dented (Cowley, section 2.3.4).
 ///
-/// Every part of the region counts by its arc length; its ends are interpolated between markers.
+/// Points of the region are weighted by arc length; its ends are interpolated between markers.
 ///
 /// # Errors
 /// Fewer than eight markers, markers that are not finite, a region too short to fit a circle to.
@@ -134,7 +134,7 @@ pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, 
     fitted_curvature(&points, &weights)
 }
 
-/// The point at an arc length, on the cubic through the two markers on either side.
+/// Point at an arc length, on the cubic through the two markers on either side.
 fn interpolate(markers: &[Vec2], arcs: &[f64], arc: f64) -> Vec2 {
     let m = markers.len();
     let arc = arc.rem_euclid(arcs[m]);

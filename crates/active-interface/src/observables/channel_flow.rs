@@ -1,10 +1,7 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
-use ib_core::input::{finite, positive};
-use ib_core::{
-    BodyError, Discretisation, FlowError, FlowSample, Handle, Hydrodynamics, SceneError, System, Vec2,
-    hydrodynamics::SolveReport,
-};
+use motile_base::{FlowSample, SolveReport, Vec2, finite, positive};
+use motile_scene::{BodyError, FlowError, FluidView, Handle, Hydrodynamics, SceneError, System};
 
 use crate::curve::polygon::edges;
 use crate::{
@@ -13,11 +10,11 @@ use crate::{
     observables::{InterfaceState, centroid_velocity},
 };
 
-/// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
-/// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
+/// Pressure drop along a channel of the length `length` (length), from its left to its right end (force per length in
+/// two dimensions): `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
 ///
-/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in Cowley's
-/// channel; in a closed channel (no net flux) it is what a swimmer has to push against.
+/// It is positive where pressure drives the fluid to the right, and zero where the pressure is periodic, as in Cowley's
+/// channel; in a closed channel (no net flux) a swimmer has to push against it.
 ///
 /// # Errors
 /// A length that is not positive and finite, a report whose gradient is not finite.
@@ -26,8 +23,8 @@ pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, Interface
     Ok(-gradient * positive("the length of the channel", length)?)
 }
 
-/// The net flux through a channel (area per time): the integral of u from wall to wall at `x`, which is the same at
-/// every x and time but for the error of the quadrature.
+/// Net flux through a channel (area per time): the integral of the velocity u along it from wall to wall at `x`
+/// (length). In an incompressible fluid it does not depend on x, but for the error of the quadrature.
 ///
 /// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
 /// of second order in h), by 64 Gauss points where there is none.
@@ -35,20 +32,21 @@ pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, Interface
 /// # Errors
 /// A fluid without walls, those of an evaluation and of sampling.
 pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64, SceneError> {
-    let (discretisation, time) = (system.hydrodynamics().discretisation(), system.time());
-    let [bottom, top] = walls(&discretisation, time)?;
-    let line = Line::new(&discretisation, &[bottom, top]);
+    let (view, time) = (system.hydrodynamics().fluid_view(), system.time());
+    let [bottom, top] = walls(&view, time)?;
+    let line = Line::new(&view, &[bottom, top]);
     let [flux] = line.integrals(system, x)?;
     Ok(flux)
 }
 
-/// The fluxes along a channel through the cross-section at the centroid of a droplet, by [`gap_flow`].
+/// Fluxes along a channel through the cross-section at the centroid of a droplet, by [`gap_flow`].
 ///
-/// "Inside" is between the lowest and the highest point of the interface on the cross-section, "gaps" are what is left
-/// below and above it.
+/// "Inside" is between the lowest and the highest point of the interface on the cross-section; the "gaps" are the rest,
+/// below and above.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct GapFlow {
-    /// The droplet's velocity along the channel (length per time).
+    /// Velocity of the droplet along the channel (length per time).
     pub velocity: f64,
     /// Flux through the gap below and the one above, in the frame of the walls (area per time).
     pub gaps: [f64; 2],
@@ -61,7 +59,7 @@ pub struct GapFlow {
 }
 
 impl GapFlow {
-    /// The net flux along the channel (area per time), that of gaps and droplet together.
+    /// Net flux along the channel (area per time), through gaps and droplet together.
     #[must_use]
     pub fn net(&self) -> f64 {
         self.gaps[0] + self.inside + self.gaps[1]
@@ -74,20 +72,19 @@ impl GapFlow {
         [0, 1].map(|i| self.gaps[i] - self.velocity * self.gap_heights[i])
     }
 
-    /// The retrograde flow: how much fluid passes the droplet backwards through both gaps, seen from the droplet (area
-    /// per time; to the left of a droplet that moves to the right; negative for a droplet that is overtaken by the
-    /// fluid).
+    /// Retrograde flow: flux of the fluid that passes the droplet backwards through both gaps, in the frame of the
+    /// droplet (area per time); negative for a droplet that the fluid overtakes.
     ///
-    /// In a steady state it is the same at every cross-section, `|V| w - Q` with the width w of the channel and the net
-    /// flux Q in the droplet's direction.
+    /// In a steady state it is `|V| w - Q` at every cross-section, w the width of the channel and Q the net flux in the
+    /// droplet's direction.
     #[must_use]
     pub fn retrograde(&self) -> f64 {
         -self.velocity.signum() * self.relative_gaps().iter().sum::<f64>()
     }
 }
 
-/// The fluxes along a channel through the vertical line at the centroid of a droplet: u integrated below, inside and
-/// above it.
+/// Fluxes along a channel through the vertical line at the centroid of a droplet: the velocity u along the channel
+/// integrated below, inside and above it.
 ///
 /// The line is close to the widest cross-section of a swimmer on the centre line. A gap that is closed has the height
 /// zero. Other bodies on the line count as fluid. u is integrated as by [`net_flux`]; the error is of second order in h
@@ -99,8 +96,8 @@ pub fn gap_flow<H: Hydrodynamics>(
     system: &mut System<H>,
     droplet: Handle<ActiveDroplet>,
 ) -> Result<GapFlow, SceneError> {
-    let (discretisation, time) = (system.hydrodynamics().discretisation(), system.time());
-    let [bottom, top] = walls(&discretisation, time)?;
+    let (view, time) = (system.hydrodynamics().fluid_view(), system.time());
+    let [bottom, top] = walls(&view, time)?;
     system.evaluate()?;
     let state = InterfaceState::of(system, droplet)?;
     let markers = state.markers;
@@ -110,7 +107,7 @@ pub fn gap_flow<H: Hydrodynamics>(
     });
     let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
-    let line = Line::new(&discretisation, &[bottom, low, high, top]);
+    let line = Line::new(&view, &[bottom, low, high, top]);
     let [below, inside, above] = line.integrals(system, x)?;
     Ok(GapFlow {
         velocity,
@@ -131,15 +128,15 @@ fn named<H: Hydrodynamics>(system: &System<H>, droplet: Handle<ActiveDroplet>, s
     }
 }
 
-fn walls(discretisation: &Discretisation, time: f64) -> Result<[f64; 2], SceneError> {
+fn walls(view: &FluidView, time: f64) -> Result<[f64; 2], SceneError> {
     let source = FlowError::Unsupported {
         what: "the flux through a cross-section",
         remedy: "put the droplet into a channel with walls",
     };
-    discretisation.domain.walls.ok_or(SceneError::Flow { time, source })
+    view.domain.walls.ok_or(SceneError::Flow { time, source })
 }
 
-/// Lowest and highest point of the polygon at `x`; crossed over without one.
+/// Lowest and highest point of the polygon at `x`; infinite and exchanged where it does not reach there.
 fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
     edges(markers)
         .filter(|(a, b)| (a.x < x) != (b.x < x))
@@ -147,7 +144,8 @@ fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
 }
 
-/// Panels of a section where there is no grid.
+/// Panels of a section where there is no grid: by two Gauss points each, the error is d^4/4320 times the fourth
+/// derivative of u, d the width of a panel.
 const PANELS: usize = 32;
 
 /// Points on a vertical line, and their weights, section by section.
@@ -160,12 +158,12 @@ struct Line {
 impl Line {
     /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity
     /// has kinks.
-    fn new(discretisation: &Discretisation, ends: &[f64]) -> Self {
+    fn new(view: &FluidView, ends: &[f64]) -> Self {
         let mut points = Vec::new();
         let root = 1.0 / 3.0_f64.sqrt();
         for (section, pair) in ends.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
-            let mut kinks = match discretisation.spacing {
+            let mut kinks: Vec<f64> = match view.spacing {
                 Some(h) => {
                     // Rows of u, half a cell off the walls.
                     let row = |j: f64| ends[0] + (j + 0.5) * h;
@@ -173,11 +171,8 @@ impl Line {
                     let count = ((to - row(first)) / h).ceil().max(0.0);
                     (0..count as usize).map(|j| row(first + j as f64)).filter(|&y| from < y && y < to).collect()
                 }
-                None => Vec::new(),
+                None => (1..PANELS).map(|j| from + (to - from) * j as f64 / PANELS as f64).collect(),
             };
-            if discretisation.spacing.is_none() {
-                kinks.extend((1..PANELS).map(|j| from + (to - from) * j as f64 / PANELS as f64));
-            }
             kinks.push(to);
             let mut start = from;
             for end in kinks {

@@ -1,18 +1,18 @@
-//! The ellipse closest to the markers.
+//! Least squares ellipse through the markers.
 
-use glam::{DMat4, DVec4};
-use ib_core::Vec2;
-use ib_core::input::at_least;
+use motile_base::{Vec2, at_least};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
+use super::least_squares::NormalEquations;
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// An ellipse with its axes along those of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct EllipseFit {
     /// Half axis along the first axis of the frame (length).
     pub along: f64,
-    /// Half axis across it (length).
+    /// Half axis along the second axis of the frame (length).
     pub across: f64,
     /// Centre in the frame (length).
     pub centre: Vec2,
@@ -28,7 +28,7 @@ impl EllipseFit {
     }
 }
 
-/// The ellipse through the markers by least squares, with its axes along and across the first axis of `frame`.
+/// Least squares ellipse through the markers, with its axes along and across the first axis of `frame`.
 ///
 /// Half axes a, b and centre (x0, y0) minimise the sum of (rho_k - 1)^2 ds_k with rho = sqrt((x-x0)^2/a^2 +
 /// (y-y0)^2/b^2), the distance from the ellipse towards its centre in units of the radius there, by Gauss-Newton
@@ -52,8 +52,7 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
     let (mut p, mut q, mut centre) = (ratio.sqrt().recip(), ratio.sqrt(), Vec2::ZERO);
     let mut last = f64::INFINITY;
     for _ in 0..100 {
-        let (mut normal, mut gradient) = (DMat4::ZERO, DVec4::ZERO);
-        let (mut sum, mut weights) = (0.0, 0.0);
+        let (mut equations, mut sum, mut weights) = (NormalEquations::new(), 0.0, 0.0);
         for &(point, weight) in &points {
             let r = point - centre;
             let (x, y) = (r.x * p, r.y * q);
@@ -61,22 +60,20 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
             if rho == 0.0 {
                 return Err(no_fit);
             }
-            let row = DVec4::new(x * r.x, y * r.y, -x * p, -y * q) / rho;
-            normal += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w) * weight;
-            gradient += row * (weight * (rho - 1.0));
+            let row = [x * r.x, y * r.y, -x * p, -y * q].map(|value| value / rho);
+            equations.add(row, weight, rho - 1.0);
             let distance = r.length() * (1.0 - 1.0 / rho);
             sum += weight * distance * distance;
             weights += weight;
         }
-        let step = normal.try_inverse().map(|inverse| inverse * gradient).filter(|step| step.is_finite());
-        let Some(step) = step else { return Err(no_fit) };
+        let Some(step) = equations.step(0.0) else { return Err(no_fit) };
         // A step may change a half axis by 30 per cent at most.
-        let (change, bound) = (step.x.abs().max(step.y.abs()), 0.3 * p.min(q));
+        let (change, bound) = (step[0].abs().max(step[1].abs()), 0.3 * p.min(q));
         let scale = if change > bound { bound / change } else { 1.0 };
-        p -= scale * step.x;
-        q -= scale * step.y;
-        centre -= Vec2::new(step.z, step.w) * scale;
-        last = step.abs().max_element();
+        p -= scale * step[0];
+        q -= scale * step[1];
+        centre -= Vec2::new(step[2], step[3]) * scale;
+        last = step.iter().fold(0.0, |largest, change| largest.max(change.abs()));
         if last < 1e-13 * (p + q) {
             return Ok(EllipseFit {
                 along: radius / p,

@@ -2,16 +2,17 @@
 
 use std::f64::consts::PI;
 
-use ib_core::Vec2;
-use ib_core::input::{all_finite, same_length};
+use motile_base::{Vec2, all_finite, same_length};
 
 use super::frame::Frame;
 use super::squirmer::polar_weights;
 use crate::curve::polygon::edges;
 use crate::{InterfaceError, curve::polygon_moments};
 
-/// Coefficients of f(theta) = mean + sum over k >= 1 of cosines[k-1] cos k theta + sines[k-1] sin k theta.
+/// Fourier coefficients of f(theta) = mean + sum over k >= 1 of cosines[k-1] cos k theta + sines[k-1] sin k theta, in
+/// the unit of f.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct FourierModes {
     /// Mean over the polar angle.
     pub mean: f64,
@@ -34,7 +35,7 @@ impl FourierModes {
         }
     }
 
-    /// Sums of weighted values at polar angles.
+    /// Coefficients of samples (polar angle, weight in integrals over it, value).
     fn sum(count: usize, samples: impl Iterator<Item = (f64, f64, f64)>) -> Self {
         let mut modes = Self { mean: 0.0, cosines: vec![0.0; count], sines: vec![0.0; count] };
         for (theta, weight, value) in samples {
@@ -50,8 +51,7 @@ impl FourierModes {
     }
 }
 
-/// The first `count` Fourier modes of the shape r(theta) (length) about the origin of `frame`, theta from its first
-/// axis.
+/// First `count` Fourier modes of the shape r(theta) (length) about the origin of `frame`, theta from its first axis.
 ///
 /// Integrals over the polar angle by the sum over markers: spectrally accurate on a circle with equidistant
 /// markers, second order in the marker spacing otherwise. Meant for shapes on which r is single-valued.
@@ -65,8 +65,19 @@ pub fn shape_modes(markers: &[Vec2], frame: &Frame, count: usize) -> Result<Four
     Ok(FourierModes::sum(count, samples))
 }
 
-/// The first `count` Fourier modes of the concentration (particles per length) as a function of the polar angle about
-/// the origin of `frame`, theta from its first axis; `numbers` are the particle numbers of the segments.
+/// Checks that markers and particle numbers have a concentration as a function of place.
+pub(super) fn check_concentration(markers: &[Vec2], numbers: &[f64]) -> Result<(), InterfaceError> {
+    same_length("numbers", markers.len(), numbers.len())?;
+    polygon_moments(markers)?;
+    all_finite("the particle numbers", numbers)?;
+    if let Some(index) = edges(markers).position(|(a, b)| a == b) {
+        return Err(InterfaceError::CoincidentPoints { index });
+    }
+    Ok(())
+}
+
+/// First `count` Fourier modes of the concentration (particles per length) as a function of the polar angle about the
+/// origin of `frame`, theta from its first axis; `numbers` are the particle numbers of the segments.
 ///
 /// The averages over the segments are turned into values mode by mode, so that on a circle with equidistant markers
 /// the modes are exact; second order in the marker spacing otherwise.
@@ -79,16 +90,11 @@ pub fn concentration_modes(
     frame: &Frame,
     count: usize,
 ) -> Result<FourierModes, InterfaceError> {
-    same_length("numbers", markers.len(), numbers.len())?;
-    polygon_moments(markers)?;
-    all_finite("the particle numbers", numbers)?;
-    if let Some(index) = edges(markers).position(|(a, b)| a == b) {
-        return Err(InterfaceError::CoincidentPoints { index });
-    }
+    check_concentration(markers, numbers)?;
     let samples = edges(markers).zip(numbers).map(|((a, b), number)| {
         let chord = (b - a).length();
         let (a, b) = (frame.coordinates(a), frame.coordinates(b));
-        let width = a.perp_dot(b).atan2(a.dot(b));
+        let width = a.angle_to(b);
         (a.y.atan2(a.x) + 0.5 * width, width, number / chord)
     });
     let mut modes = FourierModes::sum(count, samples);

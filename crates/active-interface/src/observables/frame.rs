@@ -1,7 +1,6 @@
-//! Where a droplet is, where it goes, and the axes along its motion.
+//! Centroid and velocity of a droplet, and the axes along its motion.
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, finite, same_length};
+use motile_base::{Vec2, all_points_finite, finite, same_length};
 
 use crate::curve::polygon::AreaMoments;
 use crate::{InterfaceError, curve::polygon_moments};
@@ -14,7 +13,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame with this origin (length) and the first axis at the angle `heading` to x (radians).
+    /// Frame with this origin (length) and the first axis at the angle `heading` to x (radians).
     ///
     /// # Errors
     /// Values that are not finite.
@@ -24,8 +23,8 @@ impl Frame {
         Ok(Self { centre, direction: Vec2::new(cos, sin) })
     }
 
-    /// The frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time); at rest
-    /// its axes are x and y.
+    /// Frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time); at rest the
+    /// axes are x and y.
     ///
     /// # Errors
     /// Values that are not finite.
@@ -36,13 +35,13 @@ impl Frame {
         Ok(Self { centre, direction })
     }
 
-    /// The origin (length).
+    /// Origin (length).
     #[must_use]
     pub fn centre(&self) -> Vec2 {
         self.centre
     }
 
-    /// The angle of the first axis to x (radians, from -pi to pi).
+    /// Angle of the first axis to x (radians, from -pi to pi).
     #[must_use]
     pub fn heading(&self) -> f64 {
         self.direction.y.atan2(self.direction.x)
@@ -54,13 +53,6 @@ impl Frame {
         Vec2::new(self.direction.dot(v), self.direction.perp_dot(v))
     }
 
-    /// A tensor along x and y, along the axes.
-    pub(crate) fn tensor(&self, [[xx, xy], [yx, yy]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-        let [x, y] = [Vec2::new(xx, yx), Vec2::new(xy, yy)].map(|column| self.components(column));
-        let [along, across] = [Vec2::new(x.x, y.x), Vec2::new(x.y, y.y)].map(|row| self.components(row));
-        [along.into(), across.into()]
-    }
-
     /// Coordinates of the point `p` in the frame (length).
     #[must_use]
     pub fn coordinates(&self, p: Vec2) -> Vec2 {
@@ -68,16 +60,16 @@ impl Frame {
     }
 }
 
-/// Half the chord between the neighbours of each marker, (X_{k+1} - X_{k-1}) / 2: its length is the weight of the
-/// marker in sums along the curve, and turned by -90 degrees it is the outward normal times that weight, with which the
-/// area of the polygon changes by exactly the sum of V . n ds.
+/// Half the chord between the neighbours of each marker, (X_{k+1} - X_{k-1}) / 2. Its length is the weight of the
+/// marker in sums along the curve; turned by -90 degrees it is the outward normal times that weight, with which the
+/// rate of change of the polygon's area is exactly the sum of V . n ds.
 pub(crate) fn half_chords(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     let m = markers.len();
     (0..m)
         .map(move |k| (markers[if k + 1 == m { 0 } else { k + 1 }] - markers[if k == 0 { m - 1 } else { k - 1 }]) * 0.5)
 }
 
-/// The outward normal times the weight of each marker (length).
+/// Outward normal of each marker times its weight (length).
 pub(crate) fn weighted_normals(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     half_chords(markers).map(|d| Vec2::new(d.y, -d.x))
 }

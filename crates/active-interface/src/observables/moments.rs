@@ -1,12 +1,11 @@
-//! Moments of the interface's force: what a droplet looks like from far away.
+//! Moments of the interface's force, which determine the flow far away from a droplet.
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least, finite, same_length};
+use motile_base::{Vec2, all_points_finite, at_least, finite, same_length};
 
 use super::frame::{Frame, weighted_normals};
 use crate::InterfaceError;
 
-/// Sign of the viscous term in the force moments of a droplet of another viscosity than the exterior fluid.
+/// Sign of the viscous term in the force moments of a droplet whose viscosity differs from that of the exterior fluid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Convention {
     /// The sign that matches the flow far away for the force F as in Cowley, eq. (2.5): + (eta_ext - eta_in). (For
@@ -28,6 +27,7 @@ pub enum Convention {
 /// marker, n the outward normal, and the sign of the [`Convention`]. Sums over the markers; second order in their
 /// spacing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ForceMoments {
     /// F_i (force): zero to round-off for a free droplet.
     pub force: [f64; 2],
@@ -47,7 +47,7 @@ impl ForceMoments {
         [[half, off], [off, -half]]
     }
 
-    /// Adds what a force at a place inside the droplet has, both in these axes.
+    /// Adds the moments of a force f at the place r inside the droplet, both in these axes.
     pub(super) fn add_force(&mut self, r: Vec2, f: Vec2) {
         for i in 0..2 {
             self.force[i] += f[i];
@@ -60,24 +60,7 @@ impl ForceMoments {
         }
     }
 
-    /// Moves the stresslet by a `share` of the way from that of the `far_field` convention to the `known` one of the
-    /// flow far away, in these axes; in the other convention, whose viscous term has the other sign, by as much back.
-    pub(super) fn shift_stresslet(
-        &mut self,
-        share: f64,
-        far_field: &Self,
-        known: [[f64; 2]; 2],
-        convention: Convention,
-    ) {
-        let (computed, sign) = (far_field.stresslet(), if convention == Convention::FarField { 1.0 } else { -1.0 });
-        for (i, row) in self.dipole.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry += sign * share * (known[i][j] - computed[i][j]);
-            }
-        }
-    }
-
-    /// The symmetric part S_ijk of F_ijk (force times length squared), its mean over the six orders of the indices, eq.
+    /// Symmetric part S_ijk of F_ijk (force times length squared), the mean over the six orders of the indices, eq.
     /// (2.54).
     #[must_use]
     pub fn symmetric_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
@@ -85,7 +68,7 @@ impl ForceMoments {
         build(|i, j, k| (f[i][j][k] + f[i][k][j] + f[j][i][k] + f[j][k][i] + f[k][i][j] + f[k][j][i]) / 6.0)
     }
 
-    /// The part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to the source
+    /// Part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to the source
     /// dipole. The totally antisymmetric part A_ijk is zero in two dimensions.
     #[must_use]
     pub fn mixed_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
@@ -98,11 +81,11 @@ fn build(entry: impl Fn(usize, usize, usize) -> f64) -> [[[f64; 2]; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|k| entry(i, j, k))))
 }
 
-/// The force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
+/// Force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
 ///
-/// `forces` are those on the fluid at the markers (force, not force per length), `velocities` those of the fluid there
+/// `forces` act on the fluid at the markers (force, not force per length), `velocities` are those of the fluid there
 /// (length per time, in the frame of the fluid far away; they matter for unequal viscosities only), `viscosities` those
-/// inside and outside.
+/// inside and outside (stress times time).
 ///
 /// # Errors
 /// Slices of different length, fewer than three markers, values that are not finite.

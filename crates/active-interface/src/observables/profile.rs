@@ -1,14 +1,14 @@
-//! The concentration along the interface.
+//! Profile of the concentration along the interface.
 
-use ib_core::Vec2;
-use ib_core::input::{all_finite, same_length};
+use motile_base::Vec2;
 
-use super::frame::Frame;
+use super::{fourier::check_concentration, frame::Frame};
+use crate::InterfaceError;
 use crate::curve::polygon::edges;
-use crate::{InterfaceError, curve::polygon_moments};
 
-/// The concentration as a function of the arc length from the front of the droplet.
+/// Concentration as a function of the arc length from the front of the droplet.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ConcentrationProfile {
     /// Arc length of the middles of the segments, counter-clockwise from the front, ascending in [0, perimeter)
     /// (length).
@@ -19,8 +19,8 @@ pub struct ConcentrationProfile {
     pub perimeter: f64,
 }
 
-/// The profile of the concentration (Cowley, figure 2.4). The front is where the first axis of `frame` leaves the
-/// droplet, or the marker furthest along that axis where it does not meet the interface.
+/// Profile of the concentration (Cowley, figure 2.4). The front is the point where the first axis of `frame` leaves the
+/// droplet, or the marker furthest along that axis where the axis does not meet the interface.
 ///
 /// # Errors
 /// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
@@ -29,12 +29,7 @@ pub fn concentration_profile(
     numbers: &[f64],
     frame: &Frame,
 ) -> Result<ConcentrationProfile, InterfaceError> {
-    same_length("numbers", markers.len(), numbers.len())?;
-    polygon_moments(markers)?;
-    all_finite("the particle numbers", numbers)?;
-    if let Some(index) = edges(markers).position(|(a, b)| a == b) {
-        return Err(InterfaceError::CoincidentPoints { index });
-    }
+    check_concentration(markers, numbers)?;
     let mut end = 0.0;
     // Middle, concentration; and the furthest crossing of the axis with its arc length.
     let mut segments = Vec::with_capacity(markers.len());

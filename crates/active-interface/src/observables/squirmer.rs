@@ -1,25 +1,26 @@
-//! The two squirmer modes of the flow along the interface.
+//! Squirmer coefficients: the first two modes of the velocity along the interface.
 
 use std::f64::consts::PI;
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, same_length};
+use motile_base::{Vec2, all_points_finite, same_length};
 
 use super::frame::{Frame, raw_centroid_velocity};
 use crate::{InterfaceError, curve::polygon_moments};
 
-/// The frame of reference in which the velocity along the interface is measured.
+/// Frame of reference of the velocity along the interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum VelocityFrame {
-    /// That of the droplet: the velocity of its centroid is subtracted.
+    /// Frame of the droplet: the velocity of its centroid is subtracted.
     #[default]
     CoMoving,
-    /// That of the fluid far away. Halves B1.
+    /// Frame of the fluid far away, in which B1 is half as large.
     Laboratory,
 }
 
-/// The coefficients of v_theta = B1 sin(theta) + (B2/2) sin(2 theta), Cowley, eq. (2.63).
+/// Coefficients of the azimuthal velocity v_theta = B1 sin(theta) + (B2/2) sin(2 theta), Cowley, eq. (2.63).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct SquirmerFit {
     /// B1 (length per time), positive for a droplet that swims along the first axis of its frame.
     pub b1: f64,
@@ -38,18 +39,17 @@ impl SquirmerFit {
 /// Polar angle, measured from the first axis of the frame, and the weight of each marker in integrals over it.
 pub(crate) fn polar_weights<'a>(markers: &'a [Vec2], frame: &'a Frame) -> impl Iterator<Item = (f64, f64)> + 'a {
     let m = markers.len();
-    let turn = |from: Vec2, to: Vec2| from.perp_dot(to).atan2(from.dot(to));
     (0..m).map(move |k| {
         let before = frame.coordinates(markers[(k + m - 1) % m]);
         let here = frame.coordinates(markers[k]);
         let after = frame.coordinates(markers[(k + 1) % m]);
-        (here.y.atan2(here.x), 0.5 * (turn(before, here) + turn(here, after)))
+        (here.to_angle(), 0.5 * (before.angle_to(here) + here.angle_to(after)))
     })
 }
 
-/// B1 and B2 by projection of the azimuthal velocity on the interface on sin(theta) and sin(2 theta)/2, uniformly in
-/// the polar angle theta about the centroid, measured from the first axis of `frame` (whose origin must be the
-/// centroid).
+/// Squirmer coefficients B1 and B2: projections of the azimuthal velocity on the interface on sin(theta) and
+/// sin(2 theta)/2, uniformly in the polar angle theta about the centroid, measured from the first axis of `frame`
+/// (whose origin must be the centroid).
 ///
 /// `velocities` are those of the fluid at the markers (length per time) in the laboratory frame. Second order in the
 /// marker spacing; spectrally accurate on a circle with equidistant markers.

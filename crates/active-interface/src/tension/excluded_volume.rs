@@ -1,6 +1,7 @@
-//! The repulsion that keeps particles on the interface apart.
+//! Excluded volume: the repulsion that keeps particles on the interface apart.
 
-use ib_core::input::{not_negative, positive, within};
+use motile_base::{not_negative, positive, within};
+use serde::{Deserialize, Serialize};
 
 use crate::InterfaceError;
 
@@ -9,7 +10,9 @@ use crate::InterfaceError;
 /// Pi has the dimension of a tension, its slope B = dPi/dc (Cowley, eq. 2.40) that of tension times length (tension per
 /// concentration), as the activity. Values are checked where a [`ContractileTension`](crate::ContractileTension) is
 /// made of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum ExcludedVolume {
     /// Pi = 0.
     None,
@@ -38,7 +41,7 @@ pub enum ExcludedVolume {
     },
 }
 
-/// Largest steepness: its hyperbolic cosine is finite.
+/// Largest steepness a: cosh a, which the plateau is computed from, overflows beyond 710.
 const STEEPEST: f64 = 300.0;
 
 /// ln(1 + e^y) without overflow.
@@ -54,7 +57,7 @@ impl ExcludedVolume {
         Self::Step { strength, threshold: 2.0 * mean_concentration, steepness: 20.0 }
     }
 
-    /// Whether all values are in their ranges.
+    /// Checks that all values are in their ranges.
     pub(super) fn check(self) -> Result<(), InterfaceError> {
         if let Self::Step { threshold, steepness, .. } = self {
             positive("the threshold concentration", threshold)?;
@@ -95,7 +98,7 @@ impl ExcludedVolume {
         }
     }
 
-    /// The concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays
+    /// Concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays
     /// below it. At the activity `-pull` the tension has its maximum there: particles gather to about that
     /// concentration, somewhat beyond it where the flow presses them.
     pub(super) fn plateau(self, pull: f64) -> Option<f64> {

@@ -1,16 +1,16 @@
 //! Formulas that Cowley fitted to simulations, in units of the droplet's radius R0 and at c0 = 100/R0.
 //!
-//! They are no theory: the book (`docs/book`, figures 3.1, 3.2, 3.12 and 4.4) tells how far converged results bear them
-//! out.
+//! These are fits and no theory: the book (`docs/book`, figures 3.1, 3.2, 3.12 and 4.4) tells how far converged results
+//! bear them out.
 
-use ib_core::input::{finite, not_negative, positive};
+use motile_base::{finite, not_negative, positive};
 
 use crate::InterfaceError;
 
-/// The length in all of the exponentials (R0).
+/// Length in the exponentials of (3.7) and (3.9) (R0).
 const LENGTH: f64 = 10.0;
 
-/// The speed of a droplet as wide as its channel over the `length` of the channel (R0), Cowley (3.7):
+/// Speed (R0 per time) of a droplet as wide as its channel, from the `length` l of the channel (R0), Cowley (3.7):
 ///
 /// `|v| = 10 |zeta dmu|/eta exp(-l/10) + |zeta dmu|/eta`
 ///
@@ -29,8 +29,8 @@ pub fn speed_over_length(activity: f64, viscosity: f64, length: f64) -> Result<f
     Ok(LENGTH * unit * decay + unit)
 }
 
-/// How far a droplet swings across a channel (R0), over the channel's `[length, width]` and the droplet's half height
-/// `half_height` (all in R0), Cowley (3.9):
+/// Amplitude of a droplet's swings across a channel (R0), from the channel's `[length, width]` and the droplet's half
+/// height b, `half_height` (all in R0), Cowley (3.9):
 ///
 /// `A = alpha (w/2 - b) (1 - exp(-(l - l0)/10))`
 ///
@@ -50,10 +50,12 @@ pub fn amplitude_over_length(
     Ok(finite("alpha", alpha)? * room * (1.0 - (-beyond.max(0.0) / LENGTH).exp()))
 }
 
-/// The speed of a droplet between elastic walls over their spring constant k, between its speed in unbounded fluid and
-/// that between rigid walls (all three length per time), Cowley (4.3):
+/// Speed of a droplet between elastic walls of the spring constant k, between its speed in unbounded fluid and that
+/// between rigid walls (all three length per time), Cowley (4.3):
 ///
 /// `|v| = (|v|_unconfined - |v|_rigid) exp(-k/b) + |v|_rigid`
+///
+/// with a fitted width b in the unit of k.
 ///
 /// # Errors
 /// Speeds that are not finite, a negative k, a b that is not positive and finite.

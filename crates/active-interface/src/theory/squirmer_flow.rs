@@ -1,7 +1,6 @@
 //! The flow of a two-dimensional squirmer.
 
-use ib_core::Vec2;
-use ib_core::input::{finite, positive};
+use motile_base::{Vec2, finite, positive};
 
 use crate::InterfaceError;
 use crate::observables::{SquirmerFit, VelocityFrame};
@@ -21,7 +20,7 @@ use crate::observables::{SquirmerFit, VelocityFrame};
 /// use active_interface::{observables::VelocityFrame, theory::SquirmerFlow};
 /// let pusher = SquirmerFlow::new(1.0, 1.0, -1.0)?;
 /// assert_eq!(pusher.speed(), 0.5);
-/// let ahead = pusher.velocity(ib_core::Vec2::new(3.0, 0.0), VelocityFrame::Laboratory);
+/// let ahead = pusher.velocity(motile_base::Vec2::new(3.0, 0.0), VelocityFrame::Laboratory);
 /// assert!(ahead.x > 0.0); // pushed along
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```

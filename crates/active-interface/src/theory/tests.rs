@@ -1,7 +1,7 @@
 use super::*;
 use crate::observables::VelocityFrame;
 use approx::assert_relative_eq;
-use ib_core::Vec2;
+use motile_base::Vec2;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

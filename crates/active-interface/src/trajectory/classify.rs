@@ -1,26 +1,31 @@
-//! From a trajectory to its regime.
+//! Classification of a trajectory.
 
-use ib_core::input::at_least;
+use motile_base::at_least;
 
 use super::linear_mode::FEWEST_SAMPLES;
 use super::regression::line;
 use super::swings::{FEWEST_SWINGS, Swings, Tail};
-use super::tendency::tendency;
-use super::{Doubt, Estimate, Evidence, Regime, RegimeCriteria, RegimeReport, Trajectory, extrema};
+use super::{Doubt, Estimate, Evidence, LinearMode, Regime, RegimeCriteria, RegimeReport, Trajectory, extrema};
 use crate::InterfaceError;
 
-/// Standard errors by which a change of amplitude has to differ from zero.
+/// Standard errors by which a change of amplitude must differ from zero: 95 per cent confidence.
 const SIGNIFICANT: f64 = 2.0;
 /// Standard error of the relative change of amplitude per period up to which an oscillation can be called steady.
 const UNCERTAIN: f64 = 0.1;
 /// Growth of a small speed over the last quarter of the record above which a droplet is not at rest.
 const SPEEDING_UP: f64 = 1.5;
+/// Periods in the record from which on a fitted oscillation is believed.
+const OSCILLATION: f64 = 0.5;
+/// Periods in the record up to which a fitted oscillation counts as none.
+const STRAIGHT: f64 = 0.1;
+/// Standard errors by which the rate of a fit to less than two periods must differ from zero.
+const SIGNIFICANT_RATE: f64 = 3.0;
+/// Part of its largest distance from the centre line at which a droplet that has stopped is taken to stay there.
+const STAYS: f64 = 0.95;
 
 impl Trajectory {
-    /// What the droplet does in the long run, with the evidence for it; the first part of the record
-    /// ([`RegimeCriteria::transient`]) is left out.
-    ///
-    /// In this order:
+    /// Long-time regime of the droplet, with the evidence for it; the first part of the record
+    /// ([`RegimeCriteria::transient`]) is left out. The first of these that applies:
     ///
     /// 1. Speeds below [`RegimeCriteria::rest`] over the last quarter: at rest (unless they are increasing).
     /// 2. All heights within [`RegimeCriteria::centre`]: on the centre line.
@@ -29,7 +34,7 @@ impl Trajectory {
     ///    Drifting, if the height about which it oscillates moves to one side by more than the swings, or if the
     ///    oscillation decays towards a height off the centre line. Undecided, if the amplitude goes up and down by more
     ///    than a fifth and less than half of the swings belong to the tail.
-    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`](crate::trajectory::LinearMode) fits
+    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`] fits
     ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at
     ///    least half of its period, or without oscillation a change by a factor of e. Drifting, if the droplet leaves
     ///    the centre line or stays away from it and there is no sign that it oscillates. Undecided otherwise; a steady
@@ -56,7 +61,7 @@ impl Trajectory {
     }
 }
 
-/// The last quarter of a window, in time.
+/// Last quarter of a window, in time.
 fn last_quarter(window: &Trajectory) -> Trajectory {
     window.between(window.times()[0] + 0.75 * window.duration(), f64::INFINITY)
 }
@@ -65,7 +70,7 @@ fn largest(heights: &[f64]) -> f64 {
     heights.iter().fold(0.0, |a: f64, y| a.max(y.abs()))
 }
 
-/// What can be said of every window, at least one sample long.
+/// Measurements that every window of at least one sample allows.
 fn collect(window: &Trajectory, criteria: &RegimeCriteria) -> Result<Evidence, InterfaceError> {
     let (times, heights) = (window.times(), window.heights());
     let late = last_quarter(window);
@@ -91,7 +96,7 @@ fn collect(window: &Trajectory, criteria: &RegimeCriteria) -> Result<Evidence, I
     })
 }
 
-/// At rest, or so slow that one cannot tell; `None` for a droplet that moves.
+/// Regime of a droplet at rest, or so slow that the record does not show it; `None` for a droplet that moves.
 fn rest(window: &Trajectory, criteria: &RegimeCriteria) -> Option<Regime> {
     let late = last_quarter(window);
     if late.speeds().iter().any(|&speed| speed > criteria.rest) {
@@ -108,7 +113,7 @@ fn rest(window: &Trajectory, criteria: &RegimeCriteria) -> Option<Regime> {
     Some(Regime::AtRest)
 }
 
-/// The regime of a droplet that moves and is not on the centre line.
+/// Regime of a droplet that moves and is not on the centre line.
 fn across(window: &Trajectory, evidence: &mut Evidence, criteria: &RegimeCriteria) -> Regime {
     let swings = Swings::new(evidence.extrema.clone());
     if let (Some(&half_swing), Some(&midline)) = (swings.amplitudes.last(), swings.midlines.last()) {
@@ -132,7 +137,7 @@ fn across(window: &Trajectory, evidence: &mut Evidence, criteria: &RegimeCriteri
     tendency(window, evidence.extrema.len(), mode.as_ref(), criteria)
 }
 
-/// The regime of a motion whose swings show how its amplitude changes.
+/// Regime of a motion whose swings show how its amplitude changes.
 fn oscillating(swings: &Swings, tail: &Tail, criteria: &RegimeCriteria) -> Regime {
     let amplitudes = &swings.amplitudes[tail.start..];
     let midlines = &swings.midlines[tail.start..];
@@ -154,6 +159,67 @@ fn oscillating(swings: &Swings, tail: &Tail, criteria: &RegimeCriteria) -> Regim
         _ if per_period.error <= UNCERTAIN => Regime::SteadyOscillation,
         _ => irregular,
     }
+}
+
+/// Regime of a motion with too few turning points to follow its amplitude: from a linear fit, if it is good, or from
+/// the way the height goes at the end.
+fn tendency(window: &Trajectory, turns: usize, mode: Option<&LinearMode>, criteria: &RegimeCriteria) -> Regime {
+    // Turning points are half a period apart; before the first and behind the last one there is less than that each.
+    let too_short = |periods: f64| Regime::Undecided(Doubt::TooShort { periods });
+    match mode {
+        Some(mode) if mode.periods() > STRAIGHT => {
+            let (rate, periods) = (mode.growth_rate, mode.periods());
+            let per_period = mode.period().map_or(0.0, |period| rate.value * period.value);
+            if periods >= OSCILLATION && rate.differs_from_zero(SIGNIFICANT_RATE) && per_period.abs() > criteria.steady
+            {
+                growing_or_decaying(rate.value)
+            } else {
+                too_short(periods)
+            }
+        }
+        None if turns > 0 => too_short(0.5 * turns as f64),
+        _ => one_way(window, mode, criteria),
+    }
+}
+
+fn growing_or_decaying(rate: f64) -> Regime {
+    if rate > 0.0 { Regime::Growing } else { Regime::Decaying }
+}
+
+/// Regime of a motion that has not turned, or has turned once and relaxes without oscillation.
+fn one_way(window: &Trajectory, mode: Option<&LinearMode>, criteria: &RegimeCriteria) -> Regime {
+    let heights = window.heights();
+    let (first, last) = (heights[0], heights[heights.len() - 1]);
+    let largest = heights.iter().fold(0.0_f64, |a, y| a.max(y.abs()));
+    let duration = window.duration();
+
+    if let Some(mode) = mode {
+        let rate = mode.growth_rate;
+        let grown = rate.value * duration;
+        let significant = rate.differs_from_zero(SIGNIFICANT_RATE);
+        if significant && grown >= 1.0 && last.abs() >= std::f64::consts::E * first.abs() {
+            return Regime::Growing;
+        }
+        if significant && grown <= -1.0 && std::f64::consts::E * last.abs() <= largest {
+            return Regime::Decaying;
+        }
+    }
+    // A motion that is not linear and still going on may do anything.
+    let tail = window.between(window.times()[0] + 0.5 * duration, f64::INFINITY);
+    let stays = tail.heights().iter().all(|y| (y - last).abs() <= (1.0 - STAYS) * largest);
+    let leaves = mode.is_some() && last * (last - tail.heights()[0]) > 0.0;
+    let away = last.abs() >= STAYS * largest;
+    if away && (leaves || stays) && path(window) >= criteria.travel {
+        Regime::Drifting
+    } else {
+        Regime::Undecided(Doubt::TooShort { periods: 0.0 })
+    }
+}
+
+/// Length of the path that the droplet has swum (length).
+fn path(window: &Trajectory) -> f64 {
+    let speeds = window.speeds().windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    window.times().windows(2).zip(speeds).map(|(times, speed)| (times[1] - times[0]) * speed).sum()
 }
 
 #[cfg(test)]

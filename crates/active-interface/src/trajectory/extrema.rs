@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use ib_core::input::{all_finite, not_negative, same_length};
+use motile_base::{all_finite, not_negative, same_length};
 
 use super::regression::Solution;
 use crate::InterfaceError;
@@ -10,18 +10,19 @@ use crate::error::increasing;
 
 /// A turning point of a lateral motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Extremum {
-    /// When.
+    /// Time of the turning point.
     pub time: f64,
     /// Height above the centre line (length).
     pub height: f64,
-    /// Whether it is a maximum; maxima and minima alternate.
+    /// `true` for a maximum, `false` for a minimum; they alternate.
     pub is_maximum: bool,
 }
 
-/// The turning points of heights y (length) sampled at increasing times: maxima and minima in turn, each of which the
-/// motion comes back from by more than `hysteresis` (length), so that oscillations below it do not count. The first and
-/// last sample are none.
+/// Turning points of heights y (length) sampled at increasing times: maxima and minima in turn, from each of which the
+/// motion comes back by more than `hysteresis` (length), so that smaller oscillations do not count. The first and the
+/// last sample are no turning points.
 ///
 /// Time and height are those of a quartic fitted to the samples of the upper 5 per cent of the swing around each, at
 /// least five (a parabola near the ends, where there are not as many): for a sine of 7 samples a period they are good
@@ -39,7 +40,7 @@ pub fn extrema(times: &[f64], heights: &[f64], hysteresis: f64) -> Result<Vec<Ex
     Ok((0..turns.len())
         .map(|k| {
             let (index, is_maximum) = turns[k];
-            // What the motion rose and fell on both sides of the turn.
+            // Rise and fall of the motion on both sides of the turn.
             let before = if k == 0 { 0 } else { turns[k - 1].0 };
             let after = turns.get(k + 1).map_or(heights.len() - 1, |turn| turn.0);
             let swing = |from: usize, to: usize| {
@@ -52,7 +53,7 @@ pub fn extrema(times: &[f64], heights: &[f64], hysteresis: f64) -> Result<Vec<Ex
         .collect())
 }
 
-/// Samples at which the motion turns, and whether they are maxima.
+/// Samples at which the motion turns, each with `true` for a maximum.
 pub(super) fn turns(heights: &[f64], hysteresis: f64) -> Vec<(usize, bool)> {
     let mut turns = Vec::new();
     // The highest and the lowest sample since the last turn, and which of them the motion is heading for.

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use ib_core::input::{all_finite, at_least, same_length};
+use motile_base::{all_finite, at_least, same_length};
 
 use super::Estimate;
-use super::quadrature::cumulative_integral;
 use super::regression::Solution;
 use super::separable::{Data, Model, SeparableFit};
 use crate::InterfaceError;
@@ -13,44 +12,44 @@ use crate::error::increasing;
 
 /// The leading mode of a small lateral motion, `y(t) = Re(a e^((s + i w) t))`, fitted by [`fit_linear_mode`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct LinearMode {
-    /// Growth rate s, negative for a decay (1/time). Where the motion does not oscillate it is the larger of two real
-    /// rates.
+    /// Growth rate s, negative for a decay (1/time); the larger of two real rates where the motion does not oscillate.
     pub growth_rate: Estimate,
     /// Angular frequency w (radians per time); `None` where the motion does not oscillate.
     pub frequency: Option<Estimate>,
-    /// The smaller one of two real rates (1/time); `None` for an oscillation, and where the data show one rate only.
+    /// Smaller one of two real rates (1/time); `None` for an oscillation, and where the data show one rate only.
     pub second_rate: Option<f64>,
-    /// What the fit leaves of the data, root mean square over root mean square (no dimension).
+    /// Root mean square of the residuals over that of the data (no dimension).
     pub residual: f64,
     /// Length of the record (time).
     pub duration: f64,
 }
 
 impl LinearMode {
-    /// The period 2 pi/w (time); `None` where the motion does not oscillate.
+    /// Period 2 pi/w (time); `None` where the motion does not oscillate.
     #[must_use]
     pub fn period(&self) -> Option<Estimate> {
         self.frequency.map(|w| Estimate { value: TAU / w.value, error: TAU / (w.value * w.value) * w.error })
     }
 
-    /// How many periods the record contains, 0 where the motion does not oscillate.
+    /// Number of periods in the record, 0 where the motion does not oscillate.
     #[must_use]
     pub fn periods(&self) -> f64 {
         self.frequency.map_or(0.0, |w| w.value * self.duration / TAU)
     }
 }
 
-/// Fewest samples of a fit.
+/// Fewest samples of a fit: twice the four unknowns of an oscillation.
 pub(super) const FEWEST_SAMPLES: usize = 8;
 
-/// One rate is enough if two leave no less than this part of its residual.
+/// Ratio of the residuals of the fits with two rates and with one below which the second rate is believed.
 const BETTER: f64 = 0.95;
 
-/// Fits `y'' = 2 s y' - (s^2 + w^2) y`, that is `y(t) = Re(a e^((s + i w) t))` or, where the motion is overdamped, the
-/// sum of two real exponentials, to the height y above the centre line (length) at increasing times, in the least
-/// squares sense. What a small lateral displacement of a steady swimmer follows once everything faster has decayed:
-/// leave the beginning of a run out.
+/// Least squares fit of `y(t) = Re(a e^((s + i w) t))`, or, where the motion is overdamped, of the sum of two real
+/// exponentials, to the height y above the centre line (length) at increasing times; both solve
+/// `y'' = 2 s y' - (s^2 + w^2) y`. A small lateral displacement of a steady swimmer is of this form once everything
+/// faster has decayed: leave the beginning of a run out.
 ///
 /// With the lateral velocities y' (length per time; the centroid's) beside the heights, both are fitted at once, each
 /// with its root mean square as unit. A fraction of a period then suffices; without them it takes about half a period.
@@ -109,7 +108,7 @@ pub fn fit_linear_mode(
     Ok(mode(&fit, duration))
 }
 
-/// The mode of a fit in the times of a record of length `duration`.
+/// Mode of a fit whose unit of time is the length `duration` of the record.
 fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
     let estimate =
         |value: f64, variance: f64| Estimate { value, error: variance.max(0.0).sqrt() }.scaled(1.0 / duration);
@@ -131,7 +130,7 @@ fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
     LinearMode { growth_rate, frequency, second_rate, residual: fit.residual, duration }
 }
 
-/// The rates of a model by linear least squares from its integrated equation,
+/// Initial guess of the rates of a model, by linear least squares from its integrated equation,
 /// `y' - y'(0) = a (y - y(0)) + b INT y`, once more integrated where the velocities are not known.
 fn weak_form(model: Model, times: &[f64], heights: &[f64], velocities: Option<&[f64]>) -> Option<Vec<f64>> {
     let once = cumulative_integral(times, heights, velocities);
@@ -155,6 +154,42 @@ fn weak_form(model: Model, times: &[f64], heights: &[f64], velocities: Option<&[
         }
     };
     Some(vec![0.5 * a, 0.25 * a * a + b])
+}
+
+/// Integral of y from the first time to each of the times, for samples at increasing times: exact for cubics.
+///
+/// Between two samples y is taken for the cubic through them and their neighbours, or, with the derivatives of y, for
+/// the cubic with these values and derivatives.
+fn cumulative_integral(times: &[f64], y: &[f64], derivatives: Option<&[f64]>) -> Vec<f64> {
+    let mut integral = vec![0.0; y.len()];
+    for i in 1..y.len() {
+        let dt = times[i] - times[i - 1];
+        integral[i] = integral[i - 1]
+            + match derivatives {
+                Some(d) => 0.5 * dt * (y[i - 1] + y[i]) + dt * dt / 12.0 * (d[i - 1] - d[i]),
+                None => between(times, y, i),
+            };
+    }
+    integral
+}
+
+/// Integral over the interval before sample `i` of the polynomial through up to four samples around it.
+fn between(times: &[f64], y: &[f64], i: usize) -> f64 {
+    let start = (i.max(2) - 2).min(y.len().saturating_sub(4));
+    let stencil = start..(start + 4).min(y.len());
+    let (middle, half) = (0.5 * (times[i - 1] + times[i]), 0.5 * (times[i] - times[i - 1]));
+    // Two Gauss points integrate a cubic exactly.
+    let root = half / 3.0_f64.sqrt();
+    let value = |t: f64| -> f64 {
+        stencil
+            .clone()
+            .map(|k| {
+                let others = stencil.clone().filter(|&m| m != k);
+                y[k] * others.map(|m| (t - times[m]) / (times[k] - times[m])).product::<f64>()
+            })
+            .sum()
+    };
+    half * (value(middle - root) + value(middle + root))
 }
 
 #[cfg(test)]

@@ -1,20 +1,20 @@
-//! Records of a droplet over a run.
+//! Recorder of a droplet during runs.
 
 use std::error::Error;
 
-use ib_core::{Handle, Hydrodynamics, Observer, System, gap::wall_gap};
+use motile_scene::{Handle, Hydrodynamics, Observer, System, gap::wall_gap};
 
 use crate::{
-    ActiveDroplet, Convention, InterfaceError, Observables,
-    observables::{GapFlow, InterfaceState, gap_flow},
-    observe,
+    ActiveDroplet, InterfaceError,
+    observables::{Convention, GapFlow, InterfaceState, Observables, gap_flow, observe},
     trajectory::{RegimeCriteria, RegimeReport, Trajectory},
 };
 
-/// What a [`TrajectoryRecorder`] saw at one time.
+/// Record of a droplet at one time, made by a [`TrajectoryRecorder`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct TrajectoryRecord {
-    /// When.
+    /// Time of the record.
     pub time: f64,
     /// All observables of the droplet.
     pub observables: Observables,
@@ -27,8 +27,8 @@ pub struct TrajectoryRecord {
 }
 
 impl TrajectoryRecord {
-    /// Names and values, in the order of the columns of a table: `time`, the [`Observables::entries`], `gap`,
-    /// `pressure_gradient`, `net_flux`, `retrograde_flow`. What does not exist is `None`.
+    /// Names and values of all entries, in the order of the columns of a table: `time`, the [`Observables::entries`],
+    /// `gap`, `pressure_gradient`, `net_flux`, `retrograde_flow`. Values that do not exist are `None`.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let mut entries = vec![("time", Some(self.time))];
@@ -41,14 +41,14 @@ impl TrajectoryRecord {
     }
 }
 
-/// Watches one droplet of a scene during its runs and keeps all that it sees.
+/// Observer of one droplet of a scene, which keeps a record of every time at which a run shows it the scene.
 ///
 /// ```no_run
-/// # fn run<H: ib_core::Hydrodynamics>(
-/// #     mut scene: ib_core::Scene<H>, droplet: ib_core::Handle<active_interface::ActiveDroplet>,
+/// # fn run<H: motile_scene::Hydrodynamics>(
+/// #     mut scene: motile_scene::Scene<H>, droplet: motile_scene::Handle<active_interface::ActiveDroplet>,
 /// # ) -> Result<(), Box<dyn std::error::Error>> {
 /// use active_interface::trajectory::{RegimeCriteria, TrajectoryRecorder};
-/// use ib_core::Every;
+/// use motile_scene::Every;
 ///
 /// let mut recorder = TrajectoryRecorder::new(droplet);
 /// scene.run(500.0).observe(Every::StepAfter(0.5), &mut recorder).go()?;
@@ -69,51 +69,50 @@ pub struct TrajectoryRecorder {
 }
 
 impl TrajectoryRecorder {
-    /// A recorder of a droplet, with force moments in the far-field convention.
+    /// Recorder of a droplet, with force moments in the far-field convention.
     #[must_use]
     pub fn new(droplet: Handle<ActiveDroplet>) -> Self {
         let (convention, records) = (Convention::FarField, Vec::new());
         Self { droplet, convention, with_gap_flow: false, centre_line: None, minimum_gap: None, records }
     }
 
-    /// The same recorder with force moments in another convention.
+    /// Computes force moments in another convention.
     #[must_use]
     pub fn with_convention(mut self, convention: Convention) -> Self {
         self.convention = convention;
         self
     }
 
-    /// The same recorder, recording also the fluxes past the droplet (see [`crate::observables::gap_flow`]). This costs
-    /// a sampling of the flow a record, a little more than half a time step, and works in channels only.
+    /// Records the fluxes past the droplet too (see [`crate::observables::gap_flow`]). This costs a sampling of the
+    /// flow a record, a little more than half a time step, and works in channels only.
     #[must_use]
     pub fn with_gap_flow(mut self) -> Self {
         self.with_gap_flow = true;
         self
     }
 
-    /// The records, at increasing times.
+    /// Records, at increasing times.
     #[must_use]
     pub fn records(&self) -> &[TrajectoryRecord] {
         &self.records
     }
 
-    /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name
-    /// or without records.
+    /// Values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or
+    /// without records.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
         let place = self.records.first()?.entries().iter().position(|entry| entry.0 == name)?;
         Some(self.records.iter().map(|record| record.entries()[place].1).collect())
     }
 
-    /// The smallest gap to the walls of all records (length); `None` without walls or records. The scene keeps that
-    /// of all its steps and bodies ([`System::minimum_wall_gap`]).
+    /// Smallest gap to the walls of all records (length); `None` without walls or records. The scene keeps the smallest
+    /// gap of all steps and bodies ([`System::minimum_wall_gap`]).
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         self.minimum_gap
     }
 
-    /// The trajectory across the channel, heights being measured from the centre line; without walls from the height of
-    /// the first record.
+    /// Trajectory across the channel, heights measured from the centre line; without walls from the first record's.
     ///
     /// # Errors
     /// None for records of a run.
@@ -126,7 +125,7 @@ impl TrajectoryRecorder {
             .with_lateral_velocities(list(|record| record.observables.velocity.y))
     }
 
-    /// What the droplet does in the long run; see [`Trajectory::regime`].
+    /// Long-time regime of the droplet; see [`Trajectory::regime`].
     ///
     /// # Errors
     /// No records, criteria out of their ranges.
@@ -161,9 +160,9 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
         let flow = self.with_gap_flow.then(|| gap_flow(system, self.droplet)).transpose()?;
         let state = InterfaceState::of(system, self.droplet)?;
         let observables = observe(&state, self.convention)?;
-        let walls = system.hydrodynamics().discretisation().domain.walls;
+        let walls = system.hydrodynamics().fluid_view().domain.walls;
         let straight = walls.map(|walls| wall_gap(state.markers, walls));
-        let periods = system.hydrodynamics().discretisation().domain.periods;
+        let periods = system.hydrodynamics().fluid_view().domain.periods;
         let others = system.hydrodynamics().walls().and_then(|walls| walls.smallest(state.markers, periods));
         let gap = [straight, others.map(|(gap, _)| gap)].into_iter().flatten().reduce(f64::min);
         if let Some(gap) = gap {

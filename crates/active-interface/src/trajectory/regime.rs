@@ -1,52 +1,52 @@
-//! What a droplet in a channel does in the long run, and the evidence for it.
+//! Long-time regimes of a droplet in a channel, and the evidence for a regime.
 
 use std::fmt;
 
-use ib_core::input::{positive, within};
+use motile_base::{positive, within};
 
 use super::{Estimate, Extremum, LinearMode};
 use crate::InterfaceError;
 
-/// What a droplet in a channel does in the long run, seen across the channel.
+/// Long-time regime of the motion of a droplet across a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Regime {
-    /// It swims on the centre line and has not left it by more than [`RegimeCriteria::centre`].
+    /// Swimming on the centre line, at most [`RegimeCriteria::centre`] off it.
     CentreLine,
-    /// It comes back to the centre line, with or without oscillations.
+    /// Exponential return to the centre line, with or without oscillations.
     Decaying,
-    /// It leaves the centre line exponentially, with or without oscillations.
+    /// Exponential departure from the centre line, with or without oscillations.
     Growing,
-    /// It oscillates with an amplitude that stays the same.
+    /// Oscillation of constant amplitude.
     SteadyOscillation,
-    /// It does not move.
+    /// No motion.
     AtRest,
-    /// It goes to one side, towards a wall, or keeps away from the centre line at one side of it.
+    /// Motion to one side, towards a wall, or along a line on one side of the centre line.
     Drifting,
-    /// The record does not tell.
+    /// A record that does not show the regime.
     Undecided(Doubt),
 }
 
-/// Why a record does not tell the regime.
+/// Reason for which a record does not show the regime.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
     /// Too few samples after the transient.
     TooFewSamples {
-        /// How many there are.
+        /// Number of samples found.
         found: usize,
     },
     /// The record contains too little of a period or of a decay: make the run longer.
     TooShort {
-        /// How many periods it contains, as far as they are known; 0 without a turning point.
+        /// Number of periods in the record, as far as it is known; 0 without a turning point.
         periods: f64,
     },
-    /// The amplitude goes up and down.
+    /// An amplitude that goes up and down.
     Irregular {
         /// Largest over smallest amplitude of the swings.
         ratio: f64,
     },
-    /// It is hardly moving, but is getting faster: make the run longer.
+    /// A small speed that is growing: make the run longer.
     SpeedingUp {
         /// Growth rate of the speed (1/time).
         rate: f64,
@@ -79,22 +79,22 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// What counts as how much for [`Trajectory::regime`](crate::trajectory::Trajectory::regime).
+/// Thresholds of [`Trajectory::regime`](crate::trajectory::Trajectory::regime).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegimeCriteria {
-    /// Part of the record, from its beginning, that is left out (no dimension, at least 0 and below 1).
+    /// Part of the record, from its beginning, that is left out as a transient (no dimension, at least 0 and below 1).
     pub transient: f64,
-    /// A droplet this near to the centre line is on it (length). The default is far above the round-off of a symmetric
-    /// run and far below any perturbation made on purpose.
+    /// Distance from the centre line up to which a droplet is on it (length). The default is far above the round-off of
+    /// a symmetric run and far below any perturbation made on purpose.
     pub centre: f64,
-    /// A droplet this slow is at rest (length per time).
+    /// Speed up to which a droplet is at rest (length per time).
     pub rest: f64,
-    /// Part of the range of heights that the motion has to come back by for a turning point to count (no dimension).
+    /// Smallest return of the motion after a turning point that counts, over the range of heights (no dimension).
     pub hysteresis: f64,
     /// Relative change of the amplitude per period up to which an oscillation is steady (no dimension).
     pub steady: f64,
-    /// How far a droplet has to have swum without turning to be called drifting (length); on a shorter path it may as
-    /// well be about to turn.
+    /// Shortest path without a turning point that is called a drift (length); on a shorter one the droplet may as well
+    /// be about to turn.
     pub travel: f64,
     /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used where there
     /// are fewer than four turning points.
@@ -109,8 +109,8 @@ impl Default for RegimeCriteria {
 }
 
 impl RegimeCriteria {
-    /// The default for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length per
-    /// time).
+    /// Default thresholds for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length
+    /// per time).
     ///
     /// # Errors
     /// Values that are not positive and finite.
@@ -133,10 +133,11 @@ impl RegimeCriteria {
     }
 }
 
-/// The numbers that a regime rests on, all from the record without its transient.
+/// Measurements that a regime follows from, all on the record without its transient.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Evidence {
-    /// First and last time.
+    /// First and last time (time).
     pub window: [f64; 2],
     /// Number of samples.
     pub samples: usize,
@@ -144,25 +145,25 @@ pub struct Evidence {
     pub speed: f64,
     /// Largest distance from the centre line (length).
     pub largest: f64,
-    /// The same at the end: over the last period, or over the last quarter of the window where there is no period
-    /// (length). Cowley's amplitude (section 3.1.2).
+    /// Cowley's amplitude (section 3.1.2): largest distance from the centre line over the last period, or over the last
+    /// quarter of the window where there is no period (length).
     pub amplitude: f64,
-    /// Half of the last swing from one turning point to the next one (length).
+    /// Half of the height difference between the last two turning points (length).
     pub half_swing: Option<f64>,
-    /// Height about which the last swings go (length).
+    /// Height midway between the last two turning points (length).
     pub midline: Option<f64>,
     /// Height at the end (length).
     pub last_height: f64,
-    /// Slope of the straight line through all heights (length per time).
+    /// Slope of the least squares line through all heights (length per time).
     pub drift: Estimate,
     /// Turning points.
     pub extrema: Vec<Extremum>,
-    /// How many periods are seen: between the first and the last turning point, or, where these are few, by a linear
-    /// fit.
+    /// Number of periods in the record: between the first and the last turning point, or, where these are few, by the
+    /// linear fit.
     pub periods: f64,
-    /// Period (time), of the tail of the motion whose amplitude is exponential or constant.
+    /// Period (time) of the last part of the motion, in which the amplitude is exponential or constant.
     pub period: Option<Estimate>,
-    /// Growth rate of the amplitude in that tail, negative for a decay (1/time).
+    /// Growth rate of the amplitude in that part, negative for a decay (1/time).
     pub growth_rate: Option<Estimate>,
     /// The linear fit, where there are too few turning points.
     pub mode: Option<LinearMode>,
@@ -170,10 +171,11 @@ pub struct Evidence {
 
 /// A regime and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct RegimeReport {
     /// The regime.
     pub regime: Regime,
-    /// What it rests on.
+    /// Measurements that it follows from.
     pub evidence: Evidence,
 }
 

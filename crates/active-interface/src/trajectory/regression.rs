@@ -1,26 +1,27 @@
 //! Linear least squares with standard errors.
 
-/// A fitted number and its standard error, both of the same dimension.
+/// A fitted number and its standard error, of one dimension.
 ///
 /// The standard error takes the residuals for a first-order autoregressive process, so that the smooth residuals of a
 /// model that is only nearly right do not pass for many independent measurements. It is infinite where there are no
 /// more data than unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Estimate {
-    /// The number.
+    /// Best value.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
 }
 
 impl Estimate {
-    /// Whether the value differs from zero by more than `errors` standard errors.
+    /// Significance: `true` if the value differs from zero by more than `errors` standard errors.
     #[must_use]
     pub fn differs_from_zero(&self, errors: f64) -> bool {
         self.value.abs() > errors * self.error
     }
 
-    /// The estimate of `factor` times the number.
+    /// Estimate of `factor` times the number.
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self { value: factor * self.value, error: factor.abs() * self.error }
     }
@@ -35,17 +36,17 @@ pub(super) struct Solution {
     pub(super) residuals: Vec<f64>,
 }
 
-/// A column of which the ones before it leave less than this part is taken for dependent on them.
+/// Columns that leave less than this part of a column, some 1e5 times round-off, determine it: it counts as dependent.
 const RANK: f64 = 1e-11;
 
 impl Solution {
-    /// By modified Gram-Schmidt orthogonalisation, with the data as the last column, backward stable (Bjoerck, BIT 7,
-    /// 1967). `None` for fewer rows than columns, columns that depend on each other, or values that are not finite.
+    /// Solution by modified Gram-Schmidt orthogonalisation, with the data as the last column, which is backward stable
+    /// (Bjoerck, BIT 7, 1967). `None` for fewer rows than columns, dependent columns, or values that are not finite.
     pub(super) fn new(mut columns: Vec<Vec<f64>>, data: &[f64]) -> Option<Self> {
         let (rows, count) = (data.len(), columns.len());
         let dot = |a: &[f64], b: &[f64]| a[..rows].iter().zip(&b[..rows]).map(|(a, b)| a * b).sum::<f64>();
         let sizes: Vec<f64> = columns.iter().map(|column| dot(column, column).sqrt()).collect();
-        // Below each column stands what it is made of, in terms of the columns at the start.
+        // Below each column stand its coefficients in the original columns.
         for (j, column) in columns.iter_mut().enumerate() {
             column.extend((0..count).map(|i| if i == j { 1.0 } else { 0.0 }));
         }
@@ -89,10 +90,11 @@ impl Solution {
     }
 }
 
-/// Fewer residuals than this do not tell whether they are correlated.
+/// Fewest residuals from which a correlation is estimated: its own standard error is 1/sqrt(n), a third for ten.
 const CORRELATED: usize = 10;
 
-/// How many residuals count for one: `(1 + r) / (1 - r)` with their correlation r to the next one, at least 1.
+/// Number of residuals that count as one independent datum: `(1 + r) / (1 - r)` with the correlation r of successive
+/// residuals, at least 1.
 pub(super) fn inflation(residuals: &[f64]) -> f64 {
     let power: f64 = residuals.iter().map(|r| r * r).sum();
     if residuals.len() < CORRELATED || power == 0.0 {
@@ -104,7 +106,7 @@ pub(super) fn inflation(residuals: &[f64]) -> f64 {
     (1.0 + correlation) / (1.0 - correlation)
 }
 
-/// Value at `x = 0` and slope of the straight line through the points.
+/// Least squares line through the points: value at `x = 0`, slope, and root mean square residual.
 pub(super) fn line(x: &[f64], y: &[f64]) -> Option<(Estimate, Estimate, f64)> {
     let solution = Solution::new(vec![vec![1.0; x.len()], x.to_vec()], y)?;
     let rms = (solution.power() / x.len() as f64).sqrt();

@@ -1,8 +1,8 @@
-//! Least squares for models that are linear in their amplitudes and not in one or two rates.
+//! Separable least squares: models that are linear in their amplitudes and nonlinear in one or two rates.
 
 use super::regression::{Solution, inflation};
 
-/// The two ways in which a linear system relaxes, in times t of the length of the record.
+/// Relaxation of a linear system of one or two variables, in units of time of the length of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Model {
     /// `A e^(p0 t)`.
@@ -19,7 +19,7 @@ struct Basis {
 }
 
 impl Model {
-    /// How many rates there are, and as many amplitudes.
+    /// Number of rates, and of amplitudes.
     pub(super) fn order(self) -> usize {
         match self {
             Self::Exponential => 1,
@@ -27,7 +27,7 @@ impl Model {
         }
     }
 
-    /// At time `t`: values[function][derivative], by_rate[function][derivative][rate].
+    /// Functions at time `t`: values[function][derivative], by_rate[function][derivative][rate].
     fn basis(self, rates: &[f64], t: f64) -> Basis {
         let s = rates[0];
         let e = (s * t).exp();
@@ -86,7 +86,8 @@ pub(super) struct SeparableFit {
 }
 
 impl Data {
-    /// `values` and `derivatives` are brought to a mean square of one; `None` where one of them vanishes.
+    /// Data of a fit, with `values` and `derivatives` scaled to a mean square of one; `None` where one of them
+    /// vanishes.
     pub(super) fn new(times: Vec<f64>, values: &[f64], derivatives: Option<&[f64]>) -> Option<Self> {
         let rms = |list: &[f64]| (list.iter().map(|v| v * v).sum::<f64>() / list.len() as f64).sqrt();
         let size = rms(values);
@@ -121,14 +122,13 @@ impl Data {
         (0..count).map(|column| series(column).collect()).collect()
     }
 
-    /// The best amplitudes for given rates.
+    /// Amplitudes of least squares for given rates.
     fn amplitudes(&self, model: Model, rates: &[f64]) -> Option<Solution> {
         let bases = self.bases(model, rates);
         Solution::new(self.columns(model.order(), &bases, |basis, k, j| basis.values[j][k]), &self.data)
     }
 
-    /// The columns by which rates and amplitudes change the model, and the change of them that Gauss and Newton
-    /// propose.
+    /// Gauss-Newton step: least squares solution for the changes of rates and amplitudes.
     fn linearised(&self, model: Model, rates: &[f64], best: &Solution) -> Option<Solution> {
         let (order, bases) = (model.order(), self.bases(model, rates));
         let columns = self.columns(2 * order, &bases, |basis, k, column| {
@@ -141,7 +141,8 @@ impl Data {
         Solution::new(columns, &best.residuals)
     }
 
-    /// Fits a model, starting from `rates`; `None` where the data do not determine it.
+    /// Fit of a model, by variable projection: Gauss-Newton steps in the rates from `rates` on, halved until the
+    /// residual falls, with the best amplitudes for each. `None` where the data do not determine the model.
     pub(super) fn fit(&self, model: Model, mut rates: Vec<f64>) -> Option<SeparableFit> {
         const ITERATIONS: usize = 100;
         const HALVINGS: usize = 30;

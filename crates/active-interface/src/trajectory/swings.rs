@@ -1,17 +1,18 @@
-//! Amplitude, growth and period from turning points.
+//! Swings between turning points: amplitude, growth and period of a lateral motion.
 
 use super::extrema::turns;
 use super::regression::{Solution, line};
 use super::{Estimate, Extremum};
 
-/// Two swings do not tell a trend.
+/// Fewest swings that show a trend: through two there is always an exponential.
 pub(super) const FEWEST_SWINGS: usize = 3;
-/// The tail of a motion has at least as many swings, if there are that many.
+/// Number of swings that the tail of a motion starts from, if there are that many: two periods.
 const USUAL_SWINGS: usize = 4;
-/// Scatter of the logarithm of the amplitude up to which a tail counts as exponential.
+/// Root mean square scatter of the logarithm of the amplitude, half a per cent, up to which a tail counts as
+/// exponential: turning points of some ten samples a period are known to about that.
 const SCATTER: f64 = 5e-3;
 
-/// The swings from each turning point to the next one.
+/// Swings from each turning point to the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Swings {
     /// Turning points, one more than swings.
@@ -24,10 +25,10 @@ pub(super) struct Swings {
     pub(super) midlines: Vec<f64>,
 }
 
-/// What the last swings of a motion have in common.
+/// Last swings of a motion, in which the amplitude is exponential in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tail {
-    /// Number of the first swing that belongs to it.
+    /// Index of the first swing of the tail.
     pub(super) start: usize,
     /// Growth rate of the amplitude (1/time).
     pub(super) growth_rate: Estimate,
@@ -48,13 +49,13 @@ impl Swings {
         self.amplitudes.len()
     }
 
-    /// How often the amplitude turns from growth to decay or back, by more than a fifth.
+    /// Number of times that the amplitude turns from growth to decay or back, by more than a fifth.
     pub(super) fn wavering(&self) -> usize {
         let logarithms: Vec<f64> = self.amplitudes.iter().map(|a| a.ln()).collect();
         turns(&logarithms, 1.2_f64.ln()).len()
     }
 
-    /// The longest tail of at least three swings whose amplitude is exponential in time; `None` for fewer swings.
+    /// Longest tail of at least three swings whose amplitude is exponential in time; `None` for fewer swings.
     pub(super) fn tail(&self) -> Option<Tail> {
         let count = self.len();
         if count < FEWEST_SWINGS {
@@ -74,8 +75,8 @@ impl Swings {
         Some(Tail { start, growth_rate, period: self.period(start)? })
     }
 
-    /// The period from the times of the turning points from number `start` on, `t_k = a +- b + k P/2`: rising and
-    /// falling may take different times.
+    /// Period P from the times of the turning points from index `start` on, `t_k = a +- b + k P/2`: rise and fall may
+    /// take different times.
     fn period(&self, start: usize) -> Option<Estimate> {
         let turns = &self.turns[start..];
         let first = turns.first()?.time;

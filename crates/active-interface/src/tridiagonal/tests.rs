@@ -1,5 +1,5 @@
 use super::*;
-use ib_core::Vec2;
+use motile_base::Vec2;
 use proptest::prelude::*;
 
 fn apply(lower: &[f64], diagonal: &[f64], upper: &[f64], x: &[f64]) -> Vec<f64> {

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use boundary_integral::{PeriodicCalculus, TensionPlacement};
-use ib_core::{MarkerKind, Markers, Vec2};
+use motile_base::Vec2;
+use motile_scene::{MarkerKind, Markers};
 
 /// An ellipse with semi-axes a and b, turned by an angle, with its tension as a function of the parameter.
 #[derive(Debug, Clone, Copy)]

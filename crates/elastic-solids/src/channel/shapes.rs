@@ -1,9 +1,8 @@
-//! Channels of Cowley (chapters 4 and 5).
+//! Shapes of channels, those of Cowley (chapters 4 and 5) among them.
 
 use std::f64::consts::{PI, TAU};
 
-use ib_core::Vec2;
-use ib_core::input::{InputError, finite, positive, within};
+use motile_base::{InputError, Vec2, finite, positive, within};
 use serde::{Deserialize, Serialize};
 
 use crate::{Channel, Outline, SolidError};
@@ -11,14 +10,15 @@ use crate::{Channel, Outline, SolidError};
 /// Shapes of channels between two walls, centred on the origin, periodic in x.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
+#[non_exhaustive]
 pub enum ChannelShape {
-    /// Between two straight walls.
+    /// A channel between two straight walls.
     Straight {
         /// Distance between the sides (length).
         width: f64,
     },
-    /// With a narrow passage, joined by cosine ramps (Cowley figure 4.18): half the width is w/2 outside, t/2 in the
-    /// passage, and between them `t/2 + (w - t)/4 (1 - cos(pi s/r))` at the distance s from the passage's end.
+    /// A channel with a narrow passage, joined by cosine ramps (Cowley figure 4.18): half the width is w/2 outside, t/2
+    /// in the passage, and between them `t/2 + (w - t)/4 (1 - cos(pi s/r))` at the distance s from the passage's end.
     Constriction {
         /// Width w of the main channel (length).
         width: f64,
@@ -32,7 +32,7 @@ pub enum ChannelShape {
         #[serde(default)]
         centre: f64,
     },
-    /// With two triangular teeth that almost meet (Cowley figure 5.1).
+    /// A channel with two triangular teeth that almost meet (Cowley figure 5.1).
     Valve {
         /// Width of the channel (length).
         width: f64,
@@ -47,7 +47,7 @@ pub enum ChannelShape {
         #[serde(default)]
         centre: f64,
     },
-    /// Of asymmetric teeth (Cowley figure 5.2).
+    /// A channel of asymmetric teeth (Cowley figure 5.2).
     Ratchet {
         /// Width between the teeth (length).
         width: f64,
@@ -62,7 +62,7 @@ pub enum ChannelShape {
         #[serde(default)]
         sharp: bool,
     },
-    /// With sinusoidal sides `-w/2 - a cos(k x)` and `w/2 + a cos(k x + phase)`.
+    /// A channel with sinusoidal sides `-w/2 - a cos(k x)` and `w/2 + a cos(k x + phase)`.
     Sinusoidal {
         /// Mean width w (length).
         width: f64,
@@ -75,7 +75,7 @@ pub enum ChannelShape {
         #[serde(default)]
         phase: f64,
     },
-    /// That splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`,
+    /// A channel that splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`,
     /// `y = d/2 cos(t) sqrt(1 + sin(t)^2)`: blunt tips, and flat beside the middle.
     Branching {
         /// Width of the undivided channel (length).
@@ -91,15 +91,15 @@ pub enum ChannelShape {
     },
 }
 
-/// Most waves or teeth in a period.
+/// Most waves or teeth in a period: ten samples of a side, of [`Channel::with_islands`], for each.
 const MOST_WAVES: f64 = 200.0;
 
 impl ChannelShape {
-    /// That of Cowley figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1 over a
-    /// length of 4, ramps of 1.
+    /// Constriction of Cowley figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1
+    /// over a length of 4, ramps of 1.
     pub const THESIS: Self = Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 };
 
-    /// The name of the shape, as it stands in a file.
+    /// Name of the shape, as it stands in a file.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -112,7 +112,7 @@ impl ChannelShape {
         }
     }
 
-    /// The width of the undivided channel between its narrow parts (length).
+    /// Width of the undivided channel between its narrow parts (length).
     #[must_use]
     pub fn width(&self) -> f64 {
         match *self {
@@ -125,13 +125,13 @@ impl ChannelShape {
         }
     }
 
-    /// Number of its islands.
+    /// Number of islands.
     #[must_use]
     pub fn islands(&self) -> usize {
         usize::from(matches!(self, Self::Branching { .. }))
     }
 
-    /// The channel of that shape and period in x (length).
+    /// Channel of this shape and period in x (length).
     ///
     /// # Errors
     /// Lengths that are not positive, or more than the period together; a gap or throat not below the width; no waves
@@ -221,17 +221,17 @@ impl ChannelShape {
     }
 }
 
-/// From 0 for s <= 0 to 1 for s >= 1 along a cosine.
+/// Step from 0 for s <= 0 to 1 for s >= 1 along a cosine.
 fn cosine_step(s: f64) -> f64 {
     0.5 - 0.5 * (PI * s.clamp(0.0, 1.0)).cos()
 }
 
-/// x from the nearest multiple of the period.
+/// Distance of x from the nearest multiple of the period, with its sign.
 fn from_nearest(x: f64, period: f64) -> f64 {
     x - period * (x / period).round()
 }
 
-/// Lengths that must fit into the period.
+/// Checks that a length fits into the period.
 fn fits(name: &'static str, length: f64, period: f64) -> Result<f64, InputError> {
     within(name, length, 0.0, period)
 }

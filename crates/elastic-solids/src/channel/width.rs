@@ -1,24 +1,24 @@
-//! The width of a channel between deformed walls.
+//! Width of a channel between deformed walls.
 
-use ib_core::Vec2;
-use ib_core::input::{all_points_finite, at_least, positive};
+use motile_base::{Vec2, all_points_finite, at_least, positive};
 
 use crate::{Solid, SolidError};
 
-/// The narrowest and the widest place of a channel.
+/// Smallest and largest width of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Width {
     /// Smallest width (length).
     pub minimum: f64,
-    /// x of that place (length), within one period from the leftmost point of the lower side.
+    /// Place x of the smallest width (length), within one period from the leftmost point of the lower side.
     pub minimum_at: f64,
     /// Largest width (length).
     pub maximum: f64,
-    /// x of that place (length), within one period from the leftmost point of the lower side.
+    /// Place x of the largest width (length), within one period from the leftmost point of the lower side.
     pub maximum_at: f64,
 }
 
-/// The vertical width of the channel between two walls of a scene, the smallest and the largest over x.
+/// Vertical width of the channel between two walls of a scene: the smallest and the largest over x.
 ///
 /// # Errors
 /// Walls that are not periodic in x, or with different periods.
@@ -30,10 +30,9 @@ pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> 
     vertical_width(&below, &above, first)
 }
 
-/// The vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period`
-/// (length): the smallest and the largest over x. Where a line overhangs, the part next to the other counts.
-///
-/// Its extremes lie at points of one of the lines.
+/// Vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period`
+/// (length): the smallest and the largest over x, which are at points of one of the lines. Where a line overhangs, the
+/// part next to the other counts.
 ///
 /// # Errors
 /// Empty lists, points that are not finite, a period that is not positive.
@@ -62,7 +61,7 @@ fn vertical_width(lower: &[Vec2], upper: &[Vec2], period: f64) -> Result<Width, 
 /// Heights at which a periodic line crosses the vertical through x.
 fn heights(line: &[Vec2], period: f64, x: f64) -> impl Iterator<Item = f64> {
     let count = line.len();
-    // Which way the line runs.
+    // The direction in which the line runs.
     let total = line[count - 1].x - line[0].x;
     let advance = if total < 0.0 { -period } else { period };
     (0..count).filter_map(move |k| {

@@ -1,13 +1,14 @@
-//! Moduli as a mesh shows them.
+//! Moduli of a mesh, measured by straining it.
 
-use ib_core::Vec2;
-use ib_core::input::{same_length, within};
+use motile_base::{Vec2, same_length, within};
 
 use crate::material::Mat2;
-use crate::{ElasticForces, SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
+use crate::{ElasticForces, SolidError};
 
 /// Moduli measured on a mesh (force per length).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct MeasuredModuli {
     /// Shear modulus.
     pub shear: f64,
@@ -15,12 +16,13 @@ pub struct MeasuredModuli {
     pub bulk: f64,
 }
 
-/// What the inner points do while the boundary is strained.
+/// Behaviour of the inner points while the boundary is strained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum InnerPoints {
-    /// They follow the uniform strain: the sum over the triangles as they are.
+    /// Points that follow the uniform strain: the moduli are the mean of those of the triangles.
     Strained,
-    /// They relax to equilibrium: what a solid of this mesh feels like from outside. Never more than
+    /// Points that relax to equilibrium: the moduli are those of the solid seen from outside, never more than those of
     /// [`InnerPoints::Strained`].
     Relaxed,
 }
@@ -34,9 +36,8 @@ pub enum InnerPoints {
 ///
 /// ```
 /// use elastic_solids::check::{InnerPoints, measured_moduli};
-/// use elastic_solids::forces::Springs;
-/// use elastic_solids::{Outline, SolidError};
-/// use ib_core::Vec2;
+/// use elastic_solids::{Outline, SolidError, Springs};
+/// use motile_base::Vec2;
 ///
 /// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// let springs = Springs::new(&disc, 100.0)?;
@@ -60,7 +61,7 @@ pub fn measured_moduli(
     let stiffness = |direction: Mat2| -> Result<f64, SolidError> {
         let mut sum = 0.0;
         for strain in [strain, -strain] {
-            let mut positions: Vec<Vec2> = mesh.points().iter().map(|s| s + direction * s * strain).collect();
+            let mut positions: Vec<Vec2> = mesh.points().iter().map(|s| s + direction * *s * strain).collect();
             if inner == InnerPoints::Relaxed {
                 relax_inner(mesh, law, &mut positions)?;
             }
@@ -77,8 +78,8 @@ pub fn measured_moduli(
     Ok(MeasuredModuli { shear, bulk })
 }
 
-/// Residual force over the force at the start at which the inner points are in equilibrium; the energy is exact to its
-/// square.
+/// Residual force over the force at the boundary at which the inner points count as in equilibrium; the error of the
+/// energy, which has a minimum there, is of the order of the square.
 const TOLERANCE: f64 = 1e-6;
 
 /// Moves the points that are not on the boundary until the forces on them vanish, by nonlinear conjugate gradients

@@ -1,10 +1,10 @@
-//! Forces of hyperelastic material.
+//! Hyperelastic material on a triangle mesh.
 
-use ib_core::Vec2;
-use ib_core::input::same_length;
+use motile_base::{Vec2, same_length};
 
 use crate::material::{DeformationGradient, Mat2};
-use crate::{ElasticForces, EnergyDensity, Moduli, SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
+use crate::{ElasticForces, EnergyDensity, Moduli, SolidError};
 
 /// Elastic forces of a hyperelastic material on a triangle mesh (Cowley section 4.2.1.1): the deformation gradient A is
 /// constant in each triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point
@@ -12,19 +12,20 @@ use crate::{ElasticForces, EnergyDensity, Moduli, SolidError, TriangleMesh};
 #[derive(Debug, Clone)]
 pub struct Hyperelastic<E> {
     elements: Vec<Element>,
-    /// One for all triangles, or one each.
+    /// A single material for all triangles, or one for each.
     materials: Vec<E>,
     points: usize,
 }
 
 impl<E: EnergyDensity> Hyperelastic<E> {
-    /// One material everywhere.
+    /// Forces of one material everywhere.
     #[must_use]
     pub fn new(mesh: &TriangleMesh, material: E) -> Self {
         Self { elements: Element::all(mesh), materials: vec![material], points: mesh.points().len() }
     }
 
-    /// The material of each triangle as a function of its centroid in the reference state (length).
+    /// Forces of a material that is a function of the reference position (length), taken at the centroid of each
+    /// triangle.
     ///
     /// # Errors
     /// Those of the function.
@@ -37,7 +38,7 @@ impl<E: EnergyDensity> Hyperelastic<E> {
         Ok(Self { elements: Element::all(mesh), materials, points: mesh.points().len() })
     }
 
-    /// The material of a triangle; `None` for one beyond the last.
+    /// Material of a triangle; `None` for one beyond the last.
     #[must_use]
     pub fn material(&self, triangle: usize) -> Option<&E> {
         (triangle < self.elements.len()).then(|| self.raw_material(triangle))
@@ -57,8 +58,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         same_length("the positions", self.points, positions.len())?;
         same_length("the forces", self.points, forces.len())?;
         for (triangle, element) in self.elements.iter().enumerate() {
-            let gradient = DeformationGradient::checked(element.gradient(positions))
-                .ok_or_else(|| element.inverted(triangle, positions))?;
+            let gradient = element.deformation(triangle, positions)?;
             element.add_forces(&self.raw_material(triangle).stress(&gradient), forces);
         }
         Ok(())
@@ -68,8 +68,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         same_length("the positions", self.points, positions.len())?;
         let mut energy = 0.0;
         for (triangle, element) in self.elements.iter().enumerate() {
-            let gradient = DeformationGradient::checked(element.gradient(positions))
-                .ok_or_else(|| element.inverted(triangle, positions))?;
+            let gradient = element.deformation(triangle, positions)?;
             energy += self.raw_material(triangle).energy(&gradient) * element.area;
         }
         Ok(energy)
@@ -85,25 +84,25 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
     }
 }
 
-/// A triangle with what its deformation gradient needs: `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).
+/// A triangle, prepared for its deformation gradient `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Element {
     corners: [u32; 3],
-    /// What to add to x of the second and third corner across the seam of a periodic mesh.
+    /// Additions to x of the second and third corner across the seam of a periodic mesh (length).
     shifts: [f64; 2],
-    /// Inverse of the matrix of the reference sides.
+    /// Inverse of the matrix of the reference sides (1/length).
     inverse: Mat2,
-    /// Reference area.
+    /// Reference area (length squared).
     pub(super) area: f64,
 }
 
 impl Element {
-    /// All triangles of a mesh.
+    /// Elements of all triangles of a mesh.
     fn all(mesh: &TriangleMesh) -> Vec<Self> {
         (0..mesh.triangles().len()).map(|number| Self::of(mesh, number)).collect()
     }
 
-    /// A triangle of a mesh.
+    /// Element of a triangle of a mesh.
     pub(super) fn of(mesh: &TriangleMesh, number: usize) -> Self {
         let at = mesh.raw_corners(number, mesh.points());
         let home = mesh.triangles()[number];
@@ -115,7 +114,7 @@ impl Element {
         }
     }
 
-    /// The deformation gradient A.
+    /// Deformation gradient A (no dimension) with the points of the mesh at `positions` (length).
     #[inline]
     pub(super) fn gradient(&self, positions: &[Vec2]) -> Mat2 {
         let [a, b, c] = self.corners.map(|point| positions[point as usize]);
@@ -124,10 +123,16 @@ impl Element {
         Mat2::from_cols(first, second) * self.inverse
     }
 
-    /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero exactly as far as numbers can.
+    /// Deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
+    #[inline]
+    fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {
+        DeformationGradient::checked(self.gradient(positions)).ok_or_else(|| self.inverted(triangle, positions))
+    }
+
+    /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero to round-off.
     #[inline]
     pub(super) fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
-        let pull = stress * self.inverse.transpose() * self.area;
+        let pull = *stress * self.inverse.transpose() * self.area;
         let (first, second) = (pull.x_axis, pull.y_axis);
         let [a, b, c] = self.corners.map(|point| point as usize);
         forces[a] += first + second;
@@ -135,16 +140,10 @@ impl Element {
         forces[c] -= second;
     }
 
-    /// The middle of the deformed triangle, for messages.
-    fn place(&self, positions: &[Vec2]) -> Vec2 {
-        let sum: Vec2 = self.corners.iter().map(|&point| positions[point as usize]).sum();
-        (sum + Vec2::new(self.shifts[0] + self.shifts[1], 0.0)) / 3.0
-    }
-
-    /// The triangle is inverted, flat, or not finite.
+    /// Error for a triangle that is inverted, flat, or not finite.
     fn inverted(&self, triangle: usize, positions: &[Vec2]) -> SolidError {
-        let place = self.place(positions);
-        let jacobian = self.gradient(positions).determinant();
-        SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian }
+        let sum: Vec2 = self.corners.iter().map(|&point| positions[point as usize]).sum();
+        let place = (sum + Vec2::new(self.shifts[0] + self.shifts[1], 0.0)) / 3.0;
+        SolidError::Inverted { triangle, place, jacobian: self.gradient(positions).determinant() }
     }
 }

@@ -1,15 +1,15 @@
-//! Forces of springs along the edges.
+//! Springs along the edges of a mesh.
 
-use ib_core::Vec2;
-use ib_core::input::{positive, same_length};
+use motile_base::{Vec2, positive, same_length};
 
-use super::hyperelastic::Element;
+use super::{Bar, hyperelastic::Element};
 use crate::material::Mat2;
-use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
+use crate::{ElasticForces, Moduli, SolidError};
 
 /// A spring along every edge of a triangle mesh (Cowley section 4.1), without stress in the reference state: the force
-/// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (
-/// Cowley's (4.1) has the sign turned round, and a half because it counts every spring from both ends.)
+/// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (Cowley's
+/// (4.1) has the opposite sign, and a half because it counts every spring from both ends.)
 ///
 /// ```text
 /// K_ij = 8/(3 d_ij^2) sum over the one or two triangles at the edge of mu A_ref
@@ -22,35 +22,18 @@ use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
 /// degrees to it, as if it were part of an equilateral one.
 #[derive(Debug, Clone)]
 pub struct Springs {
-    springs: Vec<Spring>,
-    /// Triangles of uneven sides.
+    /// Springs along the edges, each with its spring constant (force per length).
+    springs: Vec<(Bar, f64)>,
+    /// Triangles of uneven sides, by index.
     uneven: Vec<(usize, Element)>,
-    /// Springs of the triangles in the reference state, by direction, and shear modulus of each.
+    /// Directions and lengths of the springs of each triangle in the reference state, and its shear modulus.
     sides: Vec<([Vec2; 3], f64)>,
     points: usize,
 }
 
-/// Longest over shortest side of a triangle from which on it has no springs along its sides.
+/// Ratio of the longest to the shortest side of a triangle above which it has no springs along its sides: above those
+/// of relaxed meshes and below the 2 of a halved equilateral triangle.
 const UNEVEN: f64 = 1.8;
-
-#[derive(Debug, Clone, Copy)]
-struct Spring {
-    ends: [u32; 2],
-    /// What to add to x of the second end across the seam of a periodic mesh.
-    shift: f64,
-    rest: f64,
-    stiffness: f64,
-}
-
-impl Spring {
-    /// From the first end to the second, and that distance.
-    #[inline]
-    fn span(&self, positions: &[Vec2]) -> (Vec2, f64) {
-        let [from, to] = self.ends.map(|point| positions[point as usize]);
-        let span = Vec2::new(to.x + self.shift - from.x, to.y - from.y);
-        (span, span.length())
-    }
-}
 
 impl Springs {
     /// Springs for one shear modulus everywhere (force per length); [`Moduli::from_thesis_spring_constant`] converts
@@ -94,20 +77,18 @@ impl Springs {
                 let weight =
                     |triangle: usize| if even(triangle) { sides[triangle].1 * mesh.areas()[triangle] } else { 0.0 };
                 let (left, right) = edge.triangles;
-                let rest = span.length();
-                Spring {
-                    ends: edge.points.map(|point| point as u32),
-                    shift: f64::from(edge.periods) * mesh.period().unwrap_or(0.0),
-                    rest,
-                    stiffness: stiffness(weight(left) + right.map_or(0.0, weight), rest),
-                }
+                let length = span.length();
+                let shift = f64::from(edge.periods) * mesh.period().unwrap_or(0.0);
+                let bar = Bar { ends: edge.points.map(|point| point as u32), shift, length };
+                (bar, stiffness(weight(left) + right.map_or(0.0, weight), length))
             })
             .collect();
         Ok(Self { springs, uneven, sides, points: mesh.points().len() })
     }
 }
 
-/// Spring constant (force per length) for `weight` = sum of mu A_ref and the rest length d.
+/// Spring constant `8 weight/(3 d^2)` (force per length) for `weight` = sum of mu A_ref (force times length) over the
+/// triangles at the edge and the reference length d (length).
 fn stiffness(weight: f64, rest: f64) -> f64 {
     8.0 / 3.0 * weight / (rest * rest)
 }
@@ -120,12 +101,10 @@ impl ElasticForces for Springs {
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
         same_length("the positions", self.points, positions.len())?;
         same_length("the forces", self.points, forces.len())?;
-        for spring in &self.springs {
-            let (span, length) = spring.span(positions);
+        for (bar, stiffness) in &self.springs {
+            let span = bar.span(positions);
             // A spring of no length has no direction to push in.
-            let force = span * (spring.stiffness * (1.0 - spring.rest / length.max(f64::MIN_POSITIVE)));
-            forces[spring.ends[0] as usize] += force;
-            forces[spring.ends[1] as usize] -= force;
+            bar.add_pull(span * (stiffness * (1.0 - bar.length / span.length().max(f64::MIN_POSITIVE))), forces);
         }
         for (triangle, element) in &self.uneven {
             if let Some(stress) = self.stress(*triangle, &element.gradient(positions)) {
@@ -138,7 +117,8 @@ impl ElasticForces for Springs {
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
         same_length("the positions", self.points, positions.len())?;
         let springs = self.springs.iter();
-        let even = springs.map(|spring| 0.5 * spring.stiffness * (spring.span(positions).1 - spring.rest).powi(2));
+        let even =
+            springs.map(|(bar, stiffness)| 0.5 * stiffness * (bar.span(positions).length() - bar.length).powi(2));
         let uneven = self.uneven.iter().map(|(triangle, element)| {
             let (sides, shear) = self.sides[*triangle];
             let gradient = element.gradient(positions);
@@ -148,13 +128,13 @@ impl ElasticForces for Springs {
         Ok(even.sum::<f64>() + uneven.sum::<f64>())
     }
 
-    /// A triangle's share of the springs along its sides, which is a material of its own with the energy
-    /// `4 mu/3 sum of (|A s|/d - 1)^2` over the sides s.
+    /// Stress of a triangle's share of the springs along its sides: of a material with the energy density
+    /// `4 mu/3 sum of (|A s|/|s| - 1)^2` over the sides s.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
         let (sides, shear) = self.sides.get(triangle)?;
         let mut stress = Mat2::ZERO;
         for side in sides {
-            let (rest, now) = (side.length(), gradient * side);
+            let (rest, now) = (side.length(), *gradient * *side);
             let length = now.length().max(f64::MIN_POSITIVE);
             stress += Mat2::from_cols(now * side.x, now * side.y)
                 * (8.0 / 3.0 * shear * (length - rest) / (length * rest * rest));

@@ -5,10 +5,10 @@ use proptest::prelude::*;
 use crate::check::{force_balance, patch_residual};
 use crate::forces::{Hyperelastic, Springs};
 use crate::material::{Mat2, MooneyRivlin, SaintVenantKirchhoff};
+use crate::mesh::TriangleMesh;
 use crate::mesh::equilateral_strip;
-use crate::{ElasticForces, Interior, NeoHookean, Outline, SolidError, TriangleMesh};
-use ib_core::Vec2;
-use ib_core::input::InputError;
+use crate::{ElasticForces, Interior, NeoHookean, Outline, SolidError};
+use motile_base::{InputError, Vec2};
 
 fn blob() -> TriangleMesh {
     let circle = |radius: f64| Outline::circle(Vec2::new(0.2, -0.1), radius).unwrap();
@@ -140,8 +140,9 @@ fn the_stress_of_springs_is_the_derivative_of_their_energy() {
     let mesh = blob();
     let law = Springs::graded(&mesh, |s| 1.0 + 0.3 * s.x).unwrap();
     let gradient = Mat2::from_rows_array(&[1.1, 0.2, -0.15, 0.85]);
-    let energy = |a: &Mat2| law.energy(&mesh.points().iter().map(|s| a * s).collect::<Vec<_>>()).unwrap();
-    let total: Mat2 = (0..mesh.triangles().len()).map(|t| law.stress(t, &gradient).unwrap() * mesh.areas()[t]).sum();
+    let energy = |a: &Mat2| law.energy(&mesh.points().iter().map(|s| *a * *s).collect::<Vec<_>>()).unwrap();
+    let stresses = (0..mesh.triangles().len()).map(|t| law.stress(t, &gradient).unwrap() * mesh.areas()[t]);
+    let total = stresses.fold(Mat2::ZERO, |sum, stress| sum + stress);
     let total = total.to_cols_array();
     for entry in 0..4 {
         let at = |shift: f64| {

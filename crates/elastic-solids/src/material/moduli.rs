@@ -1,6 +1,6 @@
-//! The two moduli of an isotropic material in the plane.
+//! Shear and bulk modulus of an isotropic material in the plane.
 
-use ib_core::input::{positive, within};
+use motile_base::{positive, within};
 
 use crate::SolidError;
 
@@ -15,7 +15,7 @@ pub struct Moduli {
 }
 
 impl Moduli {
-    /// From shear and bulk modulus (force per length).
+    /// Moduli from the shear modulus mu and the bulk modulus kappa (force per length).
     ///
     /// # Errors
     /// A modulus that is not positive and finite.
@@ -23,8 +23,8 @@ impl Moduli {
         Ok(Self { shear: positive("the shear modulus", shear)?, bulk: positive("the bulk modulus", bulk)? })
     }
 
-    /// From Young's modulus E (force per length) and Poisson's ratio nu of the plane: `mu = E / (2 (1 + nu))`,
-    /// `kappa = E / (2 (1 - nu))`.
+    /// Moduli from Young's modulus E (force per length) and Poisson's ratio nu of the plane (no dimension):
+    /// `mu = E / (2 (1 + nu))`, `kappa = E / (2 (1 - nu))`.
     ///
     /// # Errors
     /// Young's modulus not positive, Poisson's ratio not between -1 and 1 (its bounds in two dimensions).
@@ -34,7 +34,7 @@ impl Moduli {
         Self::new(young / (2.0 * (1.0 + poisson)), young / (2.0 * (1.0 - poisson)))
     }
 
-    /// Those of a lattice of springs: kappa = 2 mu, Poisson's ratio 1/3 (Cowley (4.17) and below).
+    /// Moduli of a lattice of springs: kappa = 2 mu, Poisson's ratio 1/3 (Cowley (4.17) and below).
     ///
     /// # Errors
     /// A shear modulus that is not positive and finite.
@@ -42,8 +42,8 @@ impl Moduli {
         Self::new(shear, 2.0 * shear)
     }
 
-    /// Those that stand for Cowley's spring constant k: `mu = 3/16 h k` (Cowley (4.18)), kappa = 2 mu, where h =
-    /// 0.05 is the lattice spacing of Cowley, whatever that of the run.
+    /// Moduli of a lattice with Cowley's spring constant k (force per length squared): `mu = 3/16 h k` (Cowley (4.18)),
+    /// kappa = 2 mu, where h = 0.05 is Cowley's lattice spacing, whatever that of the run.
     ///
     /// # Errors
     /// A spring constant that is not positive and finite.
@@ -52,12 +52,12 @@ impl Moduli {
         Self::of_springs(3.0 / 16.0 * THESIS_SPACING * k)
     }
 
-    /// Those of springs whose shear modulus is known to be positive.
+    /// Moduli of springs whose shear modulus is known to be positive.
     pub(crate) fn springs_of_checked(shear: f64) -> Self {
         Self { shear, bulk: 2.0 * shear }
     }
 
-    /// The larger of both moduli.
+    /// Larger shear modulus and larger bulk modulus of two materials.
     pub(crate) fn larger(&self, other: &Self) -> Self {
         Self { shear: self.shear.max(other.shear), bulk: self.bulk.max(other.bulk) }
     }
@@ -86,7 +86,7 @@ impl Moduli {
         4.0 * self.bulk * self.shear / (self.bulk + self.shear)
     }
 
-    /// Poisson's ratio of the plane, `(kappa - mu) / (kappa + mu)` = (4.17); dimensionless.
+    /// Poisson's ratio of the plane, `(kappa - mu) / (kappa + mu)` (no dimension; Cowley (4.17)).
     #[must_use]
     pub fn poisson(&self) -> f64 {
         (self.bulk - self.shear) / (self.bulk + self.shear)

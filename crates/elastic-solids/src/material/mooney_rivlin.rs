@@ -1,6 +1,6 @@
-//! A rubber with two constants.
+//! The Mooney-Rivlin material, a rubber with two shear constants.
 
-use ib_core::input::{positive, within};
+use motile_base::{positive, within};
 
 use crate::material::{DeformationGradient, Mat2};
 use crate::{EnergyDensity, Moduli, SolidError};
@@ -11,9 +11,10 @@ use crate::{EnergyDensity, Moduli, SolidError};
 /// I1 = tr(A A^T) + 1,   I2 = tr(A A^T) + J^2
 /// C1 = (1 - q) mu/2,   C2 = q mu/2,   K = kappa - mu/3
 /// ```
-/// with mu, kappa the shear and bulk modulus of the plane and q the part of mu that the second invariant carries. q = 0
-/// is the neo-Hookean solid of three dimensions, which differs from [`NeoHookean`](crate::NeoHookean) in what
-/// out-of-plane stress does to a change of area.
+/// with mu, kappa the shear and bulk modulus of the plane (force per length), q the part of mu that the second
+/// invariant carries, A the deformation gradient in the plane and J its determinant. q = 0 is the neo-Hookean solid of
+/// three dimensions; it differs from [`NeoHookean`](crate::NeoHookean) in its response to a change of area, which under
+/// plane strain distorts the material in three dimensions too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MooneyRivlin {
     moduli: Moduli,
@@ -23,8 +24,8 @@ pub struct MooneyRivlin {
 }
 
 impl MooneyRivlin {
-    /// From shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction q of the second
-    /// invariant (0 to 1).
+    /// Material from shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction q of the
+    /// second invariant (0 to 1).
     ///
     /// # Errors
     /// A modulus that is not positive and finite, a fraction out of its range, `kappa <= mu/3` (no bulk modulus left in

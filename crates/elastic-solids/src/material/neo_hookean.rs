@@ -1,4 +1,4 @@
-//! Cowley's material.
+//! The neo-Hookean material.
 
 use crate::material::{DeformationGradient, Mat2};
 use crate::{EnergyDensity, Moduli, SolidError};
@@ -16,7 +16,7 @@ pub struct NeoHookean {
 }
 
 impl NeoHookean {
-    /// From shear modulus mu and bulk modulus kappa (force per length).
+    /// Material from shear modulus mu and bulk modulus kappa (force per length).
     ///
     /// # Errors
     /// A modulus that is not positive and finite.

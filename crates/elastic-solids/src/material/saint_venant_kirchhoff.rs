@@ -1,4 +1,4 @@
-//! Linear elasticity in the Green strain.
+//! The Saint Venant-Kirchhoff material: linear elasticity in the Green strain.
 
 use crate::material::{DeformationGradient, Mat2};
 use crate::{EnergyDensity, Moduli, SolidError};
@@ -17,7 +17,7 @@ pub struct SaintVenantKirchhoff {
 }
 
 impl SaintVenantKirchhoff {
-    /// From shear modulus mu and bulk modulus kappa (force per length).
+    /// Material from shear modulus mu and bulk modulus kappa (force per length).
     ///
     /// # Errors
     /// A modulus that is not positive and finite.
@@ -41,13 +41,13 @@ impl EnergyDensity for SaintVenantKirchhoff {
     fn energy(&self, gradient: &DeformationGradient) -> f64 {
         let strain = green_strain(gradient);
         let square = strain.x_axis.length_squared() + strain.y_axis.length_squared();
-        0.5 * self.moduli.lame() * strain.diagonal().element_sum().powi(2) + self.moduli.shear() * square
+        0.5 * self.moduli.lame() * strain.trace().powi(2) + self.moduli.shear() * square
     }
 
     #[inline]
     fn stress(&self, gradient: &DeformationGradient) -> Mat2 {
         let strain = green_strain(gradient);
-        let pressure = Mat2::IDENTITY * (self.moduli.lame() * strain.diagonal().element_sum());
+        let pressure = Mat2::IDENTITY * (self.moduli.lame() * strain.trace());
         gradient.matrix() * (pressure + strain * (2.0 * self.moduli.shear()))
     }
 

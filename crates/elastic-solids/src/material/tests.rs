@@ -1,11 +1,11 @@
-//! What every energy must satisfy.
+//! Properties that every energy must have.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 use proptest::prelude::*;
 
 use crate::check::stress_error;
 use crate::material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff};
-use crate::{EnergyDensity, NeoHookean};
+use crate::{EnergyDensity, NeoHookean, SolidError};
 
 const SHEAR: f64 = 1.3;
 const BULK: f64 = 2.9;
@@ -116,11 +116,34 @@ fn the_neo_hookean_energy_is_that_of_the_thesis() {
     let a = Mat2::from_rows_array(&[1.2, 0.3, -0.1, 0.9]);
     let (energy, gradient, jacobian) = (NeoHookean::new(SHEAR, BULK).unwrap(), gradient(a), a.determinant());
     // (4.8) with A A^T, and (4.15), as printed.
-    let trace = (a * a.transpose()).diagonal().element_sum();
+    let trace = (a * a.transpose()).trace();
     let expected = SHEAR / 2.0 * (trace / jacobian - 2.0) + BULK / 2.0 * (jacobian - 1.0).powi(2);
     assert!((energy.energy(&gradient) - expected).abs() < 1e-15);
     let inverse = a.inverse().transpose();
     let expected =
         SHEAR * (a / jacobian - trace * inverse / (2.0 * jacobian)) + BULK * (jacobian - 1.0) * jacobian * inverse;
     assert!(norm(energy.stress(&gradient) - expected) < 1e-15);
+}
+
+#[test]
+fn distortion_and_cofactor_by_their_definitions() {
+    let a = Mat2::from_rows_array(&[1.3, 0.2, -0.4, 0.8]);
+    let gradient = DeformationGradient::new(a).unwrap();
+    let expected = (a * a.transpose()).trace() - 2.0 * a.determinant();
+    assert!((gradient.distortion() - expected).abs() < 1e-15);
+    let cofactor = a.determinant() * a.inverse().transpose();
+    let difference = (gradient.cofactor() - cofactor).to_cols_array();
+    assert!(difference.iter().all(|entry| entry.abs() <= 5e-16));
+}
+
+#[test]
+fn inversion_and_bad_numbers_are_refused() {
+    for bad in [
+        Mat2::from_rows_array(&[1.0, 0.0, 0.0, -1.0]),
+        Mat2::from_rows_array(&[1.0, 1.0, 1.0, 1.0]),
+        Mat2::from_rows_array(&[f64::NAN, 0.0, 0.0, 1.0]),
+        Mat2::from_rows_array(&[f64::INFINITY, 0.0, 0.0, 1.0]),
+    ] {
+        assert!(matches!(DeformationGradient::new(bad), Err(SolidError::NotOrientationPreserving { .. })));
+    }
 }

@@ -1,18 +1,20 @@
-//! More points on the boundary than inside.
+//! Meshes with a boundary that is finer than the inside.
 
 use std::collections::HashMap;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
-use crate::{SolidError, TriangleMesh};
+use crate::SolidError;
+use crate::mesh::TriangleMesh;
 
-/// Cosine of the angle between neighbouring sides from which on the boundary has a corner there.
+/// Cosine of the angle between neighbouring sides below which the boundary has a corner there: 37 degrees, where a
+/// circle of ten points has 36.
 const CORNER: f64 = 0.8;
 
 impl TriangleMesh {
-    /// The mesh with a point more in the middle of each side of the boundary both of whose ends satisfy a condition on
-    /// their place (length); the triangle there is divided. For surfaces that are to be resolved more finely than what
-    /// lies below them.
+    /// Mesh with another point in the middle of each side of the boundary both of whose ends satisfy a condition on
+    /// their place (length); the triangle there is divided. For surfaces that are to be resolved more finely than the
+    /// solid below them.
     ///
     /// New points lie on the cubic through the four points about them, next to corners on the side itself.
     ///
@@ -39,7 +41,12 @@ impl TriangleMesh {
                 let corner = turns(before, own) || turns(own, after);
                 let middle = if corner { 0.5 * own } else { middle(before, own, after) };
                 middles.insert([first, second], points.len());
-                points.push(self.points[first] + middle);
+                // From the same end in either direction, also across the seam of a period.
+                points.push(if first < second {
+                    self.points[first] + middle
+                } else {
+                    self.points[second] + middle - own
+                });
             }
         }
         let mut triangles = Vec::with_capacity(self.triangles.len() + middles.len());
@@ -60,8 +67,8 @@ impl TriangleMesh {
     }
 }
 
-/// The middle of a side of a smooth line, from its start: on the cubic through its ends and the ends of the sides
-/// before and after it, with the lengths of the sides as parameter.
+/// Vector from the start of a side of a smooth line to its middle, on the cubic through its ends and the ends of the
+/// sides before and after it, with the lengths of the sides as parameter.
 fn middle(before: Vec2, own: Vec2, after: Vec2) -> Vec2 {
     let [a, b, c] = [before, own, after].map(Vec2::length);
     let knots = [(-a, -before), (0.0, Vec2::ZERO), (b, own), (b + c, own + after)];

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use ib_core::Vec2;
-use ib_core::input::positive;
+use motile_base::{Vec2, positive};
 
-use crate::{SolidError, TriangleMesh};
+use crate::SolidError;
+use crate::mesh::TriangleMesh;
 
 mod join;
 mod parse;
@@ -14,14 +14,14 @@ mod parse;
 use join::{first_of_same, join_ends};
 use parse::{Contents, parse};
 
-/// Triangles that belong together, by the name or number that Gmsh has for them.
+/// Group of triangles that belong together, such as those of one material: a physical group of Gmsh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PhysicalGroup {
     /// Number of the group.
     pub tag: i32,
-    /// Its name, where it has one.
+    /// Name of the group; `None` for a group without one.
     pub name: Option<String>,
-    /// Its triangles, by their numbers in the mesh, in increasing order.
+    /// Indices of its triangles in the mesh, in increasing order.
     pub triangles: Vec<usize>,
 }
 
@@ -29,9 +29,9 @@ pub struct PhysicalGroup {
 /// <https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format>.
 ///
 /// ```
-/// use elastic_solids::mesh::{GmshMesh, PhysicalGroup, equilateral_block};
 /// use elastic_solids::SolidError;
-/// use ib_core::Vec2;
+/// use elastic_solids::mesh::{GmshMesh, PhysicalGroup, equilateral_block};
+/// use motile_base::Vec2;
 ///
 /// let mesh = equilateral_block(Vec2::ZERO, 4, 3, 0.5)?;
 /// let stiff = PhysicalGroup { tag: 1, name: Some("stiff".into()), triangles: (0..7).collect() };
@@ -52,8 +52,9 @@ pub struct GmshMesh {
 }
 
 impl GmshMesh {
-    /// Reads a mesh of triangles with three points. Points and lines are passed over, as are sections that say nothing
-    /// of the mesh; z must be the same everywhere. Points keep their order; those that no triangle uses are left out.
+    /// Mesh from the text of a file with triangles of three points. Elements that are points or lines are ignored, as
+    /// are sections that do not belong to the mesh; z must be the same everywhere. Points keep their order; those that
+    /// no triangle uses are left out.
     ///
     /// # Errors
     /// [`SolidError::Gmsh`] with the line for text that is not in the format, other versions, binary files, elements
@@ -63,17 +64,16 @@ impl GmshMesh {
         let Contents { points, triangles, groups } = parse(text)?;
         let first = first_of_same(&points, &triangles, None);
         if let Some((second, &first)) = first.iter().enumerate().find(|(number, first)| *number != **first) {
-            let [x, y] = points[second].into();
-            return Err(SolidError::CoincidentPoints { first, second, x, y });
+            return Err(SolidError::CoincidentPoints { first, second, place: points[second] });
         }
         Ok(Self { mesh: TriangleMesh::new(points, triangles)?, groups })
     }
 
-    /// The same for a mesh that repeats itself in x with `period` (length): points that coincide when moved by a period
-    /// become one. They may differ by 1e-3 of the shortest edge.
+    /// Mesh that repeats itself in x with `period` (length), from the text of a file: points that coincide when moved
+    /// by a period, to 1e-3 of the shortest edge, become one.
     ///
     /// # Errors
-    /// As [`GmshMesh::from_text`], and those of [`TriangleMesh::periodic`].
+    /// Those of [`GmshMesh::from_text`] and of [`TriangleMesh::periodic`].
     pub fn from_periodic_text(text: &str, period: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         let Contents { points, triangles, groups } = parse(text)?;
@@ -81,7 +81,7 @@ impl GmshMesh {
         Ok(Self { mesh: TriangleMesh::periodic(points, triangles, period)?, groups })
     }
 
-    /// The text of the file. Points of a periodic mesh are written on both sides of the seam.
+    /// Text of the file. Points of a periodic mesh are written on both sides of the seam.
     ///
     /// # Errors
     /// A group of a triangle that does not exist, two groups of one number, a number that is not positive, a name with
@@ -119,8 +119,8 @@ impl GmshMesh {
         Ok(())
     }
 
-    /// Points and triangles of a mesh that is not periodic: with images of the points that triangles across the seam
-    /// need.
+    /// Points and triangles of the mesh without its periodicity: with images of the points of triangles across the
+    /// seam.
     fn unrolled(&self) -> (Vec<Vec2>, Vec<[usize; 3]>) {
         let mut points = self.mesh.points().to_vec();
         let mut images = BTreeMap::new();
@@ -143,7 +143,8 @@ impl GmshMesh {
         (points, triangles)
     }
 
-    /// Triangles that belong to the same groups, with those groups.
+    /// Partition of the triangles into those that belong to the same groups: indices of the groups, and of the
+    /// triangles.
     fn parts(&self) -> Vec<(Vec<usize>, Vec<usize>)> {
         let mut groups_of = vec![Vec::new(); self.mesh.triangles().len()];
         for (number, group) in self.groups.iter().enumerate() {

@@ -1,15 +1,15 @@
 //! Lattices of equilateral triangles.
 
-use ib_core::Vec2;
-use ib_core::input::{InputError, all_points_finite, at_least, within};
+use motile_base::{InputError, Vec2, all_points_finite, at_least, within};
 
+use crate::SolidError;
 use crate::error::{MOST_POINTS, length};
-use crate::{SolidError, TriangleMesh};
+use crate::mesh::TriangleMesh;
 
 /// Height of an equilateral triangle over its side.
 pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-/// A strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows
+/// Strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows
 /// of points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns *
 /// spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of Cowley section 4.1.
 ///
@@ -22,9 +22,9 @@ pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64
     strip(corner, columns, rows, [length("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
 }
 
-/// A strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness
-/// (length) exactly, with the lower left corner at `corner` (length): the number of rows is the nearest to `spacing`
-/// (length), the number of columns that which stretches the triangles least.
+/// Strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness
+/// (length) exactly, with the lower left corner at `corner` (length). The rows are as many as fit `spacing` (length)
+/// best, the columns as many as stretch the triangles least.
 ///
 /// # Errors
 /// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row, more
@@ -38,7 +38,7 @@ pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<Triang
     strip(corner, columns, rows, [size[0] / columns as f64, height])
 }
 
-/// A block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the
+/// Block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the
 /// odd ones, `rows` layers of triangles. Its lower left point is `corner` (length); the sides to the left and right are
 /// toothed.
 ///

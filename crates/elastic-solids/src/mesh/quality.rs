@@ -1,9 +1,10 @@
-//! How even a mesh is.
+//! Quality of meshes: evenness of edges and angles.
 
-use crate::TriangleMesh;
+use crate::mesh::TriangleMesh;
 
-/// Figures of a mesh's shape in the reference state.
+/// Quality of a mesh in the reference state: scatter of its edge lengths and angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct MeshQuality {
     /// Number of points.
     pub points: usize,
@@ -27,23 +28,15 @@ pub struct MeshQuality {
 
 impl std::fmt::Display for MeshQuality {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "{} points, {} triangles, edges {:.4} (+- {:.1} %, {:.4} to {:.4}), angles {:.1} to {:.1} degrees",
-            self.points,
-            self.triangles,
-            self.mean_edge,
-            100.0 * self.edge_deviation,
-            self.shortest_edge,
-            self.longest_edge,
-            self.smallest_angle,
-            self.largest_angle
-        )
+        let Self { points, triangles, mean_edge, shortest_edge, longest_edge, .. } = self;
+        let (deviation, smallest, largest) = (100.0 * self.edge_deviation, self.smallest_angle, self.largest_angle);
+        write!(f, "{points} points, {triangles} triangles, edges {mean_edge:.4} (+- {deviation:.1} %, ")?;
+        write!(f, "{shortest_edge:.4} to {longest_edge:.4}), angles {smallest:.1} to {largest:.1} degrees")
     }
 }
 
 impl TriangleMesh {
-    /// How even the mesh is.
+    /// Quality of the mesh in the reference state.
     #[must_use]
     pub fn quality(&self) -> MeshQuality {
         let lengths: Vec<f64> =
@@ -57,7 +50,7 @@ impl TriangleMesh {
             let corners = self.raw_corners(triangle, self.points());
             for k in 0..3 {
                 let (a, b) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
-                let angle = a.perp_dot(b).atan2(a.dot(b));
+                let angle = a.angle_to(b);
                 smallest = smallest.min(angle);
                 largest = largest.max(angle);
             }

@@ -1,6 +1,6 @@
 //! Connectivity of hand-made meshes.
 
-use ib_core::input::InputError;
+use motile_base::InputError;
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Which triangle lies next to which.
+//! Adjacency of triangles: shared edges, and the loops of the boundary.
 
 use crate::SolidError;
 use crate::mesh::{BoundaryLoop, Edge};
@@ -10,7 +10,7 @@ fn next(half: HalfEdge) -> HalfEdge {
     if half % 3 == 2 { half - 2 } else { half + 1 }
 }
 
-/// Joins triangles at their edges: every edge once, and the half-edge on the other side of each half-edge.
+/// Edges of a mesh, each once, and for each half-edge its twin on the other side; `None` on the boundary.
 pub(crate) fn connect(
     triangles: &[[usize; 3]],
     shifts: &[[i8; 2]],
@@ -44,7 +44,7 @@ pub(crate) fn connect(
     Ok((edges, twins))
 }
 
-/// The loops of half-edges without a twin.
+/// Loops of half-edges without a twin, which make the boundary.
 pub(crate) fn loops(triangles: &[[usize; 3]], shifts: &[[i8; 2]], twins: &[Option<HalfEdge>]) -> Vec<BoundaryLoop> {
     let mut visited = vec![false; twins.len()];
     let mut loops = Vec::new();

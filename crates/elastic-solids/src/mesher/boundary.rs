@@ -1,7 +1,6 @@
-//! The checked boundary of an interior at the spacing of its mesh.
+//! Boundary of an interior, sampled at the spacing of its mesh and checked.
 
-use ib_core::Vec2;
-use ib_core::input::within;
+use motile_base::{Vec2, within};
 
 use crate::error::MOST_POINTS;
 use crate::mesh::lattice::ROW_HEIGHT;
@@ -16,24 +15,25 @@ const ACROSS: usize = 6;
 /// Largest change of the spacing, over itself, that makes rows of triangles fit a wall.
 const LARGEST_FIT: f64 = 0.05;
 
-/// Points on the outlines of an interior, where they make a boundary that can be meshed.
+/// Points on the outlines of an interior that make a boundary which can be meshed.
 #[derive(Debug)]
 pub(crate) struct Boundary<'a> {
     pub(crate) spacing: f64,
     pub(crate) segments: Segments,
-    /// Start and period in x.
+    /// Start and period in x (length).
     pub(crate) period: Option<(f64, f64)>,
     /// Corners of the bounding box.
     pub(crate) low: Vec2,
     pub(crate) high: Vec2,
     tracks: Vec<Track<'a>>,
-    /// Points of each outline, as places and as positions.
+    /// Points of each outline, as places on it and as positions (length).
     places: Vec<Vec<Place>>,
     outlines: Vec<Vec<Vec2>>,
 }
 
 impl<'a> Boundary<'a> {
-    /// `fitted` where the seeds of a wall are to be a lattice between its surfaces.
+    /// Boundary at about the spacing `asked` (length); with `fitted`, the spacing is changed a little so that the seeds
+    /// of a wall are a lattice between its surfaces.
     pub(crate) fn new(interior: &'a Interior, asked: f64, fitted: bool) -> Result<Self, SolidError> {
         let mut spacing = asked;
         if let Some(period) = interior.period() {
@@ -76,9 +76,7 @@ impl<'a> Boundary<'a> {
         }
         // The outlines themselves must not cross, nor the polygons that stand for them.
         for lines in [&points(&places(0.25 * spacing)), &outlines] {
-            if let Some(place) = Segments::new(lines, period, 2.0 * spacing).first_crossing() {
-                return Err(SolidError::Crossing { x: place.x, y: place.y });
-            }
+            Segments::uncrossed(lines, period, 2.0 * spacing)?;
         }
         let segments = Segments::new(&outlines, period, 10.0 * spacing);
         let boundary = Self { spacing, places: sampled, tracks, outlines, segments, period, low, high };
@@ -87,13 +85,13 @@ impl<'a> Boundary<'a> {
         Ok(boundary)
     }
 
-    /// The image of a point in the first period.
+    /// Image of a point in the first period.
     fn home(&self, point: Vec2) -> Vec2 {
         let periods = self.period.map_or(0.0, |(start, period)| period * ((point.x - start) / period).floor());
         point - Vec2::new(periods, 0.0)
     }
 
-    /// No closed outline narrower than the spacing.
+    /// Checks that no closed outline is narrower than the spacing.
     fn check_widths(&self, interior: &Interior, spacing: f64) -> Result<(), SolidError> {
         for (number, (outline, points)) in interior.outlines().iter().zip(&self.outlines).enumerate() {
             if outline.period().is_some() {
@@ -101,18 +99,18 @@ impl<'a> Boundary<'a> {
             }
             let width = width(&outline.resampled(0.1 * spacing)?);
             if width < spacing {
-                let [x, y] = points[0].into();
-                return Err(if self.segments.crossings_above(self.home(points[0]), Some(number)) % 2 == 1 {
-                    SolidError::HoleTooSmall { x, y, width, spacing }
+                let place = points[0];
+                return Err(if self.segments.crossings_above(self.home(place), Some(number)) % 2 == 1 {
+                    SolidError::HoleTooSmall { place, width, spacing }
                 } else {
-                    SolidError::WallTooThin { x, y, thickness: width, spacing }
+                    SolidError::WallTooThin { place, thickness: width, spacing }
                 });
             }
         }
         Ok(())
     }
 
-    /// No two sides of a wall closer than the spacing.
+    /// Checks that no two sides of a wall are closer than the spacing.
     fn check_walls(&self, spacing: f64) -> Result<(), SolidError> {
         let reach = spacing * (1.0 - 1e-6);
         for (outline, points) in self.outlines.iter().enumerate() {
@@ -129,7 +127,7 @@ impl<'a> Boundary<'a> {
                 });
                 if let Some(foot) = across {
                     let thickness = (foot - point).length();
-                    return Err(SolidError::WallTooThin { x: point.x, y: point.y, thickness, spacing });
+                    return Err(SolidError::WallTooThin { place: point, thickness, spacing });
                 }
             }
         }
@@ -141,7 +139,7 @@ impl<'a> Boundary<'a> {
         self.outlines.iter().map(Vec::len).sum()
     }
 
-    /// The boundary points and `seeds` inside.
+    /// Point set of the boundary points and the `seeds` inside.
     pub(crate) fn point_set(&self, seeds: Vec<Vec2>) -> PointSet<'_> {
         let mut points: Vec<Vec2> = Vec::new();
         let mut boundary = Vec::new();
@@ -169,12 +167,12 @@ fn bounds(outlines: &[Vec<Vec2>]) -> (Vec2, Vec2) {
     outlines.iter().flatten().fold((first, first), |(low, high), point| (low.min(*point), high.max(*point)))
 }
 
-/// Rows of seeds over a height.
+/// Number of rows of seeds over a height (length) at a spacing (length).
 pub(crate) fn rows(height: f64, spacing: f64) -> f64 {
     (height / (ROW_HEIGHT * spacing)).round().max(1.0)
 }
 
-/// The smallest distance between two parallel lines that hold the points between them, over 90 directions.
+/// Smallest distance between two parallel lines with all points between them, over 90 directions (length).
 fn width(points: &[Vec2]) -> f64 {
     (0..90)
         .map(|degrees| {

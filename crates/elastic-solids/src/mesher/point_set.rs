@@ -1,6 +1,6 @@
-//! The points of a mesh in the making.
+//! Points of a mesh that is being made.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use crate::mesher::segments::Segments;
 use crate::outline::{Place, Track};
@@ -11,24 +11,24 @@ pub(crate) struct PointSet<'a> {
     pub(crate) points: Vec<Vec2>,
     /// Number of boundary points.
     pub(crate) on_boundary: usize,
-    /// Boundary edges.
+    /// Boundary edges by the indices of their points.
     pub(crate) boundary: Vec<[usize; 2]>,
-    /// The same with positions, to tell inside from outside.
+    /// Boundary edges by the positions of their points, to tell inside from outside.
     pub(crate) segments: Segments,
-    /// The outlines on which the boundary points slide, and where on them they stand.
+    /// Outlines on which the boundary points slide, and their places on them.
     pub(crate) tracks: &'a [Track<'a>],
     pub(crate) places: Vec<Vec<Place>>,
-    /// Start and period in x.
+    /// Start and period in x (length).
     pub(crate) period: Option<(f64, f64)>,
 }
 
 impl PointSet<'_> {
-    /// The same with boundary points that stay where they are.
+    /// Fixes the boundary points where they are.
     pub(crate) fn with_fixed_boundary(self) -> Self {
         Self { tracks: &[], ..self }
     }
 
-    /// From one point of an edge to the other, the shorter way round.
+    /// Vector from one point of an edge to the other, the shorter way round (length).
     pub(crate) fn vector(&self, [from, to]: [usize; 2]) -> Vec2 {
         let mut vector = self.points[to] - self.points[from];
         if let Some((_, period)) = self.period {
@@ -45,7 +45,7 @@ impl PointSet<'_> {
             for k in 0..count {
                 let (before, here, after) = (start + (k + count - 1) % count, start + k, start + (k + 1) % count);
                 let chord = self.vector([before, here]) + self.vector([here, after]);
-                let tangent = chord.normalize_or_zero();
+                let tangent = chord.try_normalize().unwrap_or_default();
                 let by = steps[here].dot(tangent);
                 steps[here] = tangent * by;
                 let place = &mut self.places[outline][k];
@@ -56,8 +56,9 @@ impl PointSet<'_> {
         }
     }
 
-    /// After points have moved: all images back in the first period, the segments where the boundary points are (with
-    /// images up to `margin` beyond the ends), and inner points that have left the region gone.
+    /// Brings the set up to date after points have moved: shifts all points into the first period, renews the boundary
+    /// segments (with images up to `margin` beyond the ends of the period), and removes inner points that have left the
+    /// solid.
     pub(crate) fn renew(&mut self, margin: f64) {
         if let Some((start, period)) = self.period {
             for point in &mut self.points {

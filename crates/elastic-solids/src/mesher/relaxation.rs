@@ -1,22 +1,22 @@
 //! Relaxation of a mesh towards equal edges.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use crate::SolidError;
 use crate::mesher::point_set::PointSet;
 use crate::mesher::triangulation::triangulate;
 
-/// Sweeps between two triangulations, of which the first follow each other sooner.
+/// Sweeps between two triangulations; the first ones follow each other sooner.
 const SWEEPS_PER_TRIANGULATION: usize = 20;
 
-/// Part of the sweeps in which the edges push.
+/// Part of the sweeps in which the edges only push.
 const PUSHING: f64 = 2.0 / 3.0;
 
 /// Length over the spacing at which an edge ceases to push. Edges that never pull drive points away from their nearest
 /// neighbours and dislocations away from the boundary. From 1.33 on a lattice under such a pressure is unstable.
 const PUSH_LENGTH: f64 = 1.25;
 
-/// Step over the force: of the six edges of a point at 1/3 or more it would overshoot.
+/// Displacement over force: with the six edges of a point, it would overshoot from 1/3 on.
 const STEP: f64 = 0.15;
 
 /// Part of the last displacement that the next one repeats: strains as wide as a wall die out in some 20 sweeps instead
@@ -88,8 +88,12 @@ impl Motion {
             self.forces[b] -= force;
         }
         for (step, force) in self.steps.iter_mut().zip(&self.forces) {
+            *step = *step * MOMENTUM + force * STEP;
             // No point may pass its neighbours within a sweep.
-            *step = (*step * MOMENTUM + force * STEP).clamp_length_max(0.2 * spacing);
+            let (squared, longest) = (step.length_squared(), 0.2 * spacing);
+            if squared > longest * longest {
+                *step = longest * (*step / squared.sqrt());
+            }
         }
         let (boundary, inner) = self.steps.split_at_mut(set.on_boundary);
         set.slide(boundary);

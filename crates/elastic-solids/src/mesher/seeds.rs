@@ -1,35 +1,35 @@
-//! Lattices of inner points.
+//! Seeds: lattices of inner points from which a mesh is relaxed.
 
-use ib_core::Vec2;
-use ib_core::input::within;
+use motile_base::{Vec2, within};
 
 use crate::SolidError;
 use crate::error::MOST_POINTS;
 use crate::mesh::lattice::ROW_HEIGHT;
 use crate::mesher::boundary::{Boundary, rows};
 
-/// How a lattice is laid inside a boundary.
+/// Shape and position of a lattice inside a boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Lay {
     pub(crate) fit: Fit,
     /// Angle by which a lattice of equilateral triangles is turned (radians).
     pub(crate) angle: f64,
-    /// Displacement of the lattice in columns and rows.
+    /// Displacement of the lattice in units of columns and rows.
     pub(crate) offset: [f64; 2],
-    /// Distance from the boundary over the spacing.
+    /// Least distance from the boundary over the spacing.
     pub(crate) margin: f64,
 }
 
 /// The shape of a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Fit {
-    /// Stretched a little, so that whole rows and columns fill the bounding box.
+    /// Triangles stretched a little, so that whole rows and columns fill the bounding box.
     ToBox,
+    /// Equilateral triangles.
     Equilateral,
 }
 
 impl Boundary<'_> {
-    /// The points of a lattice inside.
+    /// Points of a lattice that lie inside the solid.
     pub(crate) fn seeds(&self, lay: Lay) -> Result<Vec<Vec2>, SolidError> {
         let spacing = self.spacing;
         let margin = lay.margin * spacing;

@@ -1,24 +1,26 @@
-//! The resampled boundary of a region: crossings, distances, inside and outside.
+//! Segments of the resampled boundary of a solid: crossings, distances, inside and outside.
 
 use std::collections::HashMap;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
-/// A straight part of the boundary, or its image one period to the side.
+use crate::SolidError;
+
+/// A straight piece of the boundary, or its image one period to the side.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Segment {
     pub(crate) from: Vec2,
     pub(crate) to: Vec2,
-    /// Outline and number within it.
+    /// Index of the outline, and of the segment within it.
     pub(crate) outline: usize,
     pub(crate) index: usize,
 }
 
-/// All segments, sorted into square cells.
+/// All segments of a boundary, sorted into square cells as wide as the longest of them.
 #[derive(Debug, Clone)]
 pub(crate) struct Segments {
     segments: Vec<Segment>,
-    /// Segments of each outline.
+    /// Number of segments of each outline.
     counts: Vec<usize>,
     cell: f64,
     cells: HashMap<(i64, i64), Vec<usize>>,
@@ -27,8 +29,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// From the points of each outline in order. With a period, the images within `margin` of the x range from `start`
-    /// are added, and points may lie anywhere.
+    /// The segments between the points of each outline in order. With `period` = start and period in x (length), images
+    /// within `margin` of that period are added, and points may lie anywhere.
     pub(crate) fn new(outlines: &[Vec<Vec2>], period: Option<(f64, f64)>, margin: f64) -> Self {
         let mut segments = Vec::new();
         for (outline, points) in outlines.iter().enumerate() {
@@ -68,12 +70,26 @@ impl Segments {
         Self { segments, counts: outlines.iter().map(Vec::len).collect(), cell, cells, columns }
     }
 
-    /// Whether `point` is solid.
+    /// The segments of outlines that must not cross.
+    ///
+    /// # Errors
+    /// [`SolidError::Crossing`].
+    pub(crate) fn uncrossed(
+        outlines: &[Vec<Vec2>],
+        period: Option<(f64, f64)>,
+        margin: f64,
+    ) -> Result<Self, SolidError> {
+        let segments = Self::new(outlines, period, margin);
+        segments.first_crossing().map_or(Ok(()), |place| Err(SolidError::Crossing { place }))?;
+        Ok(segments)
+    }
+
+    /// Tells whether `point` is solid.
     pub(crate) fn inside(&self, point: Vec2) -> bool {
         self.crossings_above(point, None) % 2 == 1
     }
 
-    /// How often a line upwards from `point` crosses outlines other than `except`.
+    /// Number of crossings of a line upwards from `point` with outlines other than `except`.
     pub(crate) fn crossings_above(&self, point: Vec2, except: Option<usize>) -> usize {
         let Some(column) = self.columns.get(&cell_of(point, self.cell).0) else { return 0 };
         column
@@ -87,7 +103,7 @@ impl Segments {
             .count()
     }
 
-    /// The nearest point of the boundary within `reach` of `point`, among the segments that `wanted` admits.
+    /// Nearest point of the boundary within `reach` of `point`, among the segments that `wanted` admits.
     pub(crate) fn nearest(&self, point: Vec2, reach: f64, wanted: impl Fn(&Segment) -> bool) -> Option<Vec2> {
         let low = cell_of(point - Vec2::splat(reach), self.cell);
         let high = cell_of(point + Vec2::splat(reach), self.cell);
@@ -107,14 +123,14 @@ impl Segments {
         best.1
     }
 
-    /// How many segments lie between two of the same outline, the shorter way round.
+    /// Number of steps between two segments of one outline, the shorter way round.
     pub(crate) fn separation(&self, outline: usize, first: usize, second: usize) -> usize {
         let apart = first.abs_diff(second);
         apart.min(self.counts[outline] - apart)
     }
 
-    /// A place where outlines cross, touch or fold back onto themselves.
-    pub(crate) fn first_crossing(&self) -> Option<Vec2> {
+    /// Place where outlines cross, touch or fold back onto themselves, on the first segment that does.
+    fn first_crossing(&self) -> Option<Vec2> {
         let mut first: Option<(usize, usize)> = None;
         for list in self.cells.values() {
             for (position, &i) in list.iter().enumerate() {
@@ -161,7 +177,7 @@ fn cell_of(point: Vec2, cell: f64) -> (i64, i64) {
     ((point.x / cell).floor() as i64, (point.y / cell).floor() as i64)
 }
 
-/// The point of a segment nearest to `point`.
+/// Point of a segment nearest to `point`.
 fn foot(point: Vec2, segment: &Segment) -> Vec2 {
     let along = segment.to - segment.from;
     let fraction = (point - segment.from).dot(along) / along.length_squared();

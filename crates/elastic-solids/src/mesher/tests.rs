@@ -1,7 +1,6 @@
 //! Uniformity, exact areas, what is refused, and work.
 
-use ib_core::Vec2;
-use ib_core::input::InputError;
+use motile_base::{InputError, Vec2};
 use proptest::prelude::*;
 
 use super::*;
@@ -95,7 +94,7 @@ fn outlines_that_make_no_mesh_are_refused() {
         |outlines: Vec<Outline>, spacing: f64| Interior::new(outlines).and_then(|r| r.mesh(spacing)).unwrap_err();
     let bow_tie = Outline::polygon(&[v(0.0, 0.0), v(1.0, 1.0), v(1.0, 0.0), v(0.0, 1.0)]).unwrap();
     match refused(vec![bow_tie], 0.1) {
-        SolidError::Crossing { x, y } => assert!((v(x, y) - v(0.5, 0.5)).length() < 0.05),
+        SolidError::Crossing { place } => assert!((place - v(0.5, 0.5)).length() < 0.05),
         other => panic!("{other}"),
     }
     let spike = Outline::polygon(&[v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(1.0, 0.5), v(0.0, 0.5)]).unwrap();

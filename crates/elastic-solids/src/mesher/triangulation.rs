@@ -1,6 +1,6 @@
 //! Constrained Delaunay triangulation of a set of points, also across the seam of a period.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use crate::SolidError;
@@ -14,10 +14,11 @@ const IMAGES: f64 = 8.0;
 /// be cut otherwise than the four themselves.
 const TIE_BREAK: f64 = 1e-7;
 
-/// A triangle flatter than this, in spacings squared, between points of a straight side is no part of the solid.
+/// Area, in spacings squared, below which a triangle between points of a straight side is round-off and no part of the
+/// solid.
 const SLIVER: f64 = 1e-6;
 
-/// The triangles inside the region, each once.
+/// Triangles inside the solid, each once.
 pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[usize; 3]>, SolidError> {
     set.renew(IMAGES * spacing);
     let (vertices, originals, edges) = images(set, spacing);
@@ -47,8 +48,8 @@ pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[u
 
 type Vertices = (Vec<Point2<f64>>, Vec<(usize, i8)>, Vec<[usize; 2]>);
 
-/// All points with their images near the ends, in units of the spacing, what each is an image of, and the boundary
-/// edges among them.
+/// Vertices of a triangulation: all points and their images near the ends of the period, in units of the spacing; the
+/// index of the point and the number of periods for each; and the boundary edges between vertices.
 fn images(set: &PointSet<'_>, spacing: f64) -> Vertices {
     let near = |x: f64, image: i8| match (set.period, image) {
         (Some((start, period)), 1) => x < start + (IMAGES * spacing).min(period),

@@ -1,22 +1,22 @@
-//! Rounded corners.
+//! Fillets: corners of an outline rounded by arcs.
 
 use std::sync::Arc;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::piece::Piece;
 use crate::SolidError;
 
-/// A turn of the tangent below which nothing is rounded (radians).
+/// Turn of the tangent below which there is no corner to round (radians).
 const STRAIGHT_ON: f64 = 1e-6;
 
-/// An arc that replaces a corner, and how much it takes off the two sides.
+/// Arc that replaces a corner, and the length that it cuts off each of the two sides.
 struct Fillet {
     arc: Piece,
     cut: f64,
 }
 
-/// The pieces with every corner between two straight ones replaced by an arc of `radius`.
+/// Pieces of an outline with every corner between two straight ones replaced by an arc of `radius` (length).
 pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, SolidError> {
     let count = pieces.len();
     // Fillet k is the one at the start of piece k.
@@ -37,7 +37,7 @@ pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, Solid
         let side = piece.length();
         if first + last > side * (1.0 + 1e-12) {
             let maximum = radius * side / (first + last);
-            return Err(SolidError::FilletTooLarge { radius, x: piece.start().x, y: piece.start().y, side, maximum });
+            return Err(SolidError::FilletTooLarge { radius, place: piece.start(), side, maximum });
         }
         if let Some(fillet) = &fillets[k] {
             result.push(fillet.arc.clone());
@@ -52,7 +52,7 @@ pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, Solid
 
 fn fillet(before: &Piece, after: &Piece, radius: f64) -> Result<Option<Fillet>, SolidError> {
     let (one, other) = (before.end_direction(), after.start_direction());
-    let turn = one.perp_dot(other).atan2(one.dot(other));
+    let turn = one.angle_to(other);
     if turn.abs() < STRAIGHT_ON {
         return Ok(None);
     }

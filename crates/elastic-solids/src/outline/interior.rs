@@ -1,13 +1,13 @@
-//! What is solid.
+//! Interiors: the solid that outlines enclose.
 
-use ib_core::Vec2;
-use ib_core::gap::Boundary;
-use ib_core::input::at_least;
+use motile_base::{Vec2, at_least};
+use motile_scene::gap::Boundary;
 
+use crate::mesh::TriangleMesh;
 use crate::mesher::segments::Segments;
-use crate::{Mesher, Outline, SolidError, TriangleMesh};
+use crate::{Mesher, Outline, SolidError};
 
-/// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed
+/// Solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed
 /// outline is a solid, a second one inside it a hole, one outside it another part; two periodic outlines, one above the
 /// other, are a wall.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ pub struct Interior {
 }
 
 impl Interior {
-    /// The solid between `outlines`, which must not cross (this is checked when it is meshed).
+    /// Solid between `outlines`, which must not cross (this is checked when it is meshed).
     ///
     /// # Errors
     /// No outline; periodic outlines of different periods, or an odd number of them (there would be no end).
@@ -36,20 +36,20 @@ impl Interior {
         Ok(Self { outlines, period })
     }
 
-    /// The outlines.
+    /// Outlines of the solid.
     #[must_use]
     pub fn outlines(&self) -> &[Outline] {
         &self.outlines
     }
 
-    /// Period in x (length), where there is one.
+    /// Period in x (length); `None` for closed outlines alone.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// The boundary by points at about `spacing` (length), the solid to the left of its sides: where the solid lies,
-    /// before there is a mesh of it.
+    /// Boundary of the solid by points at about `spacing` (length), with the solid to the left of its sides: for
+    /// distances from the solid before there is a mesh of it.
     ///
     /// # Errors
     /// Those of [`Outline::resampled`]; outlines that cross.
@@ -57,10 +57,7 @@ impl Interior {
         let lines = self.outlines.iter().map(|outline| outline.resampled(spacing)).collect::<Result<Vec<_>, _>>()?;
         let periodic = self.outlines.iter().zip(&lines).find(|(outline, _)| outline.period().is_some());
         let start = periodic.map(|(outline, line)| (line[0].x, outline.period().unwrap_or_default()));
-        let segments = Segments::new(&lines, start, 2.0 * spacing);
-        if let Some(place) = segments.first_crossing() {
-            return Err(SolidError::Crossing { x: place.x, y: place.y });
-        }
+        let segments = Segments::uncrossed(&lines, start, 2.0 * spacing)?;
         let mut boundary = Boundary::default();
         for (outline, line) in self.outlines.iter().zip(&lines) {
             let around = Vec2::new(outline.period().unwrap_or(0.0), 0.0);
@@ -76,7 +73,16 @@ impl Interior {
         Ok(boundary)
     }
 
-    /// A uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.
+    /// Solid with y reversed; the lower of two periodic outlines comes first again.
+    ///
+    /// # Errors
+    /// None but those of [`Outline::mirrored`].
+    pub(crate) fn mirrored(&self) -> Result<Self, SolidError> {
+        let outlines = self.outlines.iter().rev().map(|outline| outline.mirrored(0.0));
+        Self::new(outlines.collect::<Result<Vec<_>, _>>()?)
+    }
+
+    /// Uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`].
@@ -86,7 +92,7 @@ impl Interior {
 }
 
 impl Outline {
-    /// A uniform mesh of spacing `spacing` (length) of what a closed outline encloses, by [`Mesher`] with its defaults.
+    /// Uniform mesh of spacing `spacing` (length) of the inside of a closed outline, by [`Mesher`] with its defaults.
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`]; a periodic outline, which encloses nothing.

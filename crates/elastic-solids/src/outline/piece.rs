@@ -1,16 +1,16 @@
-//! Smooth pieces of an outline.
+//! Smooth pieces of an outline, by arc length.
 
 use std::sync::Arc;
 
-use ib_core::Vec2;
-use ib_core::input::all_points_finite;
+use motile_base::{Vec2, all_points_finite};
 
 use crate::SolidError;
 use crate::error::length;
 
 pub(super) type Curve = Arc<dyn Fn(f64) -> Vec2 + Send + Sync>;
 
-/// A turn of the tangent above which a joint is a corner (radians): 15 degrees.
+/// Turn of the tangent above which a joint is a corner (radians), 15 degrees: a polygon of more than 24 corners is
+/// taken for the smooth curve that it stands for.
 const CORNER: f64 = 0.26;
 
 /// Chords by which the arc length of a curve is measured; its error is of the order of 1/CHORDS^2.
@@ -22,7 +22,7 @@ pub(super) struct Piece {
     curve: Curve,
     range: [f64; 2],
     straight: bool,
-    /// Arc length up to the end of each chord; one entry for a straight piece.
+    /// Arc length up to the end of each chord (length); one entry for a straight piece.
     lengths: Arc<[f64]>,
 }
 
@@ -42,7 +42,7 @@ impl Piece {
         Self::measured(curve, range, false)
     }
 
-    /// One curve cut at parameters.
+    /// Pieces of a curve cut at the parameters `cuts`.
     pub(super) fn split(curve: &Curve, range: [f64; 2], cuts: &[f64]) -> Result<Vec<Self>, SolidError> {
         let ends: Vec<f64> = std::iter::once(range[0]).chain(cuts.iter().copied()).chain([range[1]]).collect();
         if let Some(k) = (1..ends.len()).find(|&k| ends[k].is_nan() || ends[k] <= ends[k - 1]) {
@@ -65,7 +65,7 @@ impl Piece {
             })
             .collect();
         if total == 0.0 {
-            return Err(SolidError::NoLength { x: points[0].x, y: points[0].y });
+            return Err(SolidError::NoLength { place: points[0] });
         }
         length("the length of a side or curve of an outline", total)?;
         Ok(Self { curve, range, straight, lengths })
@@ -92,7 +92,7 @@ impl Piece {
         (self.curve)(self.range[1])
     }
 
-    /// The point at arc length `along` from the start.
+    /// Point at the arc length `along` from the start (length).
     pub(super) fn at(&self, along: f64) -> Vec2 {
         let chords = self.lengths.len();
         let chord = self.lengths.partition_point(|&length| length < along).min(chords - 1);
@@ -102,12 +102,12 @@ impl Piece {
         (self.curve)(parameter(self.range, (chord as f64 + fraction) / chords as f64))
     }
 
-    /// Direction at the start (of length 1).
+    /// Unit vector along the piece at its start.
     pub(super) fn start_direction(&self) -> Vec2 {
         self.direction(self.at(1e-3 * self.length()) - self.start())
     }
 
-    /// Direction at the end (of length 1).
+    /// Unit vector along the piece at its end.
     pub(super) fn end_direction(&self) -> Vec2 {
         self.direction(self.end() - self.at((1.0 - 1e-3) * self.length()))
     }
@@ -117,10 +117,9 @@ impl Piece {
     }
 }
 
-/// Whether the tangent turns where one piece ends and the next starts.
+/// Tells whether the tangent turns where one piece ends and the next starts.
 pub(super) fn is_corner(before: &Piece, after: &Piece) -> bool {
-    let (one, other) = (before.end_direction(), after.start_direction());
-    one.perp_dot(other).atan2(one.dot(other)).abs() > CORNER
+    before.end_direction().angle_to(after.start_direction()).abs() > CORNER
 }
 
 fn parameter(range: [f64; 2], fraction: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::input::InputError;
+use motile_base::InputError;
 
 use super::*;
 

@@ -9,9 +9,9 @@ fn body() -> RigidBody {
     RigidBody::new(&(0..200).rev().map(at).collect::<Vec<_>>()).unwrap()
 }
 
-fn medium() -> Discretisation {
-    let domain = ib_core::Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
-    Discretisation { domain, viscosity: 1.0, spacing: None, shape_modes: None, interface_stiffness: 1.0 }
+fn view() -> FluidView {
+    let domain = motile_scene::Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+    FluidView { domain, viscosity: 1.0, spacing: None, shape_modes: None, interface_stiffness: 1.0 }
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn its_forces_have_the_resultant_and_torque_of_its_load() {
     let mut body = body().with_load(Vec2::new(0.4, -1.3), 2.1).unwrap();
     body.read_state(&[3.0, 4.0, 0.7]).unwrap();
     let mut forces = vec![Vec2::ZERO; body.marker_count()];
-    body.write_forces(&medium(), &mut forces).unwrap();
+    body.write_forces(&view(), &mut forces).unwrap();
     let total: Vec2 = forces.iter().sum();
     let torque: f64 = body.markers().zip(&forces).map(|(x, f)| (x - body.centre()).perp_dot(*f)).sum();
     assert!((total - Vec2::new(0.4, -1.3)).length() < 1e-13 && (torque - 2.1).abs() < 1e-12, "{total} {torque}");

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use ib_core::Body;
+use motile_scene::Body;
 use proptest::prelude::*;
 
 use super::*;

@@ -1,12 +1,14 @@
-//! What to look at in a deformed solid.
+//! Measurements on a deformed solid.
 
-use ib_core::{BodyError, Discretisation, Observe, Vec2, scene::BodyFlow};
+use motile_base::Vec2;
+use motile_scene::{BodyError, BodyFlow, FluidView, Observe};
 
 use crate::material::Mat2;
 use crate::{Solid, SolidError};
 
-/// What is seen of a solid at one time (`scene.observe(solid)?`). Displacements are those from the reference state.
+/// Measurements on a solid at one time (`scene.observe(solid)?`). Displacements are those from the reference state.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Deformation {
     /// Largest displacement of a point, in any direction (length).
     pub largest_displacement: f64,
@@ -27,7 +29,7 @@ pub struct Deformation {
 }
 
 impl Deformation {
-    /// Those of a solid where it is now.
+    /// Measurements on a solid in its present state.
     #[must_use]
     pub fn of(solid: &Solid) -> Self {
         let mesh = &solid.mesh;
@@ -50,7 +52,7 @@ impl Deformation {
 impl Observe for Solid {
     type Observables = Deformation;
 
-    fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<Deformation, BodyError> {
+    fn observables(&self, _view: &FluidView, _flow: &BodyFlow<'_>) -> Result<Deformation, BodyError> {
         Ok(Deformation::of(self))
     }
 }
@@ -70,7 +72,7 @@ impl Solid {
             for (k, &point) in boundary.points.iter().enumerate() {
                 let before = if k == 0 { polygon[count - 1] - advance } else { polygon[k - 1] };
                 let after = if k + 1 == count { polygon[0] + advance } else { polygon[k + 1] };
-                let along = (after - before).normalize_or_zero();
+                let along = (after - before).try_normalize().unwrap_or_default();
                 let displacement = self.positions[point] - self.mesh.points()[point];
                 largest = largest.max(along.perp_dot(displacement).abs());
             }
@@ -94,7 +96,8 @@ impl Solid {
         self.tethers.iter().map(|tether| 0.5 * tether.stiffness * stretch(tether.point, tether.anchor)).sum()
     }
 
-    /// J of each triangle, its deformed over its reference area; negative where it is inverted.
+    /// Determinant J of the deformation gradient of each triangle, its deformed over its reference area (no dimension);
+    /// negative for an inverted triangle.
     pub fn jacobians(&self) -> impl Iterator<Item = f64> {
         self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
             let [a, b, c] = self.mesh.raw_corners(triangle, &self.positions);
@@ -102,14 +105,14 @@ impl Solid {
         })
     }
 
-    /// The smallest J and its triangle.
+    /// Smallest determinant J, and the index of its triangle.
     #[must_use]
     pub fn smallest_jacobian(&self) -> (f64, usize) {
         let numbered = self.jacobians().enumerate().map(|(triangle, jacobian)| (jacobian, triangle));
         numbered.fold((f64::INFINITY, 0), |least, this| if this.0 < least.0 { this } else { least })
     }
 
-    /// Whether every triangle is the right way round.
+    /// Checks that no triangle is inverted.
     ///
     /// # Errors
     /// [`SolidError::Inverted`] with the triangle that is inverted the most.
@@ -124,7 +127,7 @@ impl Solid {
         }
         let (jacobian, triangle) = self.smallest_jacobian();
         let place = self.mesh.raw_corners(triangle, &self.positions).iter().sum::<Vec2>() / 3.0;
-        Err(SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian })
+        Err(SolidError::Inverted { triangle, place, jacobian })
     }
 
     /// Cauchy stress `P A^T / J` of each triangle (force per deformed length).
@@ -135,7 +138,7 @@ impl Solid {
         self.check_inversion()?;
         let stress = |triangle: usize, jacobian: f64| {
             let gradient = self.raw_gradient(triangle);
-            let inverted = |place: Vec2| SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian };
+            let inverted = |place: Vec2| SolidError::Inverted { triangle, place, jacobian };
             let stress = self.law.stress(triangle, &gradient);
             let stress = stress.ok_or_else(|| inverted(self.mesh.centroid(triangle)))?;
             Ok(stress * gradient.transpose() / jacobian)
@@ -157,8 +160,8 @@ impl Solid {
         sides(&self.positions) * sides(self.mesh.points()).inverse()
     }
 
-    /// The surface of a periodic wall (length): with `periods` -1 that which faces up, from right to left, with 1 that
-    /// which faces down, from left to right; `None` where there is none.
+    /// Surface of a periodic wall (length): with `periods` -1 the one which faces up, from right to left, with 1 the
+    /// one which faces down, from left to right; `None` where there is none.
     pub(crate) fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
         let boundary = self.mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
         Some(self.mesh.raw_polygon(boundary, &self.positions))

@@ -2,7 +2,7 @@
 
 use stokes_grid::{CentreField, Grid, StaggeredField};
 
-use crate::{FlowSample, Vec2};
+use motile_base::{FlowSample, Vec2};
 
 /// A field on a shifted lattice of a grid, continued beyond walls by symmetry.
 struct Lattice<'a> {
@@ -50,43 +50,6 @@ impl<'a> Lattice<'a> {
         let gradient = [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)];
         (value, gradient.map(|step| step / self.grid.spacing()))
     }
-
-    /// Value and gradient at a point by cubic interpolation.
-    fn cubic(&self, point: Vec2) -> (f64, [f64; 2]) {
-        let ([i, j], [s, t]) = self.cell(point);
-        let ((columns, column_slopes), (rows, row_slopes)) = (cubic_weights(s), cubic_weights(t));
-        let (mut value, mut gradient) = (0.0, [0.0; 2]);
-        for (row, (weight, slope)) in (j - 1..).zip(rows.into_iter().zip(row_slopes)) {
-            let (mut along, mut across) = (0.0, 0.0);
-            for (column, (weight, slope)) in (i - 1..).zip(columns.into_iter().zip(column_slopes)) {
-                let entry = self.value(column, row);
-                along += weight * entry;
-                across += slope * entry;
-            }
-            value += weight * along;
-            gradient = [gradient[0] + weight * across, gradient[1] + slope * along];
-        }
-        (value, gradient.map(|step| step / self.grid.spacing()))
-    }
-}
-
-/// Lagrange weights of the points -1, 0, 1, 2 at t between 0 and 1, and their slopes.
-fn cubic_weights(t: f64) -> ([f64; 4], [f64; 4]) {
-    let (a, b, c) = (t + 1.0, t - 1.0, t - 2.0);
-    let weights = [-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0];
-    let slopes = [
-        -(b * c + t * c + t * b) / 6.0,
-        (b * c + a * c + a * b) / 2.0,
-        -(t * c + a * c + a * t) / 2.0,
-        (t * b + a * b + a * t) / 6.0,
-    ];
-    (weights, slopes)
-}
-
-/// Velocity and its gradient at a point by cubic interpolation between grid points.
-pub(crate) fn smooth_velocity(velocity: &StaggeredField, point: Vec2) -> (Vec2, [[f64; 2]; 2]) {
-    let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity).map(|component| component.cubic(point));
-    (Vec2::new(ux, uy), [du, dv])
 }
 
 /// Pressure at a point, bilinear between grid points.

@@ -1,15 +1,12 @@
 //! Interfaces between different viscosities by a viscosity that is smeared over the kernel, Cowley's way.
 
-use stokes_grid::{
-    CentreField, Drive, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes,
-};
+use motile_base::Drive;
+use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes};
 
-use crate::contrast::other_viscosities;
-use crate::{
-    Discretisation, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Transfer, Vec2,
-    checkpoint::SavedState,
-    hydrodynamics::{FlowWork, SolveReport},
-};
+use super::other_viscosities;
+use crate::{ImmersedBoundary, Kernel, Transfer};
+use motile_base::{FlowSample, SolveReport, Vec2};
+use motile_scene::{FlowError, FlowWork, FluidView, Hydrodynamics, Markers, checkpoint::SavedState};
 
 /// The immersed boundary method with the viscosity as a smooth field on the grid (Cowley section 2.2.4): the outward
 /// normals of the interfaces, spread like forces, are minus the gradient of an indicator that is one inside,
@@ -20,8 +17,9 @@ use crate::{
 /// them.
 ///
 /// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
-/// as viscous as the exterior fluid is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction
-/// of the cost; this is here to reproduce Cowley. There is no mobility correction.
+/// as viscous as the exterior fluid is 25 to 40 per cent too fast. [`crate::ImmersedLayers`] do better at a fraction of
+/// the cost; this is here to reproduce Cowley. There is no mobility correction. Where all viscosities are equal this is
+/// [`ImmersedBoundary::uncorrected`].
 #[derive(Debug, Clone)]
 pub struct SmearedContrast<S, K> {
     flow: ImmersedBoundary<TwoPhaseStokes<S>, K>,
@@ -137,7 +135,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
         let [lx, ly] = grid.lengths();
         for group in markers.groups() {
             let Some([inside, outside]) = other_viscosities(group, exterior)? else { continue };
-            let positions = &markers.positions[group.range.clone()];
+            let positions = &markers.positions()[group.range.clone()];
             let count = positions.len();
             for k in 0..count {
                 let d = 0.5 * (positions[(k + 1) % count] - positions[(k + count - 1) % count]);
@@ -180,8 +178,8 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
-    fn discretisation(&self) -> Discretisation {
-        self.flow.discretisation()
+    fn fluid_view(&self) -> FluidView {
+        self.flow.fluid_view()
     }
 
     fn drive(&self) -> Option<Drive> {

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use fourier::{PeriodicSeries, spectrum::largest_wave};
+use motile_base::{PeriodicSeries, spectrum::largest_wave};
 use num_complex::Complex64;
 use stokes_layers::gmres::{Gmres, Outcome};
-use stokes_layers::{Geometry, InterfaceFlow, Settings, SingleLayer, Solution, WarmStart};
+use stokes_layers::{InterfaceFlow, SingleLayer, Solution};
 
-use crate::{FlowError, FlowSample, Markers, Vec2, checkpoint::SavedState};
+use motile_scene::{FlowError, checkpoint::SavedState};
 
 /// Iterations before giving up.
 const MOST_ITERATIONS: usize = 200;
@@ -24,7 +24,6 @@ const MOST_ITERATIONS: usize = 200;
 /// along the normal moves nothing and is left out.
 #[derive(Debug, Clone)]
 pub(super) struct LayerContrast {
-    flow: InterfaceFlow,
     tolerance: f64,
     gmres: Gmres,
     series: PeriodicSeries,
@@ -42,10 +41,11 @@ pub(super) struct LayerContrast {
 }
 
 impl LayerContrast {
-    pub(super) fn new(geometry: Geometry, viscosity: f64, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
-        let settings = Settings { nodes, tolerance, ..Settings::default() };
+    /// Lists that [`LayerContrast::save`] writes.
+    pub(super) const LISTS: usize = 2;
+
+    pub(super) fn new(nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
         Ok(Self {
-            flow: InterfaceFlow::new(geometry, viscosity, settings)?,
             tolerance,
             gmres: Gmres::recycling(),
             series: PeriodicSeries::new(nodes)?,
@@ -59,35 +59,24 @@ impl LayerContrast {
         })
     }
 
-    /// The flow of the interfaces' own forces and velocities.
-    pub(super) fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
-        Ok(self.flow.sample(points, out)?)
-    }
-
-    /// Takes over the interfaces.
-    pub(super) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        let exterior = self.flow.viscosity();
-        let interfaces = markers.groups().iter().filter(|group| group.kind.is_interface());
-        Ok(self.flow.load(interfaces.map(|group| group.interface(&markers.positions, &markers.forces, exterior)))?)
-    }
-
-    /// Finds velocities at the nodes of interfaces for viscosity times velocity `flow` of all forces in fluid of one
+    /// Finds velocities at the nodes of `interfaces` for viscosity times velocity `flow` of all forces in fluid of one
     /// viscosity.
-    pub(super) fn solve(&mut self, flow: &[f64]) -> Result<Solution, FlowError> {
+    pub(super) fn solve(&mut self, interfaces: &mut InterfaceFlow, flow: &[f64]) -> Result<Solution, FlowError> {
         self.velocities.resize(flow.len(), 0.0);
-        Ok(self.flow.solve_in(flow, &mut self.velocities)?)
+        Ok(interfaces.solve_in(flow, &mut self.velocities)?)
     }
 
     /// Adds the forces that take the place of other viscosities to those at the nodes of all layers, of which
-    /// interfaces have that many entries, and their flow to `flow`, which is as before but for the forces inside of
+    /// `interfaces` are the first, and their flow to `flow`, which is as before but for the forces inside of
     /// interfaces: these count by their fluid.
     pub(super) fn add_forces(
         &mut self,
+        interfaces: &InterfaceFlow,
         layer: &mut SingleLayer,
-        entries: usize,
         all: &mut [f64],
         flow: &mut [f64],
     ) -> Result<Outcome, FlowError> {
+        let entries = self.velocities.len();
         if self.unknown.len() != entries {
             self.unknown.clear();
             self.gmres.forget();
@@ -100,11 +89,11 @@ impl LayerContrast {
             list.resize(all.len(), 0.0);
         }
         self.waves.clear();
-        for curve in 0..self.flow.len() {
+        for curve in 0..interfaces.len() {
             layer.normals(curve, &mut self.normals[layer.entries(curve)])?;
-            self.waves.push(self.flow.perimeter(curve).map_or(1.0, |perimeter| TAU / perimeter));
+            self.waves.push(interfaces.perimeter(curve).map_or(1.0, |perimeter| TAU / perimeter));
         }
-        let viscosity = self.flow.viscosity();
+        let viscosity = interfaces.viscosity();
         for ((right, velocity), flow) in self.right.iter_mut().zip(&self.velocities).zip(&*flow) {
             *right = viscosity * velocity - flow;
         }
@@ -136,24 +125,20 @@ impl LayerContrast {
         Ok(outcome)
     }
 
-    /// The last solutions, from which the next ones start.
+    /// The last solution, from which the next one starts.
     pub(super) fn save(&self) -> SavedState {
-        let WarmStart { velocities, directions } = self.flow.warm_start();
-        let lists = [velocities, directions, self.unknown.clone(), self.gmres.save()];
+        let lists = [self.unknown.clone(), self.gmres.save(self.unknown.len())];
         SavedState { counts: lists.iter().map(|list| list.len() as u64).collect(), reals: lists.concat() }
     }
 
-    /// Takes back what [`LayerContrast::save`] wrote.
-    pub(super) fn restore(&mut self, mut reals: &[f64], counts: &[u64]) {
-        let lists = counts.iter().map_while(|&count| {
-            let (list, rest) = reals.split_at_checked(usize::try_from(count).ok()?)?;
-            reals = rest;
-            Some(list.to_vec())
-        });
-        let Ok([velocities, directions, unknown, kept]) = <[_; 4]>::try_from(lists.collect::<Vec<_>>()) else { return };
-        self.flow.resume(WarmStart { velocities, directions });
-        self.gmres.restore(unknown.len(), &kept);
-        self.unknown = unknown;
+    /// Takes back what [`LayerContrast::save`] wrote, which is where `saved` begins, and gives the numbers after it.
+    pub(super) fn restore<'a>(&mut self, saved: &'a SavedState) -> Option<&'a [f64]> {
+        let counts = saved.counts.first_chunk::<{ Self::LISTS }>()?.map(usize::try_from);
+        let (unknown, rest) = saved.reals.split_at_checked(counts[0].ok()?)?;
+        let (kept, rest) = rest.split_at_checked(counts[1].ok()?)?;
+        self.gmres.restore(unknown.len(), kept);
+        self.unknown = unknown.to_vec();
+        Some(rest)
     }
 }
 

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use fourier::{InputError, PeriodicSeries, spectrum::largest_wave};
-use input_checks::at_least;
+use motile_base::{InputError, PeriodicSeries, at_least, spectrum::largest_wave};
 use num_complex::Complex64;
 use stokes_layers::LayerCurve;
 
-use crate::{FlowError, Markers, Vec2, hydrodynamics::MarkerGroup};
+use motile_base::Vec2;
+use motile_scene::{FlowError, MarkerGroup, Markers};
 
 /// Where their own nodes are equally spaced, grid nodes of a curve are at most a grid spacing over this apart.
 const FINER: f64 = 1.2;
@@ -100,18 +100,18 @@ impl LayerCurves {
             starts[1] += nodes;
             Ok::<_, InputError>(curve)
         };
-        for group in groups.iter().filter(|group| group.kind.is_interface()) {
+        for group in groups.iter().filter(|group| group.kind.is_closed_curve()) {
             at_least("the markers of an interface", group.range.len(), self.nodes)?;
             self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes)?);
         }
         self.interfaces = self.curves.len();
-        for group in groups {
-            for surface in &group.surfaces {
-                let count = at_least("the points of a solid's surface", surface.markers.len(), LEAST_POINTS)?;
-                let largest = surface.markers.iter().map(|(marker, _)| *marker).max().unwrap_or(0);
+        for group in groups.iter().filter(|group| !group.kind.is_closed_curve()) {
+            for surface in group.layers() {
+                let count = at_least("the points of a solid's surface", surface.points.len(), LEAST_POINTS)?;
+                let largest = surface.markers().map(|(marker, _)| marker).max().unwrap_or(0);
                 at_least("the markers of a solid with a surface", group.range.len(), largest + 1)?;
-                let absolute = |&(marker, shift): &(usize, i32)| (group.range.start + marker, shift);
-                self.curves.push(curve(surface.markers.iter().map(absolute).collect(), surface.periods, count)?);
+                let markers = surface.markers().map(|(marker, shift)| (group.range.start + marker, shift));
+                self.curves.push(curve(markers.collect(), surface.periods, count)?);
             }
         }
         let mut free = vec![true; groups.last().map_or(0, |group| group.range.end)];
@@ -129,7 +129,7 @@ impl LayerCurves {
     /// Takes over positions and forces.
     pub(super) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         for (body, group) in markers.groups().iter().enumerate() {
-            for (what, list) in [("the position", &markers.positions), ("the force", &markers.forces)] {
+            for (what, list) in [("the position", markers.positions()), ("the force", markers.forces())] {
                 let wrong = |v: &Vec2| !(v.x.is_finite() && v.y.is_finite());
                 if let Some(marker) = list[group.range.clone()].iter().position(wrong) {
                     let v = list[group.range.start + marker];
@@ -146,7 +146,7 @@ impl LayerCurves {
             let count = curve.markers.len();
             let points = &mut self.points[curve.starts[0]..][..count];
             for ((marker, shift), point) in curve.markers.iter().zip(&mut *points) {
-                *point = markers.positions[*marker] + Vec2::new(f64::from(*shift) * self.period, 0.0);
+                *point = markers.positions()[*marker] + Vec2::new(f64::from(*shift) * self.period, 0.0);
             }
             first += curve.fit(points, self.spacing)?;
             for list in &mut self.grid {
@@ -155,7 +155,7 @@ impl LayerCurves {
             curve.load(points, &mut self.grid[0])?;
         }
         self.grid.iter_mut().for_each(|list| list.truncate(first));
-        self.load_forces(&markers.forces)
+        self.load_forces(markers.forces())
     }
 
     /// Takes over forces on all markers.

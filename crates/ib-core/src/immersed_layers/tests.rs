@@ -4,18 +4,19 @@ use stokes_grid::{ChannelStokes, PeriodicStokes};
 use stokes_layers::{Interface, InterfaceFlow, Settings};
 
 use super::*;
-use crate::{CubicQuadratic, MarkerKind, hydrodynamics::SurfaceCurve};
+use crate::BSpline;
+use motile_scene::{MarkerKind, gap::SurfaceCurve};
 
 const NODES: usize = 64;
 const HEIGHT: f64 = 6.0;
 const TOLERANCE: f64 = 1e-8;
 
-type Flow<S> = ImmersedLayers<S, CubicQuadratic>;
+type Flow<S> = ImmersedLayers<S, BSpline<4>>;
 
 fn channel(length: f64, h: f64) -> Flow<ChannelStokes> {
     let cells = |length: f64| (length / h).round() as usize;
     let solver = ChannelStokes::new(Grid::channel(cells(length), cells(HEIGHT), h).unwrap(), 2.0).unwrap();
-    ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap()
+    ImmersedLayers::new(solver, BSpline::<4>, NODES, TOLERANCE).unwrap()
 }
 
 fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
@@ -24,22 +25,22 @@ fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
 }
 
 fn closed(count: usize) -> SurfaceCurve {
-    SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 0 }
+    SurfaceCurve::through(0..count, 0)
 }
 
 fn droplet(viscosity_inside: Option<f64>) -> Markers {
     let mut markers = Markers::new();
     markers.push_group(NODES, MarkerKind::Interface { viscosity_inside });
-    markers.positions = circle(Vec2::ZERO, 1.0, NODES);
+    markers.positions_mut().copy_from_slice(&circle(Vec2::ZERO, 1.0, NODES));
     markers
 }
 
 /// A solid of surface points and inner points.
 fn push(markers: &mut Markers, surface: SurfaceCurve, points: &[Vec2]) {
-    let mut positions = markers.positions.clone();
+    let mut positions = markers.positions().to_vec();
     positions.extend_from_slice(points);
-    markers.push_solid(points.len(), MarkerKind::Points, vec![surface]);
-    markers.positions = positions;
+    markers.push_body(points.len(), MarkerKind::Points, vec![surface]);
+    markers.positions_mut().copy_from_slice(&positions);
 }
 
 /// A droplet and a disc beside it, whose inner points are `lattice` apart, those of the surface half of that.
@@ -70,7 +71,7 @@ fn droplet_and_walls(viscosity_inside: Option<f64>, gap: f64, length: f64, latti
         let rows = (1..4).flat_map(|row| (0..columns).map(move |k| (row, k)));
         let inner =
             rows.map(|(row, k)| at(lattice * (k as f64 + 0.5 * f64::from(row % 2)), 0.866 * lattice * f64::from(row)));
-        let curve = SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 1 };
+        let curve = SurfaceCurve::through(0..count, 1);
         push(&mut markers, curve, &surface.chain(inner).collect::<Vec<_>>());
     }
     markers
@@ -80,10 +81,10 @@ fn droplet_and_walls(viscosity_inside: Option<f64>, gap: f64, length: f64, latti
 fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64>> {
     let count = 2 * markers.len();
     let column = |column: usize| {
-        markers.forces.fill(Vec2::ZERO);
-        markers.forces[column / 2][column % 2] = 1.0;
+        markers.forces_mut().fill(Vec2::ZERO);
+        markers.forces_mut()[column / 2][column % 2] = 1.0;
         flow.velocities(markers).unwrap();
-        markers.velocities.iter().flat_map(Vec2::to_array).collect()
+        markers.velocities().iter().copied().flat_map(Vec2::to_array).collect()
     };
     (0..count).map(column).collect()
 }
@@ -126,7 +127,7 @@ fn the_mobility_is_symmetric_and_takes_energy() {
 }
 
 fn forces(markers: &mut Markers) {
-    for (k, force) in markers.forces.iter_mut().enumerate() {
+    for (k, force) in markers.forces_mut().iter_mut().enumerate() {
         *force = Vec2::new((0.3 * k as f64).sin(), (0.2 * k as f64).cos());
     }
 }
@@ -149,23 +150,27 @@ fn the_mobility_is_symmetric_for_any_viscosities() {
 }
 
 #[test]
-fn interfaces_alone_move_as_without_a_grid() {
+fn interfaces_beside_points_move_as_without_a_grid() {
     for inside in [2.0, 0.1, 300.0] {
         let mut markers = droplet(Some(inside));
+        markers.push_group(1, MarkerKind::Points);
+        markers.positions_mut()[NODES] = Vec2::new(0.0, 2.0);
         forces(&mut markers);
+        markers.forces_mut()[NODES] *= 1e-12;
         let mut flow = channel(4.0, 0.2);
         flow.velocities(&mut markers).unwrap();
-        let geometry = Geometry::Channel { length: 4.0, width: HEIGHT, forcing: Forcing::default() };
+        let region = Region::Channel { length: 4.0, width: HEIGHT, drive: Drive::default() };
         let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
-        let mut exact = InterfaceFlow::new(geometry, 2.0, settings).unwrap();
-        let (positions, forces) = (&markers.positions[..], &markers.forces[..]);
+        let mut exact = InterfaceFlow::new(region, 2.0, settings).unwrap();
+        let (positions, forces) = (&markers.positions()[..NODES], &markers.forces()[..NODES]);
         exact.load([Interface::closed(positions, forces, [inside, 2.0])].into_iter()).unwrap();
         exact.solve().unwrap();
         let mut expected = vec![Vec2::ZERO; NODES];
         exact.velocities(0, &mut expected).unwrap();
-        let errors = markers.velocities.iter().zip(expected).map(|(found, expected)| (found - expected).length());
+        let errors = markers.velocities().iter().zip(expected).map(|(found, expected)| (found - expected).length());
         let error = errors.fold(0.0, f64::max);
         println!("{inside}: {error:e}");
+        assert_eq!(flow.work().stokes_solves, 2);
         assert!(error < 1e-7, "{inside}: {error:e}");
     }
 }
@@ -177,18 +182,21 @@ fn inner_points_move_with_the_flow_of_the_layers() {
     for inside in [2.0, 40.0] {
         let errors = [0.2, 0.1, 0.05].map(|h| {
             let mut markers = droplet(Some(inside));
-            for (force, x) in markers.forces.iter_mut().zip(&markers.positions) {
+            let [positions, forces, _] = markers.lists_mut();
+            for (force, x) in forces.iter_mut().zip(positions) {
                 *force = 0.1 * Vec2::new(x.x * x.y, x.x + 1.0);
             }
             markers.push_group(places.len(), MarkerKind::Points);
-            markers.positions[NODES..].copy_from_slice(&places);
+            markers.positions_mut()[NODES..].copy_from_slice(&places);
+            // However little: forces on points need the grid.
+            markers.forces_mut()[NODES] = Vec2::splat(1e-14);
             let mut flow = channel(4.0, h);
             flow.velocities(&mut markers).unwrap();
             let mut exact = [FlowSample::default(); 3];
-            let geometry = Geometry::Channel { length: 4.0, width: HEIGHT, forcing: Forcing::default() };
+            let region = Region::Channel { length: 4.0, width: HEIGHT, drive: Drive::default() };
             let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
-            let mut alone = InterfaceFlow::new(geometry, 2.0, settings).unwrap();
-            let interface = Interface::closed(&markers.positions[..NODES], &markers.forces[..NODES], [inside, 2.0]);
+            let mut alone = InterfaceFlow::new(region, 2.0, settings).unwrap();
+            let interface = Interface::closed(&markers.positions()[..NODES], &markers.forces()[..NODES], [inside, 2.0]);
             alone.load([interface].into_iter()).unwrap();
             alone.solve().unwrap();
             alone.sample(&places, &mut exact).unwrap();
@@ -197,7 +205,7 @@ fn inner_points_move_with_the_flow_of_the_layers() {
             let speed = exact[0].velocity.length();
             let error = |k: usize| {
                 let v = exact[k].velocity;
-                (markers.velocities[NODES + k] - v).length().max((samples[k].velocity - v).length()) / speed
+                (markers.velocities()[NODES + k] - v).length().max((samples[k].velocity - v).length()) / speed
             };
             let drop = |list: &[FlowSample; 3]| list[2].pressure - list[0].pressure;
             [(0..3).map(error).fold(0.0, f64::max), (drop(&samples) / drop(&exact) - 1.0).abs()]
@@ -211,11 +219,11 @@ fn inner_points_move_with_the_flow_of_the_layers() {
 #[test]
 fn forces_inside_leave_the_area_of_a_solid() {
     let mut markers = droplet_and_disc(0.1, 0.2);
-    let surface = NODES..NODES + markers.groups()[1].surfaces[0].markers.len();
+    let surface = NODES..NODES + markers.groups()[1].surfaces[0].points.len();
     forces(&mut markers);
-    markers.forces[..surface.end].fill(Vec2::ZERO);
+    markers.forces_mut()[..surface.end].fill(Vec2::ZERO);
     channel(4.0, 0.1).velocities(&mut markers).unwrap();
-    let (positions, velocities) = (&markers.positions[surface.clone()], &markers.velocities[surface]);
+    let (positions, velocities) = (&markers.positions()[surface.clone()], &markers.velocities()[surface]);
     let centre = Vec2::new(0.3, 1.8);
     let flux: f64 = positions.iter().zip(velocities).map(|(x, v)| (x - centre).dot(*v)).sum();
     let sizes: f64 = positions.iter().zip(velocities).map(|(x, v)| (x - centre).length() * v.length()).sum();
@@ -225,7 +233,7 @@ fn forces_inside_leave_the_area_of_a_solid() {
 #[test]
 fn a_box_has_them_too() {
     let solver = PeriodicStokes::new(Grid::periodic(40, 60, 0.1).unwrap(), 2.0).unwrap();
-    let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap();
+    let mut flow = ImmersedLayers::new(solver, BSpline::<4>, NODES, TOLERANCE).unwrap();
     let mut markers = droplet_and_disc(0.1, 0.2);
     let [largest, difference] = asymmetry(&mobility(&mut flow, &mut markers));
     assert!(difference < 1e-13 * largest, "{difference:e} of {largest:e}");
@@ -236,20 +244,20 @@ fn what_has_no_layers_is_refused() {
     let mut flow = channel(4.0, 0.2);
     let mut refused = |kind: MarkerKind, count: usize, surface: usize| {
         let mut markers = Markers::new();
-        markers.push_solid(count, kind, if surface > 0 { vec![closed(surface)] } else { Vec::new() });
-        markers.positions = circle(Vec2::ZERO, 1.0, count);
+        markers.push_body(count, kind, if surface > 0 { vec![closed(surface)] } else { Vec::new() });
+        markers.positions_mut().copy_from_slice(&circle(Vec2::ZERO, 1.0, count));
         flow.velocities(&mut markers).unwrap_err().to_string()
     };
     let few = refused(MarkerKind::Interface { viscosity_inside: None }, 32, 0);
-    assert!(few.contains("markers of an interface"), "{few}");
+    assert!(few.contains("points of a curve"), "{few}");
     let few = refused(MarkerKind::Points, 20, 10);
     assert!(few.contains("points of a solid's surface"), "{few}");
     let mut beyond = droplet_and_disc(0.3, 0.2);
-    beyond.positions[NODES + 50].y = 4.0;
+    beyond.positions_mut()[NODES + 50].y = 4.0;
     let error = channel(4.0, 0.2).velocities(&mut beyond).unwrap_err();
     assert!(matches!(error, FlowError::BeyondWall { body: 1, marker: 50, .. }), "{error}");
     let moved = Grid::channel(20, 20, 0.2).unwrap().with_origin([0.0; 2]).unwrap();
     let solver = ChannelStokes::new(moved, 1.0).unwrap();
-    let error = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap_err();
+    let error = ImmersedLayers::new(solver, BSpline::<4>, NODES, TOLERANCE).unwrap_err();
     assert!(error.to_string().contains("middle"), "{error}");
 }

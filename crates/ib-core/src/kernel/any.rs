@@ -1,12 +1,14 @@
 //! A kernel chosen at run time.
 
+use motile_scene::FlowError;
 use serde::{Deserialize, Serialize};
 
-use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
+use super::{BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
 
 /// A kernel chosen at run time; parsed from its name (`peskin4`, `roma3`, `gaussian6`, `bspline3` to `bspline6`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum AnyKernel {
     /// [`Peskin4`].
     Peskin4,
@@ -14,13 +16,13 @@ pub enum AnyKernel {
     Roma3,
     /// [`Gaussian6`].
     Gaussian6,
-    /// [`CompositeBSpline<3>`]: quadratic/linear.
+    /// [`BSpline<3>`]: quadratic/linear.
     BSpline3,
-    /// [`CompositeBSpline<4>`]: cubic/quadratic, the default.
+    /// [`BSpline<4>`]: cubic/quadratic, the default.
     BSpline4,
-    /// [`CompositeBSpline<5>`]: quartic/cubic.
+    /// [`BSpline<5>`]: quartic/cubic.
     BSpline5,
-    /// [`CompositeBSpline<6>`]: quintic/quartic.
+    /// [`BSpline<6>`]: quintic/quartic.
     BSpline6,
 }
 
@@ -36,10 +38,10 @@ macro_rules! dispatch {
             AnyKernel::Peskin4 => Peskin4.$method($($argument),*),
             AnyKernel::Roma3 => Roma3.$method($($argument),*),
             AnyKernel::Gaussian6 => Gaussian6.$method($($argument),*),
-            AnyKernel::BSpline3 => CompositeBSpline::<3>.$method($($argument),*),
-            AnyKernel::BSpline4 => CompositeBSpline::<4>.$method($($argument),*),
-            AnyKernel::BSpline5 => CompositeBSpline::<5>.$method($($argument),*),
-            AnyKernel::BSpline6 => CompositeBSpline::<6>.$method($($argument),*),
+            AnyKernel::BSpline3 => BSpline::<3>.$method($($argument),*),
+            AnyKernel::BSpline4 => BSpline::<4>.$method($($argument),*),
+            AnyKernel::BSpline5 => BSpline::<5>.$method($($argument),*),
+            AnyKernel::BSpline6 => BSpline::<6>.$method($($argument),*),
         }
     };
 }
@@ -71,10 +73,10 @@ impl Kernel for AnyKernel {
 }
 
 impl std::str::FromStr for AnyKernel {
-    type Err = crate::FlowError;
+    type Err = FlowError;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|kernel| kernel.name() == name).ok_or(crate::FlowError::Unsupported {
+        Self::ALL.into_iter().find(|kernel| kernel.name() == name).ok_or(FlowError::Unsupported {
             what: "a kernel of that name",
             remedy: "use peskin4, roma3, gaussian6, bspline3, bspline4, bspline5 or bspline6",
         })

@@ -1,18 +1,16 @@
 //! Composite B-splines.
 
-use super::pieces::{CUBIC_QUADRATIC, QUADRATIC_LINEAR};
+use super::pieces::{BSPLINE_3, BSPLINE_4};
 use super::{Kernel, MAX_SUPPORT, Pieces, Role};
 
 /// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less): interpolation of
 /// a discretely divergence-free field with it is divergence free in the continuum (after Bao et al., J. Comput. Phys.
-/// 347, 2017; docs/method.md, section 2). `CompositeBSpline<4>`, cubic and quadratic, is the default of this crate.
+/// 347, 2017; docs/method.md, section 2). `BSpline<4>`, cubic along a velocity component and quadratic across it, is
+/// the default kernel.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct CompositeBSpline<const N: usize>;
+pub struct BSpline<const N: usize>;
 
-/// The default kernel: cubic B-spline along a velocity component, quadratic across it.
-pub type CubicQuadratic = CompositeBSpline<4>;
-
-impl<const N: usize> CompositeBSpline<N> {
+impl<const N: usize> BSpline<N> {
     // Orders this crate provides; checked when the type is used.
     const CHECK: () = assert!(N >= 3 && N <= MAX_SUPPORT, "orders 3 to 6");
 
@@ -53,7 +51,7 @@ fn values_of_order<const ORDER: usize>(t: f64, weights: &mut [f64; MAX_SUPPORT])
     }
 }
 
-impl<const N: usize> Kernel for CompositeBSpline<N> {
+impl<const N: usize> Kernel for BSpline<N> {
     fn name(&self) -> &'static str {
         ["bspline3", "bspline4", "bspline5", "bspline6"][N - 3]
     }
@@ -74,8 +72,8 @@ impl<const N: usize> Kernel for CompositeBSpline<N> {
 
     fn pieces(&self) -> Option<&'static Pieces> {
         match N {
-            3 => Some(&QUADRATIC_LINEAR),
-            4 => Some(&CUBIC_QUADRATIC),
+            3 => Some(&BSPLINE_3),
+            4 => Some(&BSPLINE_4),
             _ => None,
         }
     }

@@ -18,7 +18,7 @@ pub struct Pieces {
 const SIXTH: f64 = 1.0 / 6.0;
 
 /// Cubic and quadratic B-spline; the knots of both lie on the lattice of the normal role.
-pub(crate) const CUBIC_QUADRATIC: Pieces = Pieces {
+pub(crate) const BSPLINE_4: Pieces = Pieces {
     shift: 0.0,
     normal: [
         [SIXTH, 4.0 * SIXTH, SIXTH, 0.0],
@@ -30,7 +30,7 @@ pub(crate) const CUBIC_QUADRATIC: Pieces = Pieces {
 };
 
 /// Quadratic and linear B-spline; the knots of both lie on the lattice of the tangential role.
-pub(super) const QUADRATIC_LINEAR: Pieces = Pieces {
+pub(super) const BSPLINE_3: Pieces = Pieces {
     shift: 0.5,
     normal: [[0.5, 0.5, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.5, -1.0, 0.5, 0.0], [0.0; 4]],
     tangential: [[1.0, 0.0, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.0; 4]],

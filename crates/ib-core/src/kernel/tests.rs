@@ -76,15 +76,15 @@ fn bspline_values() {
     };
     for i in -250..250 {
         let r = 0.0101 * f64::from(i);
-        assert!((CubicQuadratic::default().value(Role::Normal, r) - cubic(r)).abs() < 1e-15);
-        assert!((CubicQuadratic::default().value(Role::Tangential, r) - quadratic(r)).abs() < 1e-15);
+        assert!((BSpline::<4>.value(Role::Normal, r) - cubic(r)).abs() < 1e-15);
+        assert!((BSpline::<4>.value(Role::Tangential, r) - quadratic(r)).abs() < 1e-15);
     }
 }
 
 /// The derivative of one spline is a difference of the one below: what makes the composite kernel divergence free.
 #[test]
 fn composite_splines_match() {
-    let kernel = CubicQuadratic::default();
+    let kernel = BSpline::<4>;
     let step = 1e-5;
     for i in 0..40 {
         let r = 0.05 * f64::from(i) + 0.011;

@@ -1,10 +1,11 @@
 //! Putting the lost mobility of an interface back.
 
-use fourier::{ComplexTransform, InputError, RealTransform};
+use motile_base::{ComplexTransform, InputError, RealTransform};
 use num_complex::Complex;
 
 use super::{MobilityDeficit, normal_taper};
-use crate::{FlowError, Vec2};
+use motile_base::Vec2;
+use motile_scene::FlowError;
 
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
 /// (docs/method.md, section 3):

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    CubicQuadratic,
+    BSpline,
     kernel::{Gaussian6, Peskin4},
 };
 
@@ -16,7 +16,7 @@ fn cubic_quadratic_table() {
         (4.0, 0.0625, 0.0, 0.0618, -0.0009),
         (6.0, 0.0417, 0.0, 0.0417, 0.0),
     ];
-    let table = MobilityDeficit::new(&CubicQuadratic::default());
+    let table = MobilityDeficit::new(&BSpline::<4>);
     for (q, at, bt, an, bn) in expected {
         let d = table.at(q);
         assert!((d.tangential - at).abs() < 3e-4, "q {q}: {d:?}");
@@ -29,7 +29,7 @@ fn cubic_quadratic_table() {
 #[test]
 fn coupling_of_tangent_and_normal() {
     // Trapezoidal rule with 8e4 points in sinh^-1(k) at an angle of pi/8 (a script).
-    let table = MobilityDeficit::new(&CubicQuadratic::default());
+    let table = MobilityDeficit::new(&BSpline::<4>);
     for (q, expected) in [(0.05, -9.36e-4), (0.1, -1.679e-3), (0.5, -3.079e-3), (1.0, -7.03e-4), (2.0, 1.497e-3)] {
         let cross = table.at(q).cross;
         assert!((cross - expected).abs() < 2e-5, "q {q}: {cross}");
@@ -39,8 +39,8 @@ fn coupling_of_tangent_and_normal() {
 /// The coefficients in cos(4 angle) and cos(8 angle) stand for the deficits in every direction.
 #[test]
 fn every_direction() {
-    let table = MobilityDeficit::new(&CubicQuadratic::default());
-    let transforms = Transforms::new(&CubicQuadratic::default());
+    let table = MobilityDeficit::new(&BSpline::<4>);
+    let transforms = Transforms::new(&BSpline::<4>);
     for q in [0.1, 0.5, 1.0] {
         let deficit = table.at(q);
         for angle in [0.0, 0.1, 0.2, 0.3, std::f64::consts::FRAC_PI_8, 0.6, std::f64::consts::FRAC_PI_4] {
@@ -60,10 +60,9 @@ fn every_direction() {
 #[test]
 fn zero_wave_number_is_the_kink_constant() {
     // Direct quadrature of the same integral at q = 0 (a script with 1.2e5 trapezoidal points), 0 and 45 degrees.
-    for (table, along, across) in [
-        (MobilityDeficit::new(&CubicQuadratic::default()), 0.2333, 0.2833),
-        (MobilityDeficit::new(&Peskin4), 0.381, 0.395),
-    ] {
+    for (table, along, across) in
+        [(MobilityDeficit::new(&BSpline::<4>), 0.2333, 0.2833), (MobilityDeficit::new(&Peskin4), 0.381, 0.395)]
+    {
         let d = table.at(0.0);
         assert!((d.tangential + 0.25 * d.tangential_slope - along).abs() < 3e-3, "{d:?}");
         assert!((d.tangential - 0.25 * d.tangential_slope - across).abs() < 3e-3, "{d:?}");
@@ -74,7 +73,7 @@ fn zero_wave_number_is_the_kink_constant() {
 fn stiffness_of_the_kernels() {
     let of = |deficit: MobilityDeficit| deficit.interface_stiffness(false);
     assert!((of(MobilityDeficit::new(&Peskin4)) - 0.125).abs() < 0.01);
-    assert!((of(MobilityDeficit::new(&CubicQuadratic::default())) - 0.188).abs() < 0.01);
+    assert!((of(MobilityDeficit::new(&BSpline::<4>)) - 0.188).abs() < 0.01);
     assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
 }
 

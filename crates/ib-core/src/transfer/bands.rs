@@ -5,9 +5,10 @@ use stokes_grid::StaggeredField;
 
 use super::general::GeneralTransfer;
 use super::locations::{Location, Locations};
-use super::order::{BLOCK, spreading_order};
-use super::{Band, Markers, interpolate as interpolate_some, spread as spread_some, stride};
-use crate::{Kernel, Vec2, kernel::MAX_SUPPORT};
+use super::order::{BLOCK, Band, Markers, spreading_order, stride};
+use super::polynomial::{interpolate as interpolate_some, spread as spread_some};
+use crate::{Kernel, kernel::MAX_SUPPORT};
+use motile_base::Vec2;
 
 /// Markers from which several threads pay.
 const LEAST_MARKERS: usize = 30_000;

@@ -4,7 +4,7 @@ use stokes_grid::Grid;
 
 use super::lanes::Portable;
 use super::locations::split;
-use super::polynomial::weights;
+use super::weights::weights;
 use crate::{
     Kernel,
     kernel::{MAX_SUPPORT, Role},

@@ -3,7 +3,8 @@
 use stokes_grid::Grid;
 
 use super::lanes::{Lanes, LanesTask, dispatch};
-use crate::{Vec2, kernel::Pieces};
+use crate::kernel::Pieces;
+use motile_base::Vec2;
 
 /// The smallest number above which doubles have no fraction, times one and a half to leave room for negative ones.
 const WHOLE: f64 = 6_755_399_441_055_744.0;

@@ -1,52 +1,16 @@
 //! The transfer of many markers with a kernel of polynomials, most of them away from the edges of the grid.
 
 use super::general::GeneralTransfer;
-use super::lanes::{Lanes, LanesTask};
+use super::lanes::{Lanes, LanesTask, dispatch};
 use super::locations::{Edge, Location};
-use super::order::BLOCK;
-use super::{Band, Markers};
-use crate::kernel::CUBIC_QUADRATIC;
-use crate::{Kernel, Vec2, kernel::Pieces};
-
-/// Where the coefficients of a kernel come from.
-pub(super) trait Polynomials: Copy {
-    /// They.
-    fn pieces(&self) -> &Pieces;
-}
-
-impl Polynomials for &Pieces {
-    #[inline(always)]
-    fn pieces(&self) -> &Pieces {
-        self
-    }
-}
-
-/// Those of the default kernel, as constants, which saves reading them for every marker.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct CubicQuadratics;
-
-impl Polynomials for CubicQuadratics {
-    #[inline(always)]
-    fn pieces(&self) -> &Pieces {
-        const { &CUBIC_QUADRATIC }
-    }
-}
-
-/// The weights of `pieces` at the fraction `t` of a coordinate, in the normal and the tangential role.
-#[inline(always)]
-pub(super) fn weights<L: Lanes>(l: L, pieces: &impl Polynomials, t: f64) -> [L::Four; 2] {
-    let t = l.splat(t);
-    let Pieces { normal, tangential, .. } = pieces.pieces();
-    let [c0, c1, c2, c3] = *normal;
-    let square = l.mul(t, t);
-    // Not by Horner's rule: what can be done side by side is done sooner.
-    let low = l.mul_add(t, l.load(c1), l.load(c0));
-    let high = l.mul_add(t, l.load(c3), l.load(c2));
-    let normal = l.mul_add(square, high, low);
-    let [c0, c1, c2] = *tangential;
-    let tangential = l.mul_add(square, l.load(c2), l.mul_add(t, l.load(c1), l.load(c0)));
-    [normal, tangential]
-}
+use super::order::{BLOCK, Band, Markers};
+use super::weights::{BSpline4Pieces, Polynomials, weights};
+use crate::{
+    Kernel,
+    kernel::{BSPLINE_4, Pieces},
+};
+use motile_base::Vec2;
+use stokes_grid::StaggeredField;
 
 /// The weights of the window of a marker as numbers, each for both components: of the rows, of the columns, and of the
 /// columns of a second window at the other end of the same rows.
@@ -262,6 +226,38 @@ fn from(field: &[f64], start: usize, length: usize) -> &[f64] {
 #[inline(always)]
 fn cells<L: Lanes>(l: L, field: &[f64], base: usize) -> L::Four {
     field[base..base + 4].first_chunk().map_or(l.splat(0.0), |cells| l.load(*cells))
+}
+
+/// The polynomials of a kernel unless they are those of the default one, which are constants. Where a kernel has none
+/// all locations are irregular, for which none are needed.
+fn other_pieces<K: Kernel>(kernel: &K) -> Option<&'static Pieces> {
+    kernel.pieces().filter(|pieces| **pieces != BSPLINE_4)
+}
+
+/// Spreads forces with the polynomials of the kernel, or marker by marker where it has none.
+pub(super) fn spread<K: Kernel>(general: GeneralTransfer<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
+    match other_pieces(general.kernel) {
+        Some(pieces) => dispatch(Spreading { general, pieces, scale, markers, band }),
+        None => dispatch(Spreading { general, pieces: BSpline4Pieces, scale, markers, band }),
+    }
+}
+
+/// Interpolates velocities with the polynomials of the kernel, or marker by marker where it has none.
+pub(super) fn interpolate<K: Kernel>(
+    general: GeneralTransfer<'_, K>,
+    locations: &[Location],
+    irregular: &[[f64; 2]],
+    velocity: &StaggeredField,
+    velocities: &mut [Vec2],
+) {
+    let (u, v) = (velocity.x(), velocity.y());
+    match other_pieces(general.kernel) {
+        Some(pieces) => dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities }),
+        None => {
+            let pieces = BSpline4Pieces;
+            dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities });
+        }
+    }
 }
 
 #[cfg(test)]

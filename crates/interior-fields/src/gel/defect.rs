@@ -1,21 +1,23 @@
-//! Defects of the director.
+//! Topological defects of the director.
 
 use std::f64::consts::{PI, TAU};
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::elements::Elements;
 
-/// A point about which the director turns.
+/// Topological defect: a point around which the director makes whole turns.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct Defect {
-    /// Where it is (length): where the director, linear in between nodes, vanishes.
+    /// Position (length), where the director, linear between nodes, vanishes.
     pub position: [f64; 2],
-    /// Turns of the director on a way once around it, counter-clockwise: 1 for asters and vortices.
+    /// Charge: number of turns of the director along a counter-clockwise circle around the defect, 1 for asters and
+    /// vortices.
     pub charge: i32,
 }
 
-/// The defects: triangles around which the director turns.
+/// Defects, one in each triangle around which the director turns.
 pub(super) fn defects(elements: &Elements, nodes: &[Vec2], angles: &[f64], directors: &[Vec2]) -> Vec<Defect> {
     let mut found = Vec::new();
     for (number, triangle) in elements.triangles.iter().enumerate() {
@@ -33,7 +35,7 @@ pub(super) fn defects(elements: &Elements, nodes: &[Vec2], angles: &[f64], direc
     found
 }
 
-/// An angle within half a turn.
+/// Angle between -pi and pi, without whole turns.
 fn wrapped(angle: f64) -> f64 {
     let turn = angle.rem_euclid(TAU);
     if turn > PI { turn - TAU } else { turn }

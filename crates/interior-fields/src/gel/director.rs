@@ -1,51 +1,64 @@
-//! The director on a triangulation: energy, forces, rate of change.
+//! Director on a triangulation: energy, forces, rate of change.
 
-use ib_core::body::{StepCause, StepLimit};
-use ib_core::{BodyError, Vec2};
+use motile_base::Vec2;
+use motile_scene::{BodyError, StepCause, StepLimit};
 
 use super::stabiliser::Stabiliser;
-use super::{Defect, GelMaterial, defect, elements::Elements};
+use super::{defect, defect::Defect, elements::Elements, material::GelMaterial};
 use crate::InteriorError;
 
-/// The stabiliser's diffusivity over the director's largest one: from 1 on the midpoint rule is stable at any step, and
-/// at 2 to 5 the shortest waves decay within a few steps.
+/// Diffusivity of the stabiliser over the director's largest one: from 1 on the midpoint rule is stable at any step,
+/// and at 2 to 5 the shortest waves decay within a few steps.
 const STABILISER: f64 = 2.0;
-/// Wave number, times the root of the area, of the shortest waves that stabilised steps follow.
+/// Largest wave number, times the square root of the area, that stabilised steps resolve in time.
 const WAVES: f64 = 20.0;
 
-/// The director at the nodes of a triangulation, by its angles, so that |p| = 1 there; in between it is linear.
+/// Observables of a gel.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct GelObservables {
+    /// Topological defects of the director.
+    pub defects: Vec<Defect>,
+    /// Frank energy `K/2 INT |grad p|^2` (force times length).
+    pub director_energy: f64,
+    /// Mean director (no dimension): of length 1 if the director is uniform, 0 for asters and vortices.
+    pub polarisation: [f64; 2],
+}
+
+/// Director at the nodes of a triangulation, given by its angles, so that |p| = 1 there; between nodes it is linear.
 ///
-/// With the discrete energy `E = SUM_T K/2 A_T |grad p|^2_T` of angles a and places x, and the rate of turning W_i with
-/// the fluid at node i, linear in the nodes' velocities v, the forces on the fluid and the director's motion are
+/// With the discrete energy `E = SUM_T K/2 A_T |grad p|^2_T` of angles a and positions x, and the rate W_i at which the
+/// fluid turns the director at node i, linear in the nodes' velocities v, the forces on the fluid and the director's
+/// motion are
 ///
 /// ```text
 /// F_i     = -dE/dx_i - SUM_j dE/da_j dW_j/dv_i + active part,   h_i = -(dE/da_i)/M_i
 /// da_i/dt = W_i + h_i/gamma1
 /// ```
 ///
-/// M_i being the node's share of the area: so `SUM F v + dE/dt = -SUM M h^2/gamma1` without activity and where nodes
-/// move with the fluid, as in the continuum (Cowley (1.4)), and forces have neither resultant nor torque.
+/// with M_i the node's share of the area. So `SUM F v + dE/dt = -SUM M h^2/gamma1` without activity and where nodes
+/// move with the fluid, as in the continuum (Cowley (1.4)), and the forces have neither resultant nor torque.
 #[derive(Debug, Clone)]
 pub(super) struct Director {
     pub(super) material: GelMaterial,
     pub(super) elements: Elements,
-    /// Angle from tangent to director on the boundary, whose nodes come first, and how many these are.
+    /// Angle from tangent to director on the boundary, and the number of its nodes, which come first.
     anchoring: Option<(f64, usize)>,
     pub(super) angles: Vec<f64>,
     pub(super) directors: Vec<Vec2>,
     /// Couples -dE/da at the nodes (force times length).
     pub(super) couples: Vec<f64>,
-    /// Stress that each node adds to its triangles, contracted with grad v, (d/dx, d/dy).
+    /// Stress at each node, active and of the molecular field, as (rows of d/dx, of d/dy).
     stresses: Vec<[Vec2; 2]>,
     /// Gradients of the velocity and of the director at the nodes, times their masses.
     slopes: Vec<[Vec2; 4]>,
     pub(super) stabiliser: Stabiliser,
-    /// The stabiliser's diffusivity (length squared per time) from the first evaluation of the next step on.
+    /// Diffusivity of the stabiliser (length squared per time) from the first evaluation of the next step on.
     coming: Option<f64>,
 }
 
 impl Director {
-    /// Of those angles, which may be changed by the anchoring once the nodes have places.
+    /// Director of given angles (radians); those at anchored nodes change once the nodes have positions.
     pub(super) fn new(
         material: GelMaterial,
         elements: Elements,
@@ -70,13 +83,14 @@ impl Director {
         director
     }
 
+    /// Computes the director from its angles.
     fn turn(&mut self) {
         for (director, &angle) in self.directors.iter_mut().zip(&self.angles) {
             *director = Vec2::from_angle(angle);
         }
     }
 
-    /// How many nodes are anchored, which come first.
+    /// Number of anchored nodes, which come first.
     fn anchored(&self) -> usize {
         self.anchoring.map_or(0, |(_, count)| count)
     }
@@ -86,7 +100,7 @@ impl Director {
         &self.angles[self.anchored()..]
     }
 
-    /// Takes over angles of the nodes that are not anchored.
+    /// Takes over the angles of the nodes that are not anchored.
     pub(super) fn read(&mut self, angles: &[f64]) -> Result<(), BodyError> {
         if let Some(index) = angles.iter().position(|value| !value.is_finite()) {
             return Err(BodyError::NonFinite { what: "the angle of the director", index, value: angles[index] });
@@ -97,7 +111,7 @@ impl Director {
         Ok(())
     }
 
-    /// Takes over places of the nodes (length), and turns the director on the boundary to its anchoring.
+    /// Takes over the positions of the nodes (length), and turns the director on the boundary to its anchoring.
     pub(super) fn move_to(&mut self, nodes: &[Vec2]) {
         self.elements.move_to(nodes);
         if let Some((from_tangent, count)) = self.anchoring {
@@ -109,7 +123,7 @@ impl Director {
         }
     }
 
-    /// The Frank energy (force times length).
+    /// Frank energy (force times length).
     pub(super) fn energy(&self) -> f64 {
         let of = |(triangle, area): (usize, &f64)| {
             let [x, y] = self.elements.gradient(triangle, &self.directors);
@@ -118,23 +132,29 @@ impl Director {
         0.5 * self.material.frank * self.elements.areas.iter().enumerate().map(of).sum::<f64>()
     }
 
-    /// The mean director, weighted by area (no dimension).
+    /// Mean director, weighted by area (no dimension).
     pub(super) fn polarisation(&self) -> Vec2 {
         let masses = &self.elements.masses;
         let sum: Vec2 = self.directors.iter().zip(masses).map(|(director, mass)| *mass * *director).sum();
         sum / masses.iter().sum::<f64>()
     }
 
-    /// The defects.
+    /// Observables, with the nodes at their positions (length).
+    pub(super) fn observables(&self, nodes: &[Vec2]) -> GelObservables {
+        GelObservables {
+            defects: self.defects(nodes),
+            director_energy: self.energy(),
+            polarisation: self.polarisation().into(),
+        }
+    }
+
+    /// Topological defects.
     pub(super) fn defects(&self, nodes: &[Vec2]) -> Vec<Defect> {
         defect::defects(&self.elements, nodes, &self.angles, &self.directors)
     }
 
-    /// Writes the forces on the fluid at the nodes (force), whose places (length) were taken over last, the boundary's
-    /// nodes first.
-    ///
-    /// # Errors
-    /// A triangle without area or turned over.
+    /// Writes the forces on the fluid at the nodes (force), at the positions (length) that were taken over last;
+    /// refuses triangles of no or negative area.
     pub(super) fn write_forces(&mut self, nodes: &[Vec2], forces: &mut [Vec2]) -> Result<(), InteriorError> {
         let anchored = self.anchored();
         let Self { material, elements, directors, couples, stresses, .. } = self;
@@ -157,7 +177,7 @@ impl Director {
                 couples[node] -= weight * directors[node].perp_dot(slope.x * x + slope.y * y);
             }
         }
-        // The couples on an anchored boundary turn its normals, all others the fluid.
+        // Couples on an anchored boundary turn its normals, all others the fluid.
         for (node, couple) in couples[..anchored].iter().enumerate() {
             let [before, after] = neighbours(node, anchored);
             let chord = nodes[after] - nodes[before];
@@ -183,8 +203,8 @@ impl Director {
         Ok(())
     }
 
-    /// Writes the rate of change of the angles that are not anchored (1/time) after [`Director::write_forces`], from
-    /// the velocities of the fluid at all nodes and those of the nodes (length per time).
+    /// Writes the rates of change of the angles that are not anchored (1/time), after [`Director::write_forces`], from
+    /// the velocities of the fluid and of the mesh at all nodes (length per time).
     pub(super) fn write_rate(&mut self, fluid: &[Vec2], mesh: &[Vec2], rate: &mut [f64]) {
         let anchored = self.anchored();
         let Self { material, elements, directors, couples, slopes, .. } = self;
@@ -210,17 +230,17 @@ impl Director {
         if let Some(diffusivity) = self.coming.take() {
             self.stabiliser.freeze(&self.elements, diffusivity);
         }
-        // What it adds implicitly is taken off here.
+        // The implicit part adds this again.
         self.stabiliser.add(&self.angles[anchored..], -1.0, rate);
     }
 
-    /// A step begins, with or without the stabiliser, in fluid of that viscosity (stress times time).
+    /// Begins a step, with or without the stabiliser, in fluid of a viscosity (stress times time).
     pub(super) fn begin_step(&mut self, stabilised: bool, viscosity: f64) {
         let diffusivity = STABILISER * self.material.largest_diffusivity(viscosity);
         self.coming = Some(if stabilised { diffusivity } else { 0.0 });
     }
 
-    /// Tells the largest stable step of the midpoint rule, in fluid of that viscosity (stress times time).
+    /// Tells the largest stable step of the midpoint rule in fluid of a viscosity (stress times time).
     pub(super) fn step_limits(&self, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
         let Self { material, elements, .. } = self;
         let bare = 2.0 / self.fastest_rate(viscosity);
@@ -231,12 +251,12 @@ impl Director {
         limits(StepLimit { dt, reason: "the gel's director", cause: StepCause::Stabilised { bare } });
     }
 
-    /// The largest rate at which the director relaxes (1/time), from above, in fluid of that viscosity (stress times
-    /// time): by the molecular field, the flow that it drives, and the activity.
+    /// Upper bound of the rates at which the director relaxes (1/time) in fluid of a viscosity (stress times time): by
+    /// the molecular field, the flow that it drives, and the activity.
     fn fastest_rate(&self, viscosity: f64) -> f64 {
         let Self { material, elements, .. } = self;
-        // No eigenvalue of the whole is larger than the largest of one triangle alone, 3 times that of SUM g g over the
-        // gradients g of its functions.
+        // No eigenvalue of the whole exceeds the largest of a single triangle: 3 times that of SUM g g over the
+        // gradients g of its basis functions.
         let sharpest = elements.gradients.iter().map(|slopes| {
             let [xx, xy, yy] = slopes.iter().fold([0.0; 3], |[xx, xy, yy], slope| {
                 [xx + slope.x * slope.x, xy + slope.x * slope.y, yy + slope.y * slope.y]
@@ -248,7 +268,7 @@ impl Director {
     }
 }
 
-/// The nodes before and after one of a closed curve.
+/// Neighbours of a node of a closed curve.
 fn neighbours(node: usize, count: usize) -> [usize; 2] {
     [(node + count - 1) % count, (node + 1) % count]
 }

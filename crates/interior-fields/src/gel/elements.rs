@@ -1,8 +1,9 @@
-//! Linear elements on triangles.
+//! Linear finite elements on triangles.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
-/// Linear elements on a triangulation: gradients of the basis functions and areas at the present places of the nodes.
+/// Linear elements on a triangulation: gradients of the basis functions and areas at the present positions of the
+/// nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Elements {
     pub(super) triangles: Vec<[usize; 3]>,
@@ -12,9 +13,9 @@ pub(super) struct Elements {
     pub(super) gradients: Vec<[Vec2; 3]>,
     /// Area of each triangle (length squared).
     pub(super) areas: Vec<f64>,
-    /// A third of the areas around each node (length squared).
+    /// Mass of each node: a third of the areas around it (length squared).
     pub(super) masses: Vec<f64>,
-    /// The triangle of least area.
+    /// Number of the triangle of least area.
     pub(super) least: usize,
 }
 
@@ -25,7 +26,7 @@ impl Elements {
         Self { triangles, periods, gradients, areas, masses: vec![0.0; nodes], least: 0 }
     }
 
-    /// From a place to another one, the shortest way.
+    /// Vector from one position to another, the shortest over periodic images.
     fn between(&self, from: Vec2, to: Vec2) -> Vec2 {
         let mut way = to - from;
         let [x, y] = self.periods;
@@ -38,13 +39,13 @@ impl Elements {
         way
     }
 
-    /// The place of a triangle's point (length) from the weights of its corners.
+    /// Position of a point of a triangle (length) from the weights of its corners.
     pub(super) fn place(&self, triangle: usize, nodes: &[Vec2], weights: [f64; 3]) -> Vec2 {
         let [a, b, c] = self.triangles[triangle].map(|node| nodes[node]);
         a + weights[1] * self.between(a, b) + weights[2] * self.between(a, c)
     }
 
-    /// Takes over where the nodes are (length).
+    /// Takes over the positions of the nodes (length).
     pub(super) fn move_to(&mut self, nodes: &[Vec2]) {
         self.masses.fill(0.0);
         self.least = 0;
@@ -65,7 +66,7 @@ impl Elements {
         }
     }
 
-    /// The gradient (d/dx, d/dy) of vectors at the nodes in a triangle.
+    /// Gradient (d/dx, d/dy) in a triangle of vectors given at the nodes.
     #[inline]
     pub(super) fn gradient(&self, triangle: usize, values: &[Vec2]) -> [Vec2; 2] {
         let corners = self.triangles[triangle].iter().zip(&self.gradients[triangle]);

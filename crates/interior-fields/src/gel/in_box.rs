@@ -1,18 +1,17 @@
-//! A gel that fills a periodic box.
+//! Gel that fills a periodic box.
 
-use ib_core::body::{StepInfo, StepLimit};
-use ib_core::input::{at_least, positive};
-use ib_core::scene::BodyFlow;
-use ib_core::{Body, BodyError, Discretisation, MarkerKind, Observe, Vec2};
+use motile_base::{Vec2, at_least, positive};
+use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit};
 
-use super::{GelMaterial, GelObservables, director::Director, elements::Elements};
+use super::director::{Director, GelObservables};
+use super::{elements::Elements, material::GelMaterial};
 use crate::InteriorError;
 
-/// The most nodes.
+/// Largest number of nodes.
 const MOST_NODES: f64 = 1e6;
 
-/// A polar gel that fills a box with two periods, a body of a scene: its markers are nodes at rest, at which it puts
-/// its forces on the fluid, and its state are the angles of the director.
+/// Active polar gel that fills a doubly periodic box: a body of a scene whose markers are nodes at rest, at which it
+/// puts forces on the fluid. Its state are the angles of the director.
 #[derive(Debug, Clone)]
 pub struct GelInBox {
     director: Director,
@@ -21,11 +20,12 @@ pub struct GelInBox {
 }
 
 impl GelInBox {
-    /// A gel in the box of those lengths about the origin, with so many nodes in x and y, with the director at `angle`
-    /// (to x) of the place (length).
+    /// Gel in a box of the given lengths about the origin (length), with numbers of nodes in x and y, and the
+    /// director's angle to x (radians) as a function of position (length).
     ///
     /// # Errors
-    /// Constants that no gel has, lengths that are not positive, fewer than 4 nodes along a side, more than a million.
+    /// A material that [`GelMaterial::checked`] refuses; lengths that are not positive; fewer than 4 nodes along a
+    /// side; more than a million nodes.
     pub fn new(
         material: GelMaterial,
         lengths: [f64; 2],
@@ -56,13 +56,13 @@ impl GelInBox {
         Ok(Self { director, rest: vec![Vec2::ZERO; nodes.len()], nodes })
     }
 
-    /// Angles of the director at the nodes.
+    /// Angles of the director to x at the nodes (radians).
     #[must_use]
     pub fn angles(&self) -> &[f64] {
         &self.director.angles
     }
 
-    /// Where the nodes are (length).
+    /// Positions of the nodes (length), row after row from the lower left corner.
     #[must_use]
     pub fn nodes(&self) -> &[Vec2] {
         &self.nodes
@@ -86,7 +86,7 @@ impl Body for GelInBox {
         positions.copy_from_slice(&self.nodes);
     }
 
-    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         Ok(self.director.write_forces(&self.nodes, forces)?)
     }
 
@@ -106,8 +106,8 @@ impl Body for GelInBox {
         self.director.write_rate(velocities, &self.rest, rate);
     }
 
-    fn begin_step(&mut self, medium: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
-        self.director.begin_step(step.stabilised, medium.viscosity);
+    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
+        self.director.begin_step(step.stabilised, view.viscosity);
         Ok(())
     }
 
@@ -119,8 +119,8 @@ impl Body for GelInBox {
         self.director.stabiliser.solve(factor, state);
     }
 
-    fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
-        self.director.step_limits(medium.viscosity, limits);
+    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
+        self.director.step_limits(view.viscosity, limits);
     }
 
     fn properties(&self) -> Vec<(String, f64)> {
@@ -133,7 +133,7 @@ impl Body for GelInBox {
 impl Observe for GelInBox {
     type Observables = GelObservables;
 
-    fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<GelObservables, BodyError> {
-        Ok(GelObservables::of(&self.director, &self.nodes))
+    fn observables(&self, _view: &FluidView, _flow: &BodyFlow<'_>) -> Result<GelObservables, BodyError> {
+        Ok(self.director.observables(&self.nodes))
     }
 }

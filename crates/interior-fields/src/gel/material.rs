@@ -1,36 +1,37 @@
-//! What a gel is made of.
+//! Material constants of a gel.
 
-use ib_core::input::{finite, not_negative, positive};
+use motile_base::{finite, not_negative, positive};
 
 use crate::InteriorError;
 
-/// The constants of a gel; its viscosity is that of the fluid that it lies in.
+/// Material constants of an active polar gel, in the notation of Cowley (1.5), (1.7). Its viscosity is that of the
+/// fluid around the nodes.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GelMaterial {
-    /// Frank constant K (force): what it takes to bend or splay the director.
+    /// Frank constant K (force), the stiffness against splay and bend of the director.
     pub frank: f64,
-    /// Rotational viscosity gamma1 (stress times time): what it takes to turn the director against the fluid.
+    /// Rotational viscosity gamma1 (stress times time), the resistance of the director to turning against the fluid.
     pub rotational_viscosity: f64,
-    /// Alignment nu1 with the flow (no dimension): negative for rods; beyond -1 and 1 the director finds an angle in a
-    /// shear flow, in between it tumbles.
+    /// Flow alignment nu1 (no dimension), negative for rods. In a shear flow the director takes a fixed angle if
+    /// |nu1| > 1, and tumbles otherwise.
     pub alignment: f64,
     /// Activity zeta_b (stress): negative for a contractile gel, positive for an extensile one.
     pub activity: f64,
 }
 
 impl Default for GelMaterial {
-    /// A contractile gel of rods whose director relaxes over a radius in some ten units of time, in those of the model.
+    /// Contractile gel of rods whose director relaxes over a droplet of radius 1 in some ten units of time.
     fn default() -> Self {
         Self { frank: 10.0, rotational_viscosity: 100.0, alignment: -0.5, activity: -100.0 }
     }
 }
 
 impl GelMaterial {
-    /// The same, if a gel can be made of it.
+    /// Material itself, if its constants are possible.
     ///
     /// # Errors
-    /// A Frank constant that is negative, a rotational viscosity that is not positive, numbers that are not finite.
+    /// A Frank constant that is negative; a rotational viscosity that is not positive; constants that are not finite.
     pub fn checked(self) -> Result<Self, InteriorError> {
         not_negative("the Frank constant", self.frank)?;
         positive("the rotational viscosity", self.rotational_viscosity)?;
@@ -39,15 +40,16 @@ impl GelMaterial {
         Ok(self)
     }
 
-    /// Diffusivity of the director (length squared per time) in fluid of that viscosity (stress times time), the most
-    /// that it is in any direction: `K (1/gamma1 + (1 + |nu1|)^2/(4 eta))`.
+    /// Largest diffusivity of the director (length squared per time) in any direction, in fluid of viscosity eta
+    /// (stress times time): `K (1/gamma1 + (1 + |nu1|)^2/(4 eta))`, by the molecular field and by the flow that it
+    /// drives.
     #[must_use]
     pub fn largest_diffusivity(&self, viscosity: f64) -> f64 {
         let coupling = 1.0 + self.alignment.abs();
         self.frank * (1.0 / self.rotational_viscosity + 0.25 * coupling * coupling / viscosity)
     }
 
-    /// The constants with their names.
+    /// Constants with their names.
     pub(super) fn properties(&self) -> Vec<(String, f64)> {
         let Self { frank, rotational_viscosity, alignment, activity } = *self;
         let named = [

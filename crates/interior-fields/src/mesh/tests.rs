@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::DiscMesh;
 

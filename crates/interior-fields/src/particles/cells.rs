@@ -1,48 +1,37 @@
-//! Cells around the nodes of a mesh.
+//! Cells around the nodes of a triangulation.
 
-use std::collections::HashMap;
+use motile_base::Vec2;
 
-use ib_core::Vec2;
+use crate::laplacian::{Sides, edges};
 
-/// The cells around the nodes of a triangulation, bounded by the lines from the middles of the triangles' sides to
-/// their centroids: areas, and for each edge between two nodes the weight of the linear elements, half the sum of the
-/// cotangents of the angles opposite to it.
+/// Cells around the nodes of a triangulation, bounded by the lines from the midpoints of the triangles' sides to their
+/// centroids.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
     triangles: Vec<[usize; 3]>,
-    /// Pairs of nodes that share a side.
+    /// Edges between neighbouring nodes, the lower number first.
     pub(super) edges: Vec<[usize; 2]>,
-    /// The edges of each triangle, from its first corner to the second one and so on, and whether the edge is that way
-    /// round (1) or the other one (-1).
-    sides: Vec<[(usize, f64); 3]>,
+    /// Edges of each triangle from its first corner to the second one and so on, with their orientation, 1 or -1.
+    sides: Vec<Sides>,
     /// Area of each cell (length squared).
     pub(super) areas: Vec<f64>,
-    /// Weight of each edge (no dimension).
+    /// Weight of each edge in linear elements: half the sum of the cotangents of the angles opposite to it (no
+    /// dimension).
     pub(super) weights: Vec<f64>,
-    /// A place where the mesh is folded, if it is.
+    /// Corner of a triangle of negative area (length), if there is one.
     pub(super) folded: Option<Vec2>,
 }
 
 impl Cells {
     pub(super) fn new(triangles: Vec<[usize; 3]>, nodes: &[Vec2]) -> Self {
-        let mut numbers = HashMap::new();
-        let mut edges = Vec::new();
-        let mut side = |from: usize, to: usize| {
-            let pair = [from.min(to), from.max(to)];
-            let number = *numbers.entry(pair).or_insert_with(|| {
-                edges.push(pair);
-                edges.len() - 1
-            });
-            (number, if from < to { 1.0 } else { -1.0 })
-        };
-        let sides = triangles.iter().map(|&[a, b, c]| [side(a, b), side(b, c), side(c, a)]).collect();
+        let (edges, sides) = edges(&triangles);
         let (areas, weights) = (vec![0.0; nodes.len()], vec![0.0; edges.len()]);
         let mut cells = Self { triangles, edges, sides, areas, weights, folded: None };
         cells.move_to(nodes);
         cells
     }
 
-    /// Takes over where the nodes are (length).
+    /// Takes over the positions of the nodes (length).
     pub(super) fn move_to(&mut self, nodes: &[Vec2]) {
         self.areas.fill(0.0);
         self.weights.fill(0.0);
@@ -62,9 +51,9 @@ impl Cells {
         }
     }
 
-    /// Writes the fluxes from cell to cell (length squared per time), from the first to the second node of each edge,
-    /// of a motion relative to the mesh, and the rates at which the areas of the cells change as the nodes move (length
-    /// squared per time).
+    /// Writes the fluxes of fluid relative to the mesh from cell to cell, from the first to the second node of each
+    /// edge, and the rates of change of the cells' areas (both length squared per time), from the velocities of fluid
+    /// and nodes at the nodes (length per time).
     pub(super) fn write_fluxes(
         &self,
         nodes: &[Vec2],
@@ -83,10 +72,29 @@ impl Cells {
             let centroid = (a + b + c) / 3.0;
             for (k, (&(edge, sign), (from, to, first, second, third))) in sides.iter().zip(around).enumerate() {
                 let face = centroid - 0.5 * (from + to);
-                // The velocity in the middle of the face, of a linear one.
+                // A linear velocity in the middle of the face.
                 let across = (5.0 * (relative[first] + relative[second]) + 2.0 * relative[third]) / 12.0;
                 fluxes[edge] += sign * across.perp_dot(face);
                 growth[corners[k]] += rate / 6.0;
+            }
+        }
+    }
+
+    /// Fills negative numbers of particles from neighbouring cells that have some, so that the sum stays: passes over
+    /// the edges until no number is negative, at most `passes`.
+    pub(super) fn fill_up(&self, numbers: &mut [f64], passes: usize) {
+        for _ in 0..passes {
+            if numbers.iter().all(|&number| number >= 0.0) {
+                break;
+            }
+            for &[i, j] in &self.edges {
+                for (poor, rich) in [(i, j), (j, i)] {
+                    if numbers[poor] < 0.0 && numbers[rich] > 0.0 {
+                        let given = (-numbers[poor]).min(numbers[rich]);
+                        numbers[poor] += given;
+                        numbers[rich] -= given;
+                    }
+                }
             }
         }
     }

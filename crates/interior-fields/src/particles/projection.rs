@@ -1,18 +1,20 @@
-//! Fluxes from cell to cell of a prescribed divergence.
+//! Projection of fluxes between cells onto those of a given divergence.
 
 use super::cells::Cells;
 use crate::InteriorError;
 
-/// The most entries of the factor.
+/// Largest number of entries of the factor: 512 MB.
 const MOST_ENTRIES: usize = 1 << 26;
 
-/// Corrects fluxes from cell to cell by the differences of a potential so that what leaves each cell is what it should:
-/// a Cholesky factor, within the rows' first entries, of the linear elements' matrix at the places that the cells had
-/// at the start. Any other positive matrix would do too, as the correction is of the order of the error of the fluxes.
+/// Correction of fluxes between cells by the differences of a potential, so that a given amount leaves each cell.
+///
+/// The potential solves the Poisson equation of linear elements on the cells at the start, by a Cholesky factor of its
+/// matrix stored from the first entry of each row (skyline). Any other positive matrix would do, as the correction is
+/// of the order of the error of the fluxes.
 #[derive(Debug, Clone)]
 pub(super) struct Projection {
     weights: Vec<f64>,
-    /// Column of the first entry of each row and where the row starts; the last node has no row, its potential is 0.
+    /// Column of the first entry of each row and start of the row in the factor; the potential of the last node is 0.
     rows: Vec<(usize, usize)>,
     factor: Vec<f64>,
     potential: Vec<f64>,
@@ -65,7 +67,7 @@ impl Projection {
         Ok(Self { weights: cells.weights.clone(), rows, factor, potential: vec![0.0; count] })
     }
 
-    /// Adds to the fluxes what makes `missing`, the amounts by which too little leaves each cell, zero; their sum is
+    /// Adds to the fluxes the amounts `missing` by which too little leaves each cell (length squared per time), of sum
     /// zero.
     pub(super) fn correct(&mut self, edges: &[[usize; 2]], missing: &[f64], fluxes: &mut [f64]) {
         let Self { weights, rows, factor, potential } = self;

@@ -1,33 +1,33 @@
-//! What is carried from cell to cell.
+//! Transport of particles from cell to cell with the fluid.
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::{cells::Cells, projection::Projection};
 use crate::InteriorError;
 
-/// How much a node may approach the extreme of its neighbours, over what the fluxes that are limited would do for a
-/// linear field on a regular mesh: room for meshes that are not.
+/// Factor on the fluxes that the limiter lets pass: 1 would preserve linear fields on a regular mesh, 2 leaves room for
+/// irregular ones.
 const ROOM: f64 = 2.0;
 
-/// Carries particles along with the fluid relative to the mesh.
+/// Transport of particles with the fluid relative to the mesh.
 ///
-/// Fluxes between cells come from velocities at the nodes, corrected so that what leaves each cell is exactly what its
-/// own growth leaves no room for: a uniform density stays uniform however the mesh moves. A density at a face is the
-/// mean of its two nodes'; where diffusion does not make that positive (cell Peclet numbers above 2) what is missing to
-/// the upwind one is added in part, as the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin,
-/// J. Comput. Phys. 228 (2009) 2517, has it.
+/// Fluxes of fluid between cells come from velocities at the nodes, corrected so that the fluid that leaves each cell
+/// matches the change of its area: a uniform density stays uniform however the mesh moves. The density at a face is the
+/// mean of its two nodes. Where diffusion is too weak for that to stay positive (cell Peclet numbers above 2), upwind
+/// diffusion is added in part, by the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin,
+/// J. Comput. Phys. 228 (2009) 2517.
 #[derive(Debug, Clone)]
 pub(super) struct Transport {
     projection: Projection,
     fluxes: Vec<f64>,
     growth: Vec<f64>,
     densities: Vec<f64>,
-    /// Diffusion of each edge that is missing (length squared per time).
+    /// Diffusion that each edge lacks for upwind fluxes (length squared per time).
     missing: Vec<f64>,
-    /// Of each node: the greatest rise and fall to a neighbour, what would raise and lower it, the sum of what is
-    /// missing.
+    /// For each node the largest rise and fall of density to a neighbour, the added fluxes that would raise and lower
+    /// it, and the sum of the diffusions that its edges lack.
     bounds: Vec<[f64; 5]>,
-    /// What flows through the faces of a cell over its area, the most of all cells (1/time).
+    /// Largest flux through the faces of a cell over its area (1/time).
     pub(super) fastest: f64,
 }
 
@@ -45,11 +45,11 @@ impl Transport {
         })
     }
 
-    /// Takes over how the fluid moves at the nodes, and how they do (length per time).
+    /// Takes over the velocities of the fluid and of the nodes at the nodes (length per time).
     pub(super) fn set_motion(&mut self, cells: &Cells, nodes: &[Vec2], motions: (&[Vec2], &[Vec2])) {
         let Self { projection, fluxes, growth, .. } = self;
         cells.write_fluxes(nodes, motions, fluxes, growth);
-        // Nothing crosses the interface: what is left of the growth is that of the whole mesh.
+        // Nothing crosses the interface: the growth of the whole mesh is spread evenly.
         let expansion = growth.iter().sum::<f64>() / cells.areas.iter().sum::<f64>();
         for (growth, area) in growth.iter_mut().zip(&cells.areas) {
             *growth = expansion * area - *growth;
@@ -67,7 +67,8 @@ impl Transport {
         self.fastest = growth.iter().zip(&cells.areas).map(|(flux, area)| flux / area).fold(0.0, f64::max);
     }
 
-    /// Adds the rates of the numbers of particles (1/time), which diffuse with that constant (length squared per time).
+    /// Adds the rates of the numbers of particles (1/time) by transport and by diffusion of a constant (length squared
+    /// per time).
     pub(super) fn add(&mut self, cells: &Cells, numbers: &[f64], diffusion: f64, rate: &mut [f64]) {
         let Self { fluxes, densities: c, missing, bounds, .. } = self;
         c.iter_mut().zip(numbers).zip(&cells.areas).for_each(|((c, number), area)| *c = number / area);

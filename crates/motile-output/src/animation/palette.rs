@@ -1,15 +1,15 @@
-//! The palette of an animation: the 255 colours that serve all its frames best.
+//! Palette of an animation: the most frequent colours of all its frames.
 
 use std::cmp::Reverse;
 
 use crate::Rgb;
 
-/// A colour reduced to 5, 6 and 5 bits of red, green and blue.
+/// Code of a colour: 5, 6 and 5 bits of red, green and blue.
 pub(crate) fn code(Rgb([r, g, b]): Rgb) -> u16 {
     (u16::from(r >> 3) << 11) | (u16::from(g >> 2) << 5) | u16::from(b >> 3)
 }
 
-/// Counts colours: for each code their sum and number.
+/// Histogram of colours: for each code the sum of the colours and their number.
 #[derive(Debug, Clone)]
 pub(crate) struct Histogram(Vec<([u64; 3], u64)>);
 
@@ -24,8 +24,8 @@ impl Histogram {
         sum.iter_mut().zip(colour.0).for_each(|(sum, channel)| *sum += u64::from(channel));
     }
 
-    /// The `size` (at most 256) most frequent colours, and for each code counted the index of the nearest of them. What
-    /// is left out are mixtures at the edges of lines, most of which occur a few times only.
+    /// Palette of the `size` (at most 256) most frequent colours, and for each code counted the index of the nearest of
+    /// them. Left out are mixtures at the edges of lines, most of which occur a few times only.
     pub(crate) fn palette(&self, size: usize) -> (Vec<Rgb>, Vec<u8>) {
         let mut used: Vec<usize> = (0..self.0.len()).filter(|&k| self.0[k].1 > 0).collect();
         used.sort_by_key(|&k| Reverse(self.0[k].1));

@@ -38,5 +38,5 @@ fn frames_come_back_from_the_file() {
 fn an_animation_without_frames_is_refused() {
     let raster = Raster::new([0.0; 2], [1.0; 2], [8; 2], [true; 2]).unwrap();
     let film = Film::new(Look::default(), raster);
-    assert!(matches!(film.write(&[], "/nowhere/none.gif"), Err(Error::Empty(_))));
+    assert!(matches!(film.write(&[], "/nowhere/none.gif"), Err(OutputError::Empty(_))));
 }

@@ -1,22 +1,23 @@
-//! A rectangle with axes: from data to pixels, ticks and labels.
+//! Axes around a rectangle: scales from data to pixels, ticks and labels.
 
 use crate::{
     Rgb,
     drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width, ticks::Ticks},
 };
 
-/// Whether an axis is linear or logarithmic.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum AxisScale {
-    /// Equal distances for equal differences.
+    /// Linear scale: equal distances for equal differences.
     #[default]
     Linear,
-    /// Equal distances for equal ratios; values that are not positive are not drawn.
+    /// Logarithmic scale: equal distances for equal ratios; values that are not positive are not drawn.
     Logarithmic,
 }
 
 impl AxisScale {
-    /// The value where this scale is linear.
+    /// Coordinate in which the scale is linear: the value or its decimal logarithm.
     pub(crate) fn straight(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -25,7 +26,7 @@ impl AxisScale {
     }
 }
 
-/// One axis: what it measures and from where to where.
+/// Axis with its label, ends, scale and ticks.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
     pub(crate) label: String,
@@ -44,7 +45,7 @@ impl Axis {
         Self { label: label.to_string(), low, high, scale, ticks }
     }
 
-    /// An axis that shows nothing.
+    /// Axis without label and ticks.
     pub(crate) fn bare() -> Self {
         Self { ticks: Ticks::default(), ..Self::new("", [0.0, 1.0], AxisScale::Linear, 2) }
     }
@@ -61,7 +62,7 @@ impl Axis {
         labels.map(|l| text_width(l, size)).fold(0.0, f64::max)
     }
 
-    /// The power of ten that multiplies the tick labels, as text; empty for 1.
+    /// Power of ten that multiplies the tick labels, as text; empty for 1.
     fn factor(&self) -> String {
         match self.ticks.exponent {
             0 => String::new(),
@@ -70,7 +71,7 @@ impl Axis {
     }
 }
 
-/// A rectangle on a drawing with its two axes. The unit of all its distances is the size of the type, `em` (pixels).
+/// Rectangle on a drawing with its two axes. All distances scale with the size of the type, `em` (pixels).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) area: Rect,
@@ -83,7 +84,7 @@ pub(crate) struct Frame {
 const TICK_SIZE: f64 = 0.88;
 
 impl Frame {
-    /// Where a point of the data lies.
+    /// Position of a point of the data (pixels).
     pub(crate) fn place(&self, x: f64, y: f64) -> Pixel {
         [
             self.area.left + self.x.fraction(x) * self.area.width,
@@ -91,13 +92,13 @@ impl Frame {
         ]
     }
 
-    /// Space that the axis needs to the left of the rectangle (pixels).
+    /// Space that the vertical axis needs to the left of the rectangle (pixels).
     pub(crate) fn left_margin(y: &Axis, em: f64) -> f64 {
         let label = if y.label.is_empty() { 0.3 } else { 1.8 };
         y.label_width(TICK_SIZE * em) + (1.0 + label) * em
     }
 
-    /// Space that the axis needs below the rectangle (pixels).
+    /// Space that the horizontal axis needs below the rectangle (pixels).
     pub(crate) fn bottom_margin(x: &Axis, em: f64) -> f64 {
         if x.label.is_empty() { 2.0 * em } else { 3.7 * em }
     }

@@ -1,4 +1,4 @@
-//! Text as outlines of the bundled font, so that pictures need no fonts of the system.
+//! Text as outlines of the bundled font: pictures need no fonts of the system.
 //!
 //! The font is a subset of Noto Sans (SIL Open Font License 1.1, `fonts/OFL.txt`): Latin, Greek, signs of mathematics.
 
@@ -11,13 +11,13 @@ const FONT: &[u8] = include_bytes!("../../fonts/NotoSans-subset.ttf");
 
 /// Size of raised and lowered text relative to the line's.
 const SMALL: f64 = 0.72;
-/// How far raised and lowered text moves, relative to the line's size.
+/// Heights by which text is raised and lowered, relative to the line's size.
 const RAISE: f64 = 0.32;
 const LOWER: f64 = 0.17;
 /// Height of the capitals relative to the size of the type.
 const CAPITAL: f64 = 0.714;
 
-/// Glyphs put side by side: what is written so far, where the next one goes (pixels; y upwards), and its scale.
+/// Outlines of glyphs side by side: the path so far, the position of the next glyph (pixels; y upwards), and its scale.
 struct Pen {
     path: PathBuilder,
     at: Pixel,
@@ -56,8 +56,8 @@ impl OutlineBuilder for Pen {
     }
 }
 
-/// A line of text of the given size (pixels) from the origin, y upwards, and its width (pixels). A character that the
-/// font does not have is an empty box.
+/// Outline of a line of text of a size (pixels) from the origin, y upwards, and its width (pixels). Characters that the
+/// font lacks are empty boxes.
 fn outline(text: &str, size: f64) -> (PathBuilder, f64) {
     let mut pen = Pen { path: PathBuilder::new(), at: [0.0; 2], scale: 0.0 };
     // The bundled font is read in a test.
@@ -72,8 +72,8 @@ fn outline(text: &str, size: f64) -> (PathBuilder, f64) {
     (pen.path, pen.at[0])
 }
 
-/// The characters of a text with their levels, 0 on the line, 1 raised, -1 lowered: split at `_{...}` and `^{...}`. An
-/// unclosed brace runs to the end.
+/// Characters of a text with their levels, 0 on the line, 1 raised, -1 lowered, by `^{...}` and `_{...}`. An unclosed
+/// brace runs to the end.
 fn levels(text: &str) -> Vec<(char, i8)> {
     let (mut out, mut level) = (Vec::new(), 0);
     let mut chars = text.chars().peekable();
@@ -90,7 +90,7 @@ fn levels(text: &str) -> Vec<(char, i8)> {
     out
 }
 
-/// The outlines of a line of text at its place on a drawing; `None` if it shows nothing.
+/// Outlines of a line of text at its position on a drawing; `None` if it shows nothing.
 pub(crate) fn place(text: &str, at: Pixel, style: &TextStyle) -> Option<Path> {
     let (path, width) = outline(text, style.size);
     let shift = match style.anchor {
@@ -105,7 +105,7 @@ pub(crate) fn place(text: &str, at: Pixel, style: &TextStyle) -> Option<Path> {
     path.finish()?.transform(place)
 }
 
-/// The width of a line of text (pixels).
+/// Width of a line of text (pixels).
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     outline(text, size).1
 }

@@ -7,23 +7,24 @@ use tiny_skia::{
 };
 
 use super::{Drawing, Shape};
-use crate::{Error, Rgb};
+use crate::{OutputError, Rgb};
 
 /// Largest width and height (pixels).
 const LARGEST: f64 = 16_384.0;
 
 impl Drawing {
-    /// The drawing painted with `scale` pixels a unit of its size.
+    /// Image of the drawing, with `scale` pixels for each of its own.
     ///
     /// # Errors
-    /// [`Error::Size`]: no pixels, or more than 16384 in a direction.
-    pub(crate) fn pixels(&self, scale: f64) -> Result<Pixmap, Error> {
+    /// [`OutputError::Size`]: fewer than 1 pixel or more than 16384 in a direction.
+    pub(crate) fn pixels(&self, scale: f64) -> Result<Pixmap, OutputError> {
         let size = self.size.map(|side| (side * scale).round());
         for side in size {
-            Error::check_size("an image with a side (pixels)", side, 1.0, LARGEST)?;
+            OutputError::check_size("an image with a side (pixels)", side, 1.0, LARGEST)?;
         }
         let [width, height] = size.map(|side| side as u32);
-        let refused = Error::Size { what: "an image with a side (pixels)", given: size[0], least: 1.0, most: LARGEST };
+        let refused =
+            OutputError::Size { what: "an image with a side (pixels)", given: size[0], least: 1.0, most: LARGEST };
         let mut image = Pixmap::new(width, height).ok_or(refused)?;
         image.fill(Color::WHITE);
         let transform = Transform::from_scale(scale as f32, scale as f32);
@@ -57,26 +58,26 @@ impl Drawing {
         Ok(image)
     }
 
-    /// Writes the drawing to `path`: vectors where its name ends in `.svg`, else PNG with `scale` pixels a unit of its
-    /// size.
+    /// Writes the drawing to `path`: vectors where the name ends in `.svg`, else PNG with `scale` pixels for each of
+    /// its own.
     ///
     /// # Errors
-    /// [`Error::Write`], [`Error::Size`].
-    pub(crate) fn write(&self, path: &Path, scale: f64) -> Result<(), Error> {
+    /// [`OutputError::Write`], [`OutputError::Size`].
+    pub(crate) fn write(&self, path: &Path, scale: f64) -> Result<(), OutputError> {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
-            return fs::write(path, self.svg()).map_err(Error::writing(path));
+            return fs::write(path, self.svg()).map_err(OutputError::writing(path));
         }
-        fs::write(path, png(&self.pixels(scale)?)).map_err(Error::writing(path))
+        fs::write(path, png(&self.pixels(scale)?)).map_err(OutputError::writing(path))
     }
 }
 
-/// An image as the bytes of a PNG file.
+/// Bytes of a PNG file of an image.
 pub(crate) fn png(image: &Pixmap) -> Vec<u8> {
     // Only an image too large for the format fails, and sizes are bounded.
     image.encode_png().unwrap_or_default()
 }
 
-/// The colours of the pixels of an image without transparency, row after row from the top.
+/// Colours of the pixels of an image without transparency, row after row from the top.
 pub(crate) fn colours(image: &Pixmap) -> impl Iterator<Item = Rgb> {
     image.pixels().iter().map(|pixel| Rgb([pixel.red(), pixel.green(), pixel.blue()]))
 }

@@ -1,13 +1,12 @@
-//! Drawings as SVG files.
+//! Drawings as text of SVG files.
 
 use tiny_skia::{Path, PathSegment};
 
 use super::{Drawing, Shape, raster};
-use crate::base64;
 
 impl Drawing {
-    /// The drawing as the text of an SVG file. Its text is drawn, so that it looks the same everywhere; what it says is
-    /// in the `aria-label` attributes, for search and screen readers.
+    /// Text of an SVG file of the drawing. Lettering is drawn as outlines, so that it looks the same everywhere; its
+    /// wording is in `aria-label` attributes, for search and screen readers.
     pub(crate) fn svg(&self) -> String {
         let (mut body, mut clips, mut clipped) = (String::new(), 0, false);
         for shape in &self.shapes {
@@ -33,7 +32,7 @@ impl Drawing {
                     short(corner[1]),
                     image.width(),
                     image.height(),
-                    base64::encode(&raster::png(image))
+                    base64(&raster::png(image))
                 ),
                 Shape::Clip(to) => {
                     let close = if std::mem::replace(&mut clipped, to.is_some()) { "</g>" } else { "" };
@@ -60,19 +59,19 @@ impl Drawing {
     }
 }
 
-/// A coordinate with at most two decimals.
+/// Coordinate with at most two decimals.
 fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// The attribute of an opacity below one.
+/// Attribute of an opacity below one; empty for one.
 fn faint(what: &str, opacity: f64) -> String {
     if opacity < 1.0 { format!(" {what}-opacity=\"{}\"", short(opacity)) } else { String::new() }
 }
 
-/// A path as the data of an element: from point to point in tenths of a pixel, each rounded for itself, so that errors
-/// do not add up.
+/// Path data of an element: steps from point to point in tenths of a pixel, between rounded points, so that errors do
+/// not add up.
 fn data(path: &Path) -> String {
     let tenths = |p: tiny_skia::Point| [p.x, p.y].map(|v| (10.0 * v).round() as i64);
     let (mut data, mut last, mut at, mut start) = (String::new(), ' ', [0; 2], [0; 2]);
@@ -87,7 +86,7 @@ fn data(path: &Path) -> String {
         if letter == 'M' {
             at = [0; 2];
         }
-        // Points that follow the first of an `M` would be lines.
+        // Without a letter of its own, an `M` after an `M` would be a line.
         let mut separate = letter == last && letter != 'M';
         if !separate {
             data.push(letter);
@@ -111,7 +110,7 @@ fn data(path: &Path) -> String {
     data
 }
 
-/// Tenths as a number, without zeros that say nothing.
+/// Tenths as a decimal number, without superfluous zeros.
 fn decimal(tenths: i64) -> String {
     let sign = if tenths < 0 { "-" } else { "" };
     match (tenths.abs() / 10, tenths.abs() % 10) {
@@ -121,6 +120,22 @@ fn decimal(tenths: i64) -> String {
     }
 }
 
+/// Base64 of bytes, padded (RFC 4648).
+pub(crate) fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |k: usize| u32::from(chunk.get(k).copied().unwrap_or(0));
+        let group = (byte(0) << 16) | (byte(1) << 8) | byte(2);
+        for k in 0..4 {
+            let digit = DIGITS[((group >> (18 - 6 * k)) & 63) as usize];
+            text.push(if k > chunk.len() { '=' } else { char::from(digit) });
+        }
+    }
+    text
+}
+
+/// Text with the characters escaped that XML reserves.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,22 +1,22 @@
-//! Positions and labels of the ticks of an axis.
+//! Ticks of an axis: positions and labels.
 
-/// A tick: a labelled one is long, one without a label short.
+/// Tick of an axis, long with a label and short without.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
     pub(crate) label: Option<String>,
 }
 
-/// The ticks of an axis.
+/// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Ticks {
     pub(crate) ticks: Vec<Tick>,
-    /// Power of ten that the labels are to be multiplied by; 0 mostly.
+    /// Exponent of the power of ten by which labels are to be multiplied, mostly 0.
     pub(crate) exponent: i32,
 }
 
 impl Ticks {
-    /// About `target` ticks at multiples of 1, 2 or 5 times a power of ten within `low..=high`.
+    /// Ticks of a linear axis, about `target` within `low..=high`, at multiples of 1, 2 or 5 times a power of ten.
     pub(crate) fn linear(low: f64, high: f64, target: usize) -> Self {
         let span = high - low;
         // Ends that differ by little more than round-off cannot be told apart by labels.
@@ -78,21 +78,21 @@ impl Ticks {
     }
 }
 
-/// The least of 1, 2, 5 times a power of ten that is not below `raw`, or just so.
+/// Smallest of 1, 2, 5 times a power of ten that is not below `raw`, or by round-off only.
 fn nice_step(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [1.0, 2.0, 5.0].into_iter().find(|m| m * decade >= raw * (1.0 - 1e-9)).unwrap_or(10.0);
     multiple * decade
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `raw`.
+/// Largest of 1, 2, 5 times a power of ten that is not above `raw`.
 pub(crate) fn nice_step_below(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [5.0, 2.0].into_iter().find(|m| m * decade <= raw * (1.0 + 1e-9)).unwrap_or(1.0);
     multiple * decade
 }
 
-/// A number as text, to four significant figures without trailing zeros.
+/// Number as text, to four significant figures without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { signed(&value.to_string()) };
@@ -108,7 +108,7 @@ pub(crate) fn number(value: f64) -> String {
     signed(text)
 }
 
-/// Replaces the hyphen by a minus sign, and takes the sign off a zero.
+/// Number as text with a minus sign for the hyphen, and zero without a sign.
 fn signed(text: &str) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_string(),

@@ -1,8 +1,7 @@
 //! Files in the XML formats of VTK, which ParaView reads.
 //!
-//! Written by hand: of the crates for it, the stable release of `vtkio` is years old and its new one a release
-//! candidate, and what is needed of the format is small: three kinds of geometry, arrays in base64, and a list of files
-//! with their times.
+//! Written here and not by a crate: the stable release of `vtkio` is years old, and the part of the format in use is
+//! small: three kinds of geometry, arrays in base64, and a list of files with their times.
 
 use std::{
     fmt::Write as _,
@@ -10,10 +9,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::base64::encode;
-use crate::{Error, Raster, Vec2};
+use crate::{OutputError, Raster, drawing::svg::base64};
+use motile::motile_base::Vec2;
 
-/// The values of a named array, one a point or one a cell, as they are stored.
+/// Named array of values, one for each point or each cell, as they are stored.
 #[derive(Debug, Clone, PartialEq)]
 struct Array {
     name: String,
@@ -31,28 +30,29 @@ impl Array {
     }
 }
 
-/// The content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors get a
-/// zero third component; values are stored in single, positions in double precision.
+/// Content of a VTK file: a geometry with named arrays of values at its points and in its cells. Vectors get a zero
+/// third component; values are stored in single, positions in double precision.
 ///
 /// ```
-/// use motile_output::{Vec2, VtkFile};
+/// use motile::motile_base::Vec2;
+/// use motile_output::VtkFile;
 ///
 /// let line = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 /// let file = VtkFile::closed_lines(&[line.clone()]).point_scalars("concentration", [1.0, 2.0, 0.5]);
 /// assert!(file.document()?.contains("NumberOfPoints=\"3\""));
 /// assert!(VtkFile::closed_lines(&[line]).point_scalars("tension", [1.0]).document().is_err());
-/// # Ok::<(), motile_output::Error>(())
+/// # Ok::<(), motile_output::OutputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct VtkFile {
     kind: &'static str,
     extension: &'static str,
     attributes: String,
-    /// Attributes of its only piece.
+    /// Attributes of the only piece.
     piece: String,
     /// Points and cells.
     geometry: String,
-    /// Numbers of points and cells, and the number of points that cells refer to.
+    /// Numbers of points and cells, and least number of points for the corners of the cells.
     points: usize,
     cells: usize,
     needed: usize,
@@ -67,7 +67,7 @@ impl VtkFile {
         Self { kind, extension, attributes, piece, geometry, points, cells, needed: points, point_data, cell_data }
     }
 
-    /// The cells of a raster (ImageData, `.vti`): samples at its points are cell data.
+    /// Cells of a raster (ImageData, `.vti`): samples at the points of the raster are cell data.
     #[must_use]
     pub fn image(raster: Raster) -> Self {
         let ([nx, ny], [x, y], [width, height]) = (raster.cells, raster.origin, raster.size);
@@ -77,7 +77,8 @@ impl VtkFile {
         Self { attributes, piece, ..Self::new("ImageData", "vti", (nx + 1) * (ny + 1), nx * ny) }
     }
 
-    /// Closed polylines (PolyData, `.vtp`), each one cell; values at their points are given line after line.
+    /// Closed lines through points (PolyData, `.vtp`; length), each one cell; values at points are given line after
+    /// line.
     #[must_use]
     pub fn closed_lines(lines: &[Vec<Vec2>]) -> Self {
         let (mut corners, mut ends, mut first): (Vec<i64>, Vec<i64>, i64) = Default::default();
@@ -97,7 +98,7 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 
-    /// Triangles of points (UnstructuredGrid, `.vtu`).
+    /// Triangles (UnstructuredGrid, `.vtu`) of points (length), by the numbers of their corners.
     #[must_use]
     pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
         let cells = triangles.len();
@@ -140,15 +141,15 @@ impl VtkFile {
         self
     }
 
-    /// The text of the file.
+    /// Text of the file.
     ///
     /// # Errors
-    /// [`Error::Count`]: arrays of the wrong length, corners of triangles that are not points. [`Error::Name`]: names
-    /// with other characters than letters, digits, `_`, `-` and space.
-    pub fn document(&self) -> Result<String, Error> {
+    /// [`OutputError::Count`]: arrays of the wrong length, corners of triangles that are not points.
+    /// [`OutputError::Name`]: names with other characters than letters, digits, `_`, `-` and space.
+    pub fn document(&self) -> Result<String, OutputError> {
         let Self { kind, attributes, piece, geometry, points, cells, .. } = self;
         if self.needed > *points {
-            Error::check_count("points of triangles", *points, self.needed)?;
+            OutputError::check_count("points of triangles", *points, self.needed)?;
         }
         let point_data = data("PointData", &self.point_data, *points)?;
         let cell_data = data("CellData", &self.cell_data, *cells)?;
@@ -163,30 +164,30 @@ impl VtkFile {
     /// Writes the file.
     ///
     /// # Errors
-    /// As [`VtkFile::document`], and [`Error::Write`].
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        fs::write(path.as_ref(), self.document()?).map_err(Error::writing(path.as_ref()))
+    /// As [`VtkFile::document`], and [`OutputError::Write`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
+        fs::write(path.as_ref(), self.document()?).map_err(OutputError::writing(path.as_ref()))
     }
 }
 
-/// A data array with its bytes in base64, preceded by their number.
+/// Element of a data array, with its bytes in base64 after their number.
 fn array(kind: &str, name: &str, components: usize, bytes: &[u8]) -> String {
     let block = [&(bytes.len() as u64).to_le_bytes(), bytes].concat();
     format!(
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">{}\
          </DataArray>\n",
-        encode(&block)
+        base64(&block)
     )
 }
 
-fn data(tag: &str, arrays: &[Array], count: usize) -> Result<String, Error> {
+fn data(tag: &str, arrays: &[Array], count: usize) -> Result<String, OutputError> {
     let mut text = format!("<{tag}>\n");
     for Array { name, vectors, values } in arrays {
         if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) {
-            return Err(Error::Name { name: name.clone(), what: "an array" });
+            return Err(OutputError::Name { name: name.clone(), what: "an array" });
         }
         let components = if *vectors { 3 } else { 1 };
-        Error::check_count(&format!("values of array {name}"), values.len() / components, count)?;
+        OutputError::check_count(&format!("values of array {name}"), values.len() / components, count)?;
         let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
         text += &array("Float32", name, components, &bytes);
     }
@@ -203,43 +204,53 @@ fn connectivity(corners: &[i64], ends: &[i64]) -> String {
     array("Int64", "connectivity", 1, &bytes(corners)) + &array("Int64", "offsets", 1, &bytes(ends))
 }
 
-/// A series of VTK files with their times: `<name>_0000.vtp`, ... and `<name>.pvd`, the file to open in ParaView.
+/// Series of VTK files with their times: `<name>_0000.vtp`, ... and `<name>.pvd`, the file to open in ParaView.
 #[derive(Debug, Clone)]
 pub struct VtkSeries {
     directory: PathBuf,
     name: String,
-    entries: String,
-    count: usize,
+    times: Vec<f64>,
 }
 
 impl VtkSeries {
-    /// An empty series in `directory`, which is made if it is not there.
+    /// Empty series in `directory`, which is created if needed.
     ///
     /// # Errors
-    /// [`Error::Write`]: a directory that cannot be made.
-    pub fn create(directory: impl AsRef<Path>, name: &str) -> Result<Self, Error> {
+    /// [`OutputError::Write`]: a directory that cannot be created.
+    pub fn create(directory: impl AsRef<Path>, name: &str) -> Result<Self, OutputError> {
         let directory = directory.as_ref().to_path_buf();
-        fs::create_dir_all(&directory).map_err(Error::writing(&directory))?;
-        Ok(Self { directory, name: name.to_string(), entries: String::new(), count: 0 })
+        fs::create_dir_all(&directory).map_err(OutputError::writing(&directory))?;
+        Ok(Self { directory, name: name.to_string(), times: Vec::new() })
     }
 
-    /// Writes a file and the list with it, so that the series can be opened while a run goes on, or after it broke off.
+    /// Continues the numbers after files that were written at these times; those that still exist are listed.
+    pub(crate) fn after(&mut self, times: &[f64]) {
+        self.times = times.to_vec();
+    }
+
+    /// Writes the next file, at a time, and the list anew: the series can be opened during a run and after it broke
+    /// off.
     ///
     /// # Errors
     /// As [`VtkFile::write`].
-    pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), Error> {
-        let name = format!("{}_{:04}.{}", self.name, self.count, file.extension);
-        file.write(self.directory.join(&name))?;
-        self.count += 1;
-        // Writing to a string cannot fail.
-        let _ = writeln!(self.entries, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
+    pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), OutputError> {
+        let name = |number: usize| format!("{}_{number:04}.{}", self.name, file.extension);
+        file.write(self.directory.join(name(self.times.len())))?;
+        self.times.push(time);
+        let mut entries = String::new();
+        for (number, time) in self.times.iter().enumerate() {
+            if !self.directory.join(name(number)).exists() {
+                continue;
+            }
+            // Writing to a string cannot fail.
+            let _ = writeln!(entries, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>", name(number));
+        }
         let list = format!(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
-             <Collection>\n{}</Collection>\n</VTKFile>\n",
-            self.entries
+             <Collection>\n{entries}</Collection>\n</VTKFile>\n"
         );
         let path = self.directory.join(format!("{}.pvd", self.name));
-        fs::write(&path, list).map_err(Error::writing(&path))
+        fs::write(&path, list).map_err(OutputError::writing(&path))
     }
 }
 

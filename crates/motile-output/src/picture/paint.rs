@@ -1,12 +1,19 @@
-//! Pictures of scenes: how they are drawn.
+//! Painting of pictures of scenes.
 
 use std::collections::HashSet;
 
 use super::{Legends, Picture};
-use crate::drawing::axes::{Axis, AxisScale, Frame};
-use crate::drawing::ticks::{nice_step_below, number};
-use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width};
-use crate::{Error, Rgb, Samples, Vec2, streamlines};
+use crate::{
+    OutputError, Rgb, Samples,
+    drawing::{
+        Anchor, Drawing, Pen, Pixel, Rect, TextStyle,
+        axes::{Axis, AxisScale, Frame},
+        font::text_width,
+        ticks::{nice_step_below, number},
+    },
+    streamlines,
+};
+use motile::motile_base::Vec2;
 
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);
@@ -20,12 +27,13 @@ const TRACK: Rgb = Rgb([20, 60, 150]);
 const WALL: f64 = 0.07;
 /// Height of the colour bars with their labels, in sizes of the type.
 const BARS: f64 = 4.5;
-/// How often the triangles of a mesh inside are split in four to show a smooth field.
+/// Number of times that triangles of a mesh inside are split in four, to show a smooth field.
 const SPLITS: usize = 2;
 /// Unit of lengths, in which axes are labelled.
 const UNIT: &str = "R_{0}";
 
-pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
+/// Drawing of a picture.
+pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, OutputError> {
     let layout = Layout::new(picture);
     let drawing = Drawing::new([picture.format.width as f64, layout.height]);
     let mut painter = Painter { picture, drawing, layout };
@@ -49,8 +57,8 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
     Ok(painter.drawing)
 }
 
-/// Splits a triangle into four, so many times over, and shows each part with the mean of the linear function that has
-/// those values at the corners.
+/// Splits a triangle into four, a number of times over, and shows each part with the mean of the linear function
+/// through the values at the corners.
 fn split(corners: [Pixel; 3], values: [f64; 3], times: usize, show: &mut impl FnMut([Pixel; 3], f64)) {
     if times == 0 {
         return show(corners, values.iter().sum::<f64>() / 3.0);
@@ -66,13 +74,13 @@ fn split(corners: [Pixel; 3], values: [f64; 3], times: usize, show: &mut impl Fn
     }
 }
 
-/// Where the parts of a picture are.
+/// Layout of a picture.
 struct Layout {
     frame: Frame,
     height: f64,
     /// Size of the type (pixels).
     em: f64,
-    /// The unit of widths of lines in the picture (pixels): the size of the type, less where the picture is low.
+    /// Unit of the widths of lines in the picture (pixels): the size of the type, less where the picture is low.
     unit: f64,
 }
 
@@ -104,12 +112,13 @@ impl Layout {
         points.iter().map(|p| p + shift).map(|p| self.frame.place(p.x, p.y)).collect()
     }
 
-    /// Pixels a unit of length.
+    /// Pixels per unit of length.
     fn scale(&self) -> f64 {
         self.frame.area.width / (self.frame.x.high - self.frame.x.low)
     }
 }
 
+/// Picture with its layout, and the drawing so far.
 struct Painter<'a> {
     picture: &'a Picture<'a>,
     drawing: Drawing,
@@ -117,7 +126,7 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// The shifts that bring periodic images of points within a box around them into view.
+    /// Shifts that bring periodic images of the bounding box of some points into view.
     fn images<'p>(&self, points: &(impl Iterator<Item = &'p Vec2> + Clone)) -> Vec<Vec2> {
         let raster = &self.picture.seen.raster;
         let frame = &self.layout.frame;
@@ -138,7 +147,7 @@ impl Painter<'_> {
         ys.into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
     }
 
-    fn pressure(&mut self) -> Result<(), Error> {
+    fn pressure(&mut self) -> Result<(), OutputError> {
         let field = Samples::new(self.picture.seen.raster, self.picture.seen.pressure())?;
         let (scale, levels) = (&self.picture.legends.pressure, self.picture.format.levels);
         let table = scale.table(levels);
@@ -153,7 +162,7 @@ impl Painter<'_> {
         Ok(())
     }
 
-    /// Densities of particles inside, linear within the triangles of their mesh.
+    /// Draws the densities of particles inside, linear within the triangles of their mesh.
     fn inside(&mut self) {
         let Some(scale) = &self.picture.legends.inside else { return };
         let frame = &self.layout.frame;
@@ -171,10 +180,10 @@ impl Painter<'_> {
         }
     }
 
-    fn streamlines(&mut self) -> Result<(), Error> {
+    fn streamlines(&mut self) -> Result<(), OutputError> {
         let (seen, unit) = (self.picture.seen, self.layout.unit);
         let velocity = Samples::new(seen.raster, seen.velocity())?;
-        // An anchor that moves along keeps the lines from flickering in animations.
+        // An anchor that moves with the droplet keeps the lines from flickering in animations.
         let anchor = seen.droplets.first().map_or(seen.raster.origin.into(), |droplet| droplet.centroid);
         // Lines closer than half a size of the type would be a grey area.
         let least = 0.55 * self.layout.em / self.layout.scale();
@@ -196,7 +205,13 @@ impl Painter<'_> {
         Ok(())
     }
 
-    /// An arrow head about `at`, pointing on to `next`.
+    /// Draws a line on a wider white one of some opacity, so that it stands out from the field; widths in pixels.
+    fn outlined(&mut self, path: &[Pixel], colour: Rgb, [width, around]: [f64; 2], opacity: f64) {
+        self.drawing.stroke(path, &Pen::new(Rgb::WHITE, around).opacity(opacity));
+        self.drawing.stroke(path, &Pen::new(colour, width));
+    }
+
+    /// Draws an arrow head at `at` that points to `next`.
     fn head(&mut self, at: Pixel, next: Pixel, size: f64) {
         let (dx, dy) = (next[0] - at[0], next[1] - at[1]);
         let scale = size / dx.hypot(dy).max(1e-300);
@@ -206,7 +221,7 @@ impl Painter<'_> {
         self.drawing.fill(&[ring], Rgb::INK, 0.85);
     }
 
-    /// Directors as short arrows, no closer than they are long; defects as dots.
+    /// Draws directors as short arrows, no closer than they are long, and defects as dots.
     fn gels(&mut self) {
         let (seen, unit) = (self.picture.seen, self.layout.unit);
         let length = 0.9 * unit / self.layout.scale();
@@ -219,15 +234,13 @@ impl Painter<'_> {
             for shift in self.images(&gel.nodes.iter()) {
                 for line in &shown {
                     let path = self.layout.path(line, shift);
-                    self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.26 * unit).opacity(0.6));
-                    self.drawing.stroke(&path, &Pen::new(DIRECTOR, 0.12 * unit));
+                    self.outlined(&path, DIRECTOR, [0.12 * unit, 0.26 * unit], 0.6);
                     let [from, to] = [path[0], path[1]];
                     self.head(to, [2.0 * to[0] - from[0], 2.0 * to[1] - from[1]], 0.35 * unit);
                 }
                 for defect in &gel.defects {
                     let dot = self.layout.path(&[defect.position.into(); 2], shift);
-                    self.drawing.stroke(&dot, &Pen::new(Rgb::WHITE, 0.8 * unit));
-                    self.drawing.stroke(&dot, &Pen::new(DEFECTS[usize::from(defect.charge < 0)], 0.6 * unit));
+                    self.outlined(&dot, DEFECTS[usize::from(defect.charge < 0)], [0.6 * unit, 0.8 * unit], 1.0);
                 }
             }
         }
@@ -282,15 +295,14 @@ impl Painter<'_> {
         }
     }
 
-    /// A bar of length 1, 2 or 5 times a power of ten, a fifth of the picture's width at most.
+    /// Draws a scale bar of length 1, 2 or 5 times a power of ten, at most a fifth of the picture's width.
     fn scale_bar(&mut self) {
         let (area, em, scale) = (self.layout.frame.area, self.layout.em, self.layout.scale());
         let longest = 0.2 * area.width / scale;
         let length = nice_step_below(longest);
         let (right, y) = (area.right() - 1.2 * em, area.bottom() - 1.0 * em);
         let bar = [[right - length * scale, y], [right, y]];
-        self.drawing.stroke(&bar, &Pen::new(Rgb::WHITE, 0.5 * em).opacity(0.8));
-        self.drawing.stroke(&bar, &Pen::new(Rgb::INK, 0.2 * em));
+        self.outlined(&bar, Rgb::INK, [0.2 * em, 0.5 * em], 0.8);
         let label = format!("{} {UNIT}", number(length));
         let at = [right - 0.5 * length * scale, y - 0.95 * em];
         let [width, height] = [text_width(&label, 0.88 * em) + 0.5 * em, 1.1 * em];
@@ -305,11 +317,9 @@ impl Painter<'_> {
         for track in &picture.tracks {
             for shift in self.images(&track.iter()) {
                 let path = self.layout.path(track, shift);
-                self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
-                self.drawing.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
+                self.outlined(&path, TRACK, [0.13 * unit, 0.3 * unit], 0.75);
                 if let Some(&start) = path.first() {
-                    self.drawing.stroke(&[start, start], &Pen::new(Rgb::WHITE, 0.56 * unit));
-                    self.drawing.stroke(&[start, start], &Pen::new(TRACK, 0.4 * unit));
+                    self.outlined(&[start, start], TRACK, [0.4 * unit, 0.56 * unit], 1.0);
                 }
             }
         }
@@ -325,8 +335,7 @@ impl Painter<'_> {
             for shift in self.images(&droplet.markers.iter()) {
                 let mut path = self.layout.path(&droplet.markers, shift);
                 path.extend(path.first().copied());
-                self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));
-                self.drawing.stroke(&path, &Pen::new(Rgb::INK, 0.56 * unit));
+                self.outlined(&path, Rgb::INK, [0.56 * unit, 0.8 * unit], 0.7);
                 if let Some(colours) = &colours {
                     self.drawing.stroke_coloured(&path, colours, 0.42 * unit);
                 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::drawing::raster::colours;
 use crate::{DropletOutline, InteriorField, Raster, Rgb};
-use motile::ib_core::FlowSample;
+use motile::motile_base::FlowSample;
 
 /// A pressure that is 0 in the left and 1 in the right half of a square box around the origin, without flow.
 fn halves() -> Snapshot {
@@ -98,7 +98,7 @@ fn values_that_are_not_numbers_do_no_harm() {
     let look = Look::default();
     let short = Snapshot { flow: Vec::new(), ..seen };
     let drawn = look.draw(&short, &look.legends(&[]), &[], &Format::FRAME);
-    assert!(matches!(drawn, Err(Error::Count { given: 0, expected: 32, .. })));
+    assert!(matches!(drawn, Err(OutputError::Count { given: 0, expected: 32, .. })));
 }
 
 #[test]

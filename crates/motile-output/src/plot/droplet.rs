@@ -1,18 +1,19 @@
-//! Plots of what was measured on a droplet.
+//! Plots of the observables of a droplet.
 
 use motile::active_interface::observables::ConcentrationProfile;
 
-use crate::{AxisScale, CsvTable, Error, Figure, Plot, Series};
+use crate::plot::{AxisScale, Figure, Plot, Series};
+use crate::{CsvTable, OutputError};
 
-/// Speed, shape and the character of the flow over time; between walls also the height and the gap.
+/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.
 ///
 /// # Errors
-/// [`Error::Column`]: a table without these columns.
-pub fn time_series(table: &CsvTable) -> Result<Figure, Error> {
+/// [`OutputError::Column`]: a table without these columns.
+pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
     let plot = |title: &str, label: &str| {
         Plot::new(title).x_axis("time t", AxisScale::Linear).y_axis(label, AxisScale::Linear)
     };
-    let line = |label: &str, column: &str| Ok::<_, Error>(Series::line(label, table.curve("time", column)?));
+    let line = |label: &str, column: &str| Ok::<_, OutputError>(Series::line(label, table.curve("time", column)?));
     let figure = Figure::new(2)
         .panel(plot("Speed", "|v| (R_{0} per time)").series(line("", "speed")?))
         .panel(
@@ -35,7 +36,8 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, Error> {
         .panel(plot("Gap to the walls", "gap (R_{0})").series(line("", "gap")?).horizontal(0.0, "")))
 }
 
-/// The concentration along the interface, from the front and counter-clockwise, at the start and at `time`.
+/// Figure of the concentration over `mean_concentration` (particles per length) along the interface, counter-clockwise
+/// from the front, at the start and at `time`.
 #[must_use]
 pub fn concentration_plot(
     start: &ConcentrationProfile,

@@ -1,30 +1,31 @@
-//! Plots of series of points: how they are drawn.
+//! Painting of plots.
 
 use crate::drawing::axes::{Axis, Frame};
 use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width};
-use crate::{AxisScale, Error, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series};
+use crate::plot::{AxisScale, Figure, Marker, Plot, SERIES_COLOURS, Series};
+use crate::{OutputError, Rgb};
 
 /// Size of the type (pixels of the SVG).
 const EM: f64 = 13.0;
 /// Space around data on an axis, relative to its length.
 const MARGIN: f64 = 0.05;
-/// Least length of a linear axis relative to its values, so that round-off does not fill a plot.
+/// Smallest length of a linear axis relative to its values, so that round-off does not fill a plot.
 const LEAST_SPAN: f64 = 1e-3;
 
-/// A plot, laid out.
+/// Plot with its layout.
 struct Panel<'a> {
     plot: &'a Plot,
     frame: Frame,
 }
 
-/// A figure as it is drawn.
-pub(crate) fn draw(figure: &Figure) -> Result<Drawing, Error> {
+/// Drawing of a figure.
+pub(crate) fn draw(figure: &Figure) -> Result<Drawing, OutputError> {
     let [width, height] = figure.panel_size;
     if figure.panels.is_empty() {
-        return Err(Error::Empty("a figure without plots"));
+        return Err(OutputError::Empty("a figure without plots"));
     }
-    Error::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
-    Error::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
+    OutputError::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
+    OutputError::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
     let columns = figure.columns.min(figure.panels.len());
     let rows = figure.panels.len().div_ceil(columns);
     let panel = |(k, plot)| {
@@ -36,7 +37,7 @@ pub(crate) fn draw(figure: &Figure) -> Result<Drawing, Error> {
     Ok(drawing)
 }
 
-/// The axes of a plot within its panel.
+/// Axes of a plot within its panel.
 fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
     let axis = |k: usize, range: [f64; 2], length: f64| {
         Axis::new(&plot.labels[k], range, plot.scales[k], ((length / (4.0 * em)) as usize).clamp(3, 9))
@@ -66,7 +67,7 @@ fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
     Frame { area, x, y, em }
 }
 
-/// The range of the data along an axis, with some space around it.
+/// Range of the data along an axis, with some space around it.
 fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
     let scale = plot.scales[axis];
     let points = plot.series.iter().flat_map(|s| &s.points).map(|p| if axis == 0 { p.0 } else { p.1 });
@@ -105,7 +106,7 @@ impl Panel<'_> {
         drawing.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start));
     }
 
-    /// The series with their colours.
+    /// Series with their colours.
     fn coloured(&self) -> Vec<(&Series, Rgb)> {
         let mut next = SERIES_COLOURS.iter().cycle();
         let colour = |s: &Series| s.colour.or_else(|| next.next().copied()).unwrap_or(Rgb::INK);
@@ -157,7 +158,7 @@ impl Panel<'_> {
         let corners = [area.right() - gap - width, area.left + gap].into_iter().flat_map(|left| {
             [area.top + gap, area.bottom() - gap - height].map(|top| Rect { left, top, width, height })
         });
-        // What it would hide: the share of each series, and lines with a label.
+        // Amount that the legend would hide: the share of each series, and lines with a label.
         let hidden = |panel: &Rect| {
             let inside =
                 |p: &Pixel| (panel.left..panel.right()).contains(&p[0]) && (panel.top..panel.bottom()).contains(&p[1]);
@@ -190,7 +191,7 @@ impl Panel<'_> {
     }
 }
 
-/// The line of a series.
+/// Draws the line of a series.
 fn line(drawing: &mut Drawing, path: &[Pixel], series: &Series, colour: Rgb, em: f64) {
     let pen = Pen::new(colour, 0.14 * em);
     if series.dashed {
@@ -200,7 +201,7 @@ fn line(drawing: &mut Drawing, path: &[Pixel], series: &Series, colour: Rgb, em:
     }
 }
 
-/// Markers at the points given.
+/// Draws markers at points.
 fn draw_markers(drawing: &mut Drawing, marker: Marker, at: &[Pixel], radius: f64, colour: Rgb) {
     let (corners, size, turn) = match marker {
         Marker::Disc | Marker::Circle => {

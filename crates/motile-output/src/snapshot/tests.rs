@@ -40,7 +40,7 @@ fn all_droplets_and_solids_of_any_material_are_seen() {
     solids.push(SolidSetup { hold: Hold::Free, ..nucleus });
     let setup = Setup {
         region: Region::Channel { length: 8.0, width: 5.0, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        method: Method::Layers(LayersMethod { spacing: 0.1, ..LayersMethod::default() }),
         droplets: [-2.0, 2.0].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }).to_vec(),
         solids,
         ..Setup::default()

@@ -5,7 +5,7 @@ use motile::prelude::*;
 fn walls_of_a_channel() {
     let setup = Setup {
         region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
-        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        method: Method::Layers(LayersMethod { spacing: 0.2, ..LayersMethod::default() }),
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
         ..Setup::default()
     };

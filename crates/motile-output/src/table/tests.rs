@@ -1,3 +1,5 @@
+use motile::prelude::*;
+
 use super::*;
 
 #[test]
@@ -22,25 +24,57 @@ fn equal_names_are_refused() {
 }
 
 #[test]
-fn a_resumed_table_keeps_the_rows_so_far() {
-    let path = std::env::temp_dir().join(format!("motile-resumed-{}.csv", std::process::id()));
+fn a_resumed_table_keeps_the_rows_of_its_file() {
+    let path = std::env::temp_dir().join(format!("motile-file-{}.csv", std::process::id()));
     let mut table = CsvTable::create(&path, &["time", "x"]).unwrap();
-    for time in [0.0, 0.1, 0.2, 0.3] {
+    for time in [0.0, 0.1, 0.2] {
         table.push(&[time, 1.0 / (time - 0.1)]).unwrap();
     }
-    table.flush().unwrap();
     let written = std::fs::read_to_string(&path).unwrap();
-    let mut table = CsvTable::resume(&path, &["time", "x"], 0.2).unwrap();
-    assert_eq!(table.rows().len(), 3);
-    assert!(table.rows()[1][1].is_nan() && table.rows()[0][1] == -10.0);
-    table.push(&[0.3, 1.0 / (0.3 - 0.1)]).unwrap();
-    table.flush().unwrap();
+    let table = CsvTable::resume(&path, &["time", "x"]).unwrap();
+    assert!(table.rows().len() == 3 && table.rows()[1][1].is_nan() && table.rows()[0][1] == -10.0);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     // Other columns, a row that was torn, and no file at all.
-    assert!(CsvTable::resume(&path, &["time", "y"], 0.2).unwrap().rows().is_empty());
+    assert!(CsvTable::resume(&path, &["time", "y"]).unwrap().rows().is_empty());
     std::fs::write(&path, "time,x\n0,1\n0.1").unwrap();
-    assert_eq!(CsvTable::resume(&path, &["time", "x"], 0.2).unwrap().rows(), [[0.0, 1.0]]);
+    assert_eq!(CsvTable::resume(&path, &["time", "x"]).unwrap().rows(), [[0.0, 1.0]]);
     std::fs::remove_file(&path).unwrap();
-    assert!(CsvTable::resume(&path, &["time", "x"], 0.2).unwrap().rows().is_empty());
+    assert!(CsvTable::resume(&path, &["time", "x"]).unwrap().rows().is_empty());
+    std::fs::remove_file(&path).unwrap();
+}
+
+#[test]
+fn a_table_of_a_resumed_run_begins_with_the_rows_so_far() {
+    let path = std::env::temp_dir().join(format!("motile-resumed-{}.csv", std::process::id()));
+    let scene =
+        || Setup { droplets: Vec::new(), step: StepSize::Fixed(0.125), ..Setup::default() }.build().unwrap().scene;
+    let mut first = scene();
+    let mut table = CsvTable::of_run(&path, &["time", "x"], first.system_mut(), "places").unwrap();
+    let row = |time: f64| [time, 1.0 / (time - 0.125)];
+    let mut saved = None;
+    for _ in 0..4 {
+        let time = first.time();
+        table.push_state(first.system_mut(), &row(time)).unwrap();
+        if time == 0.25 {
+            saved = Some(first.checkpoint(""));
+        }
+        first.step(0.125).unwrap();
+    }
+    let written = std::fs::read_to_string(&path).unwrap();
+    assert!(written.starts_with("time,x\n0,-8\n0.125,\n0.25,8\n"), "{written}");
+    // The file may be gone, or be that of another run.
+    std::fs::write(&path, "time,x\n0,1\n").unwrap();
+    let mut second = scene();
+    second.resume(&saved.unwrap()).unwrap();
+    let mut table = CsvTable::of_run(&path, &["time", "x"], second.system_mut(), "places").unwrap();
+    for _ in 0..2 {
+        let time = second.time();
+        table.push_state(second.system_mut(), &row(time)).unwrap();
+        second.step(0.125).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
+    // Other columns have no rows yet.
+    let other = CsvTable::of_run(&path, &["time", "y"], second.system_mut(), "places").unwrap();
+    assert!(other.rows().is_empty());
     std::fs::remove_file(&path).unwrap();
 }

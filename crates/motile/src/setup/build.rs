@@ -5,12 +5,14 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
-use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
+use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
+use motile_base::{Region, Vec2};
+use motile_scene::{Body, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    Contrast, DropletSetup, DropletShape, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup, Squeezed,
-    Start, Surface,
+    DropletSetup, DropletShape, IntegralMethod, LayersMethod, MarkerMotion, Method, MethodKind, Setup, SolidSetup,
+    Squeezed, Start,
 };
 use crate::SetupError;
 
@@ -51,44 +53,33 @@ impl Setup {
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
-        let layers = self.has_layers();
-        let droplet = |(k, droplet)| self.placed(droplet, layers).map_err(keyed(k));
-        let droplets = self.droplets.iter().enumerate().map(droplet);
-        let droplets = droplets.collect::<Result<Vec<_>, _>>()?;
-        let solids = || self.solids.iter().zip(self.droplets.len()..);
-        let regions = solids().map(|(solid, k)| solid.enclosed(&self.region).map_err(keyed(k)));
-        let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
-        let first = self.droplets.len() + self.solids.len();
-        let bodies = self.rigid_bodies.iter().enumerate().map(|(k, body)| body.build(self).map_err(keyed(first + k)));
-        let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
-        let first = first + bodies.len();
-        let shells = self.shells.iter().enumerate().map(|(k, s)| s.build(self, layers).map_err(keyed(first + k)));
-        let shells = shells.collect::<Result<Vec<_>, _>>()?;
-        self.check_places(&droplets, &regions, &bodies, &shells, &flow)?;
-        let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
-        let points = droplets.iter().map(ActiveDroplet::markers);
-        let points = points.chain(solids.iter().map(Solid::positions));
-        let outlines: Vec<Vec<Vec2>> = bodies.iter().map(|body| body.markers().collect()).collect();
-        let points = points.chain(outlines.iter().map(Vec::as_slice)).chain(shells.iter().map(Shell::positions));
-        let points: Vec<&[Vec2]> = points.collect();
-        self.check_filled(&points)?;
-        let mut scene = Scene::new(flow).with_step_size(self.step);
+        let plans = self.bodies().enumerate().map(|(k, (_, body))| body.plan(self).map_err(keyed(k)));
+        let (plans, flow) = (plans.collect::<Result<Vec<_>, _>>()?, self.flow()?);
+        self.check_places(&plans, &flow)?;
+        self.check_filled(&plans)?;
+        let mut scene = Scene::new(flow).with_step_size(self.step).advanced_by(self.integrator);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
-            scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
+            scene = scene.with_repulsion(
+                motile_scene::gap::Repulsion::new(strength, range).map_err(motile_scene::FlowError::from)?,
+            );
         }
         if let Some(bound) = self.least_gap {
-            scene = scene.with_least_gap(bound).map_err(ib_core::FlowError::from)?;
+            scene = scene.with_least_gap(bound).map_err(motile_scene::FlowError::from)?;
         }
-        let droplets: Vec<_> = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
-        let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
-        let rigid_bodies = bodies.into_iter().map(|body| scene.add(body)).collect();
-        let shells = shells.into_iter().map(|shell| scene.add(shell)).collect();
+        for (k, plan) in plans.into_iter().enumerate() {
+            (plan.add)(&mut scene).map_err(keyed(k))?;
+        }
+        let droplets: Vec<Handle<ActiveDroplet>> = handles(&scene);
         for (k, (setup, &host)) in self.droplets.iter().zip(&droplets).enumerate() {
             let Ok(droplet) = scene.body(host) else { continue };
             let gel = self.gel(setup, droplet, host).map_err(keyed(k))?;
             let inside = self.particles_inside(setup, droplet, host).map_err(keyed(k))?;
             gel.map(|gel| scene.add(gel));
             inside.map(|inside| scene.add(inside));
+        }
+        let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
+        if self.mirror_symmetric {
+            scene = scene.held_symmetric()?;
         }
         Ok(Built { scene, droplets, solids, rigid_bodies, shells })
     }
@@ -98,19 +89,14 @@ impl Setup {
     /// # Errors
     /// Parameters out of their range.
     pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
-        self.placed(droplet, self.has_layers())
-    }
-
-    /// A droplet, of as many markers as a layer has or as a grid alone needs.
-    fn placed(&self, droplet: &DropletSetup, layers: bool) -> Result<ActiveDroplet, SetupError> {
-        let shape = self.shape(droplet, layers)?;
+        let shape = self.shape(droplet)?;
         let (curve, turned, round) = shape.curve()?;
         let centre = Vec2::new(droplet.centre[0], droplet.centre[1]);
         let placed = |curve: Curve, turned| {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let markers = curve.markers(self.marker_count(&curve, &droplet.name, layers)?)?;
+        let markers = curve.markers(self.marker_count(&curve, &droplet.name)?)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -142,7 +128,7 @@ impl Setup {
         let motion = match droplet.motion {
             MarkerMotion::WithFluid => Motion::WithFluid,
             MarkerMotion::Equidistributed { relaxation } => {
-                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter || layers);
+                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter);
                 Motion::Equidistributed { relaxation, filter }
             }
         };
@@ -153,11 +139,12 @@ impl Setup {
         })
     }
 
-    /// How many markers the outline of a body has, as a layer or on a grid alone.
-    pub(super) fn marker_count(&self, curve: &Curve, name: &str, layers: bool) -> Result<usize, SetupError> {
+    /// How many markers the outline of a body has.
+    pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         Ok(match &self.method {
-            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if layers => *(cells.max(nodes)),
-            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
+            Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
+                *(cells.max(nodes))
+            }
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
@@ -176,31 +163,37 @@ impl Setup {
     /// # Errors
     /// A region that the method does not have, lengths that do not hold a whole number of cells.
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
-        let viscosity = self.viscosity;
-        match (&self.method, self.region) {
-            (Method::Integral(method), region) => self.integrals(method, region),
-            (Method::Grid(_), Region::Plane) => Err(SetupError::Value {
-                key: "region".to_owned(),
-                value: "plane".to_owned(),
-                remedy: "a grid has a box or a channel: give one, or the method of boundary integrals".to_owned(),
-            }),
-            (Method::Grid(grid), Region::Box { lengths: [lx, ly] }) => {
-                let [nx, ny] = self.cells(grid, [lx, ly])?;
-                let solver = PeriodicStokes::new(Grid::periodic(nx, ny, grid.spacing)?, viscosity)?;
-                self.coupled(grid, Box::new(solver))
+        Ok(match &self.method {
+            Method::Integral(method) => self.integrals(method)?,
+            Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => {
+                Box::new(ImmersedLayers::new(self.solver(*spacing)?, *kernel, *nodes, LAYER_TOLERANCE)?)
             }
-            (Method::Grid(grid), Region::Channel { length, width, drive }) => {
-                let [nx, ny] = self.cells(grid, [length, width])?;
-                let mut solver = ChannelStokes::new(Grid::channel(nx, ny, grid.spacing)?, viscosity)?;
-                solver.set_drive(drive)?;
-                self.coupled(grid, Box::new(solver))
+            Method::Grid(grid) => {
+                let solver = self.solver(grid.spacing)?;
+                if grid.corrected {
+                    Box::new(ImmersedBoundary::new(solver, grid.kernel))
+                } else {
+                    Box::new(SmearedContrast::new(solver, grid.kernel)?)
+                }
             }
+        })
+    }
+
+    /// A solver on a grid; boxed, so that methods are compiled once, not once for each kind.
+    fn solver(&self, spacing: f64) -> Result<Box<dyn StokesSolver>, SetupError> {
+        let [nx, ny] = self.cells(spacing, self.region.lengths())?;
+        if let Region::Channel { drive, .. } = self.region {
+            let mut solver = ChannelStokes::new(Grid::channel(nx, ny, spacing)?, self.viscosity)?;
+            solver.set_drive(drive)?;
+            Ok(Box::new(solver))
+        } else {
+            Ok(Box::new(PeriodicStokes::new(Grid::periodic(nx, ny, spacing)?, self.viscosity)?))
         }
     }
 
-    fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod, region: Region) -> Result<AnyFlow, SetupError> {
+    fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod) -> Result<AnyFlow, SetupError> {
         let settings = Settings { nodes, ..Settings::default() };
-        let mut flow = BoundaryIntegral::new(region.geometry(), self.viscosity, settings)?;
+        let mut flow = BoundaryIntegral::new(self.region, self.viscosity, settings)?;
         if !self.rigid.is_empty() {
             flow = flow.with_walls(&self.rigid_walls()?)?;
         }
@@ -216,14 +209,6 @@ impl Setup {
         }))
     }
 
-    /// Whether interfaces and the surfaces of solids are layers, as they are beside rigid bodies and where interfaces
-    /// between different viscosities lie in one another.
-    pub(super) fn has_layers(&self) -> bool {
-        let sharp = matches!(&self.method, Method::Grid(GridMethod { contrast: Contrast::Sharp, .. }));
-        let solids = self.solids.iter().any(|solid| solid.surface == Surface::Layer);
-        !self.rigid_bodies.is_empty() || solids || sharp && self.solids.is_empty() && self.is_nested()
-    }
-
     /// Whether there is fluid of another viscosity than the exterior one.
     pub(super) fn has_contrast(&self) -> bool {
         let inside = self.droplets.iter().map(|droplet| droplet.viscosity);
@@ -231,39 +216,24 @@ impl Setup {
         inside.any(|viscosity| viscosity.is_some_and(|inside| inside != self.viscosity))
     }
 
-    /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
-    fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
-        let differs = self.has_contrast();
-        Ok(if self.has_layers() {
-            Box::new(ImmersedLayers::new(solver, grid.kernel, grid.layers.nodes, LAYER_TOLERANCE)?)
-        } else if differs && grid.contrast == Contrast::Arithmetic {
-            Box::new(SmearedContrast::new(solver, grid.kernel)?)
-        } else if grid.corrected && self.solids.is_empty() {
-            Box::new(ImmersedBoundary::new(solver, grid.kernel))
-        } else {
-            Box::new(ImmersedBoundary::uncorrected(solver, grid.kernel))
-        })
-    }
-
     /// The shape of a droplet at the start: its own, or that of a circle squeezed between walls.
-    fn shape(&self, droplet: &DropletSetup, layers: bool) -> Result<DropletShape, SetupError> {
+    fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
         let [length, width] = self.region.lengths();
         // Walls of solids bound the channel where there are some; they know nothing of a film unless they are
         // layers.
-        let sides = || self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
-        let beside = sides().map(|(solid, side)| {
-            (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Layer { FILM } else { 0.0 })
-        });
-        let exact = layers || matches!(self.method, Method::Integral(_));
+        let sides = || self.solids.iter().filter_map(SolidSetup::side);
+        let exact = self.method.kind() != MethodKind::Grid;
+        let film = if exact { FILM } else { 0.0 };
+        let beside = sides().map(|side| (if side < 0.0 { y - side } else { side - y }, film));
         let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), self.region) {
             (Some((room, film)), _) => (room, film, Squeezed::Stadium),
             (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
             _ => return Ok(droplet.shape.clone()),
         };
-        let below = sides().map(|(_, side)| side).filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);
-        let above = sides().map(|(_, side)| side).filter(|side| *side > 0.0).fold(0.5 * width, f64::min);
+        let below = sides().filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);
+        let above = sides().filter(|side| *side > 0.0).fold(0.5 * width, f64::min);
         let least = radius * (1.0 - 1e-12);
         // Rigid walls of any shape leave what they leave around the middle of the droplet.
         let centre = Vec2::new(droplet.centre[0], y);
@@ -282,6 +252,11 @@ impl Setup {
         }
         Ok(DropletShape::Squeezed { radius, half_height, to })
     }
+}
+
+/// The bodies of a type, in the order in which they were added.
+fn handles<B: Body>(scene: &Scene<AnyFlow>) -> Vec<Handle<B>> {
+    scene.system().bodies().map(|(handle, _)| handle).collect()
 }
 
 /// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.

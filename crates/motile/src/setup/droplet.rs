@@ -3,10 +3,15 @@
 use std::f64::consts::PI;
 
 use active_interface::{ContractileTension, Curve, Exchange, ExcludedVolume, Flux, InterfaceError};
-use ib_core::Vec2;
+use motile_base::Vec2;
 use serde::{Deserialize, Serialize};
 
-use super::GelSetup;
+use super::{
+    GelSetup, MethodKind, Setup,
+    body::{BodySetup, Planned},
+    check::{Checked, MARKERS},
+};
+use crate::SetupError;
 
 /// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
 ///
@@ -47,7 +52,7 @@ impl Default for DropletSetup {
     /// An active droplet of activity -2 and radius 1 in the origin.
     fn default() -> Self {
         Self {
-            name: Self::NAME.to_owned(),
+            name: "droplet".to_owned(),
             centre: [0.0, 0.0],
             angle: 0.0,
             viscosity: None,
@@ -62,9 +67,6 @@ impl Default for DropletSetup {
 }
 
 impl DropletSetup {
-    /// Its name unless it has one of its own.
-    pub(super) const NAME: &str = "droplet";
-
     /// The default droplet with this activity zeta delta-mu (force times length; negative if contractile).
     #[must_use]
     pub fn active(activity: f64) -> Self {
@@ -198,6 +200,7 @@ impl ExchangeSetup {
 /// Excluded volume of the particles.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Exclusion {
     /// None: particles of negative activity collapse.
     None,
@@ -210,6 +213,7 @@ pub enum Exclusion {
 /// How the particles are spread over the interface at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Start {
     /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle`, Cowley (2.46).
     Polarised,
@@ -247,6 +251,7 @@ impl Default for MarkerMotion {
 /// The shape of a droplet at the start, about its centre.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
+#[non_exhaustive]
 pub enum DropletShape {
     /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of
     /// a twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
@@ -326,4 +331,107 @@ impl DropletShape {
 /// circle.
 fn straight(radius: f64, half: f64) -> f64 {
     0.25 * PI * (radius * radius - half * half) / half
+}
+
+impl BodySetup for DropletSetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["droplets", "droplet"]
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
+        self.gel.map(|_| ("gels", &[MethodKind::Layers, MethodKind::Grid][..]))
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
+        Ok(Planned::of(setup.droplet(self)?))
+    }
+
+    fn check(&self, checked: &Checked<'_>, _: &Setup) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("tension", self.tension)?;
+        if let MarkerMotion::Equidistributed { relaxation } = self.motion {
+            checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
+        }
+        self.shape.check(checked)?;
+        self.gel.map_or(Ok(()), |gel| gel.check(checked, self))?;
+        let Some(particles) = &self.particles else { return Ok(()) };
+        checked.finite("particles.activity", particles.activity)?;
+        checked.not_negative("particles.diffusion", particles.diffusion)?;
+        checked.positive("particles.concentration", particles.concentration)?;
+        let (key, tension) = ("particles.activity", particles.activity * particles.concentration);
+        let remedy = "the tension that it makes at the mean concentration is not finite: give less";
+        checked.require(tension.is_finite(), key, particles.activity, remedy)?;
+        match particles.excluded_volume {
+            Exclusion::None => {}
+            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
+            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+        }
+        if let Some(ExchangeSetup { binding, unbinding, number_inside, diffusion_inside, spacing_inside }) =
+            particles.exchange
+        {
+            checked.not_negative("particles.exchange.binding", binding)?;
+            checked.not_negative("particles.exchange.unbinding", unbinding)?;
+            let inside = [("diffusion-inside", diffusion_inside), ("spacing-inside", spacing_inside)];
+            for (key, value) in inside.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+                checked.positive(&format!("particles.exchange.{key}"), value)?;
+            }
+            if diffusion_inside.is_some() && self.motion == MarkerMotion::WithFluid {
+                let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
+                checked.refuse("motion", &"with-fluid", remedy)?;
+            }
+            let key = "particles.exchange.number-inside";
+            match number_inside {
+                Some(number) => checked.not_negative(key, number)?,
+                None => {
+                    let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+                    checked.require(
+                        binding > 0.0 || unbinding == 0.0,
+                        "particles.exchange.binding",
+                        binding,
+                        remedy,
+                    )?;
+                }
+            }
+        }
+        let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
+        let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
+        checked.require(holds, key, amplitude, "give a number from 0 to below 1")
+    }
+}
+
+impl DropletShape {
+    pub(super) fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        match self {
+            Self::Round { radius } => checked.positive("shape.round.radius", *radius),
+            Self::Squeezed { radius, half_height, .. } => {
+                checked.positive("shape.squeezed.radius", *radius)?;
+                checked.positive("shape.squeezed.half-height", *half_height)?;
+                let (key, remedy) = ("shape.squeezed.half-height", "give less than the radius");
+                checked.require(half_height <= radius, key, *half_height, remedy)
+            }
+            Self::Ellipse { half_axes } => {
+                half_axes.iter().try_for_each(|&axis| checked.positive("shape.ellipse.half-axes", axis))
+            }
+            Self::Modes { radius, cosines, sines } => {
+                checked.positive("shape.modes.radius", *radius)?;
+                checked.all_finite("shape.modes.cosines", cosines)?;
+                checked.all_finite("shape.modes.sines", sines)
+            }
+            Self::Points(points) => {
+                if points.len() < 8 || points.len() as f64 > MARKERS[1] {
+                    let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
+                    checked.refuse("shape.points", &format!("{} points", points.len()), remedy)?;
+                }
+                checked.all_finite("shape.points", points.as_flattened())
+            }
+        }
+    }
 }

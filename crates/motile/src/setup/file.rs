@@ -5,11 +5,11 @@ use crate::SetupError;
 
 impl Setup {
     /// The description in a TOML text. What is left out is as in [`Setup::default`] and
-    /// [`crate::DropletSetup::default`], but droplets that are not named are not there. A droplet is active unless it
-    /// says `particles = "none"`.
+    /// [`crate::setup::DropletSetup::default`], but droplets that are not named are not there. A droplet is active
+    /// unless it says `particles = "none"`.
     ///
     /// ```
-    /// use motile::Setup;
+    /// use motile::setup::Setup;
     ///
     /// let text = "viscosity = 50.0\n[[droplets]]\ncentre = [0.5, 0.0]\nparticles.activity = -3.0\n";
     /// let setup = Setup::from_toml(text)?;
@@ -21,9 +21,13 @@ impl Setup {
     ///
     /// # Errors
     /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line),
-    /// and what [`Setup::check`] refuses.
+    /// keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
-        let setup: Self = toml::from_str(text).map_err(|error| SetupError::File { problem: error.to_string() })?;
+        let problem = |error: toml::de::Error| match replaced(text) {
+            Some(error) => error,
+            None => SetupError::File { problem: error.to_string() },
+        };
+        let setup: Self = toml::from_str(text).map_err(problem)?;
         setup.check()?;
         Ok(setup)
     }
@@ -37,4 +41,24 @@ impl Setup {
         let table = toml::Table::try_from(self).map_err(|error| SetupError::File { problem: error.to_string() })?;
         Ok(table.to_string())
     }
+}
+
+/// The first key of an earlier version in a text, and what has taken its place.
+fn replaced(text: &str) -> Option<SetupError> {
+    let table: toml::Table = text.parse().ok()?;
+    let entry = |list: &str, key: &str| {
+        let entries = table.get(list)?.as_array()?.iter().enumerate();
+        let mut found =
+            entries.filter_map(|(number, entry)| Some((format!("{list}[{number}].{key}"), entry.get(key)?)));
+        found.next()
+    };
+    let grid = |key: &str| Some((format!("method.grid.{key}"), table.get("method")?.get("grid")?.get(key)?));
+    let surface = "where surfaces of solids are layers the method is [method.layers], where they are plain [method.grid] \
+                   with corrected = false: take the entry away";
+    let contrast = "a sharp contrast is computed by [method.integral] or [method.layers], an arithmetic one by \
+                    [method.grid] with corrected = false: take the entry away";
+    let layers = "give nodes and cells in [method.layers]";
+    let found = [(grid("contrast"), contrast), (grid("layers"), layers), (entry("solids", "surface"), surface)];
+    let ((key, value), remedy) = found.into_iter().find_map(|(found, remedy)| Some((found?, remedy)))?;
+    Some(SetupError::Value { key, value: value.to_string(), remedy: remedy.to_owned() })
 }

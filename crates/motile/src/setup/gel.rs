@@ -1,15 +1,16 @@
 //! Descriptions of gels inside droplets.
 
-use ib_core::{Handle, Vec2};
 use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
+use motile_base::Vec2;
+use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
 use super::check::Checked;
-use super::{DropletSetup, ExchangeSetup, MarkerMotion, Method, Particles, Setup};
+use super::{DropletSetup, ExchangeSetup, MarkerMotion, Particles, Setup, body::Planned};
 use crate::SetupError;
 
-/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid without
-/// layers: beside elastic solids those of plain surfaces ([`crate::Surface::Plain`]).
+/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid:
+/// the methods [`crate::setup::Method::Layers`] and [`crate::setup::Method::Grid`].
 ///
 /// ```
 /// use motile::interior_fields::GelMaterial;
@@ -83,19 +84,19 @@ impl Setup {
         droplet: &active_interface::ActiveDroplet,
         host: Handle<active_interface::ActiveDroplet>,
     ) -> Result<Option<GelInDroplet>, SetupError> {
-        let (Some(gel), Method::Grid(grid)) = (&setup.gel, &self.method) else { return Ok(None) };
+        let (Some(gel), Some(grid)) = (&setup.gel, self.method.spacing()) else { return Ok(None) };
         let start = match gel.start {
             DirectorStart::Uniform { angle, noise, seed } => {
                 DirectorStart::Uniform { angle: angle + setup.angle, noise, seed }
             }
             start => start,
         };
-        let spacing = gel.spacing.unwrap_or(grid.spacing);
+        let spacing = gel.spacing.unwrap_or(grid);
         Ok(Some(GelInDroplet::new(droplet, host, gel.material, gel.anchoring, &start, spacing)?))
     }
 
-    /// Refuses bodies inside droplets that gels or diffusing particles fill, given points of all bodies in their order.
-    pub(super) fn check_filled(&self, bodies: &[&[Vec2]]) -> Result<(), SetupError> {
+    /// Refuses bodies inside droplets that gels or diffusing particles fill, given all bodies in their order.
+    pub(super) fn check_filled(&self, bodies: &[Planned<'_>]) -> Result<(), SetupError> {
         let filled = |droplet: &DropletSetup| match (&droplet.gel, &droplet.particles) {
             (Some(_), _) => Some(("gel", "a gel")),
             (None, Some(Particles { exchange: Some(ExchangeSetup { diffusion_inside: Some(_), .. }), .. })) => {
@@ -106,7 +107,8 @@ impl Setup {
         for (number, droplet) in self.droplets.iter().enumerate() {
             let Some((entry, value)) = filled(droplet) else { continue };
             let other = (0..bodies.len()).find(|&other| {
-                other != number && bodies[other].first().is_some_and(|point| is_inside(*point, bodies[number]))
+                other != number
+                    && bodies[other].corners.first().is_some_and(|point| is_inside(*point, &bodies[number].corners))
             });
             if let Some(other) = other {
                 let remedy = format!(

@@ -1,10 +1,10 @@
 //! Particles inside droplets.
 
 use active_interface::ActiveDroplet;
-use ib_core::Handle;
 use interior_fields::ParticlesInDroplet;
+use motile_scene::Handle;
 
-use super::{DropletSetup, Method, Setup};
+use super::{DropletSetup, Setup};
 use crate::SetupError;
 
 /// Spacing of a mesh over that of the markers where there is no grid.
@@ -23,10 +23,8 @@ impl Setup {
         };
         let Some(diffusion) = exchange.diffusion_inside else { return Ok(None) };
         let density = exchange.number(particles.concentration, droplet.initial_area())? / droplet.initial_area();
-        let spacing = exchange.spacing_inside.unwrap_or_else(|| match &self.method {
-            Method::Grid(grid) => grid.spacing,
-            Method::Integral(_) => MARKERS_APART * droplet.segment_lengths()[0],
-        });
+        let grid = || self.method.spacing().unwrap_or(MARKERS_APART * droplet.segment_lengths()[0]);
+        let spacing = exchange.spacing_inside.unwrap_or_else(grid);
         Ok(Some(ParticlesInDroplet::new(droplet, host, exchange.rates()?, diffusion, |_| density, spacing)?))
     }
 }

@@ -3,14 +3,30 @@
 use ib_core::AnyKernel;
 use serde::{Deserialize, Serialize};
 
-/// How velocities come from forces.
+use super::check::{Checked, MARKERS};
+use crate::SetupError;
+
+/// How velocities come from forces. What a method cannot compute is refused with the ones that can.
+///
+/// | | integral | layers | grid |
+/// |---|---|---|---|
+/// | region | plane, box, channel | box, channel | box, channel |
+/// | droplets, shells | spectral | spectral | second order, uncorrected first |
+/// | in one another, of other viscosities | spectral | spectral | first order, uncorrected |
+/// | rigid bodies | spectral | spectral | |
+/// | rigid walls of any shape | spectral | | |
+/// | elastic solids | | surface exact, second order | first order, uncorrected |
+/// | gels | | second order | second order, uncorrected first |
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Method {
-    /// Boundary integrals ([`boundary_integral`]): no grid, spectrally accurate; for scenes of interfaces only.
+    /// Boundary integrals ([`boundary_integral`]): no grid, spectrally accurate.
     Integral(IntegralMethod),
-    /// The immersed boundary method on a grid ([`ib_core`]): second order in the grid spacing; for any scene in a box
-    /// or a channel.
+    /// Interfaces and the surfaces of solids as layers, which are exact among each other, and the inner points of
+    /// solids on a grid ([`ib_core::ImmersedLayers`]). Without solids the same as boundary integrals.
+    Layers(LayersMethod),
+    /// The immersed boundary method on a grid ([`ib_core::ImmersedBoundary`], [`ib_core::SmearedContrast`]).
     Grid(GridMethod),
 }
 
@@ -21,23 +37,58 @@ impl Default for Method {
 }
 
 impl Method {
-    /// Which method it is, whatever its settings.
+    /// The method, whatever its settings.
     #[must_use]
     pub fn kind(&self) -> MethodKind {
         match self {
             Self::Integral(_) => MethodKind::Integral,
+            Self::Layers(_) => MethodKind::Layers,
             Self::Grid(_) => MethodKind::Grid,
+        }
+    }
+
+    /// Grid spacing h (length); `None` without a grid.
+    #[must_use]
+    pub fn spacing(&self) -> Option<f64> {
+        match self {
+            Self::Integral(_) => None,
+            Self::Layers(layers) => Some(layers.spacing),
+            Self::Grid(grid) => Some(grid.spacing),
         }
     }
 }
 
 /// A method without its settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MethodKind {
     /// Boundary integrals.
     Integral,
+    /// Layers beside a grid for the inner points of solids.
+    Layers,
     /// Immersed boundaries on a grid.
     Grid,
+}
+
+impl MethodKind {
+    /// Its name on the command line and in summaries.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Integral => "boundary-integral",
+            Self::Layers => "layers",
+            Self::Grid => "immersed-boundary",
+        }
+    }
+
+    /// Its key in a description.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::Integral => "integral",
+            Self::Layers => "layers",
+            Self::Grid => "grid",
+        }
+    }
 }
 
 /// Resolution of boundary integrals.
@@ -67,7 +118,45 @@ impl Default for IntegralMethod {
     }
 }
 
+/// Resolution of layers, and of the grid beside them.
+///
+/// The points of solids on a surface are its nodes, 16 or more; inner points are two or more grid spacings apart. A
+/// round droplet that would start in contact with walls starts squeezed a little, beside a film.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LayersMethod {
+    /// Nodes of an interface's shape, 16 to 4096.
+    pub nodes: usize,
+    /// Cells of the concentration along an interface, which are its markers; at least as many as nodes.
+    pub cells: usize,
+    /// Grid spacing h (length); the lengths of the region are whole numbers of it. The grid sees the inner points of
+    /// solids and other points with forces on them.
+    pub spacing: f64,
+    /// Regularised delta function: a composite B-spline, beside which solids keep their volume.
+    pub kernel: AnyKernel,
+}
+
+impl Default for LayersMethod {
+    fn default() -> Self {
+        let IntegralMethod { nodes, cells } = IntegralMethod::default();
+        Self { nodes, cells, spacing: 0.05, kernel: AnyKernel::BSpline4 }
+    }
+}
+
+impl LayersMethod {
+    /// The default beside a grid of this spacing (length).
+    #[must_use]
+    pub fn of_spacing(spacing: f64) -> Self {
+        Self { spacing, ..Self::default() }
+    }
+}
+
 /// The immersed boundary method.
+///
+/// Fluid of other viscosities is a smooth viscosity field (Cowley section 2.2.4, [`ib_core::SmearedContrast`]), and the
+/// surface of a solid is smeared over the grid like all its points, as in Cowley: a stiff surface stops the fluid 0.31
+/// to 0.44 grid spacings in front of it (with the default kernel). Both are of first order, and neither has a mobility
+/// correction; [`Method::Layers`] is more accurate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GridMethod {
@@ -78,47 +167,24 @@ pub struct GridMethod {
     /// Regularised delta function.
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
-    /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
-    /// Concerns scenes without layers only.
+    /// equal spacing ([`crate::setup::MarkerMotion::Equidistributed`]) and one viscosity, and is refused beside solids.
     pub corrected: bool,
     /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
-    /// grow in long runs. Concerns markers of equal spacing only.
+    /// grow in long runs. Needs markers of equal spacing.
     pub filter: bool,
-    /// How interfaces between fluids of different viscosity are treated.
-    pub contrast: Contrast,
-    /// Resolution of interfaces where they are layers: where surfaces of solids are ([`crate::Surface::Layer`]), beside
-    /// rigid bodies, and where interfaces between different viscosities lie in one another. Takes the place of
-    /// corrections, filter and marker spacing; of the spacing h, scenes without solids then have nothing to see.
-    /// Concerns no other scenes.
-    pub layers: IntegralMethod,
 }
 
 impl Default for GridMethod {
     fn default() -> Self {
-        Self {
-            spacing: 0.05,
-            marker_spacing: None,
-            kernel: AnyKernel::BSpline4,
-            corrected: true,
-            filter: true,
-            contrast: Contrast::Sharp,
-            layers: IntegralMethod::default(),
-        }
+        Self { spacing: 0.05, marker_spacing: None, kernel: AnyKernel::BSpline4, corrected: true, filter: true }
     }
 }
 
 impl GridMethod {
-    /// Cowley's grid: Peskin's 4-point function, no mobility correction, a smooth viscosity field, h = 0.05, markers
-    /// h/2 apart.
+    /// Cowley's grid: Peskin's 4-point function, no mobility correction, h = 0.05, markers h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
-        Self {
-            kernel: AnyKernel::Peskin4,
-            corrected: false,
-            filter: false,
-            contrast: Contrast::Arithmetic,
-            ..Self::default()
-        }
+        Self { kernel: AnyKernel::Peskin4, corrected: false, filter: false, ..Self::default() }
     }
 
     /// The default on a grid of this spacing (length).
@@ -126,16 +192,26 @@ impl GridMethod {
     pub fn of_spacing(spacing: f64) -> Self {
         Self { spacing, ..Self::default() }
     }
+
+    /// The method without the mobility correction, as viscosity contrasts and solids need it, on a grid of this spacing
+    /// (length).
+    #[must_use]
+    pub fn uncorrected(spacing: f64) -> Self {
+        Self { corrected: false, ..Self::of_spacing(spacing) }
+    }
 }
 
-/// How the immersed boundary method treats an interface between fluids of different viscosity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Contrast {
-    /// A jump, by a double layer on the interface ([`ib_core::ImmersedBoundary`]): second order in the grid spacing.
-    #[default]
-    Sharp,
-    /// A smooth viscosity field, Cowley section 2.2.4 ([`ib_core::SmearedContrast`]): first order, without mobility
-    /// correction.
-    Arithmetic,
+impl IntegralMethod {
+    pub(super) fn check(&self, place: &str) -> Result<(), SetupError> {
+        let (checked, Self { nodes, cells }) = (Checked { place }, *self);
+        let [least, most] = Self::NODES;
+        if !(least..=most).contains(&nodes) {
+            checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
+        }
+        if cells < nodes || cells as f64 > MARKERS[1] {
+            let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
+            checked.refuse("cells", &cells, remedy)?;
+        }
+        Ok(())
+    }
 }

@@ -1,16 +1,16 @@
-//! A scene as data.
+//! Descriptions: scenes as data, checked before any work.
 
+mod body;
 mod build;
 mod check;
 mod droplet;
-#[cfg(feature = "serde")]
+#[cfg(feature = "toml")]
 mod file;
 mod gel;
 mod inside;
 mod method;
 mod particles_entry;
 mod places;
-mod region;
 mod rigid;
 mod rigid_body;
 mod shell;
@@ -19,20 +19,21 @@ mod solid;
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, MarkerMotion, Particles, Squeezed, Start};
 pub use gel::GelSetup;
-pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
-pub use region::Region;
+pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use rigid::RigidSetup;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
-pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup, Surface};
+pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup};
 
-use ib_core::StepSize;
+use body::{BodySetup, numbered};
+use motile_base::Region;
+use motile_scene::{StepSize, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 
 /// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
 ///
 /// Descriptions are plain structs and enums: they are written as literals, compared, printed, cloned, and with the
-/// feature `serde` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only
+/// feature `toml` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only
 /// one method needs stands inside that method's variant. Quantities may have any consistent units; those of the
 /// defaults are R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
 ///
@@ -70,18 +71,23 @@ pub struct Setup {
     pub viscosity: f64,
     /// How long the steps of runs are.
     pub step: StepSize,
+    /// What takes the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids.
+    pub integrator: IntegratorKind,
     /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
     /// thinner than is resolved; no part of the physics of the model.
     pub repulsion: Option<RepulsionSetup>,
-    /// A bound on gaps (length), below which a run ends ([`ib_core::Scene::with_least_gap`]).
+    /// A bound on gaps (length), below which a run ends ([`motile_scene::Scene::with_least_gap`]).
     pub least_gap: Option<f64>,
+    /// Whether the scene, which has to be its own mirror image in y = 0, is held so
+    /// ([`motile_scene::Scene::held_symmetric`]): the symmetric path is then computed even where it is unstable.
+    pub mirror_symmetric: bool,
     /// The droplets; a file that names none has none.
     #[serde(default)]
     pub droplets: Vec<DropletSetup>,
     /// The elastic solids: walls, islands, nuclei.
     #[serde(default)]
     pub solids: Vec<SolidSetup>,
-    /// Rigid bodies that the fluid carries along: nuclei, particles. On a grid interfaces are then layers.
+    /// Rigid bodies that the fluid carries along: nuclei, particles.
     #[serde(default)]
     pub rigid_bodies: Vec<RigidBodySetup>,
     /// Elastic membranes around fluid: shells of nuclei, capsules.
@@ -92,7 +98,7 @@ pub struct Setup {
     pub rigid: Vec<RigidSetup>,
 }
 
-/// A short-range repulsion between interfaces, solids and walls (see [`ib_core::Repulsion`]).
+/// A short-range repulsion between interfaces, solids and walls (see [`motile_scene::gap::Repulsion`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RepulsionSetup {
@@ -106,12 +112,14 @@ impl Default for Setup {
     /// One droplet of activity -2 in a box of 6 x 6, viscosity 100, by boundary integrals.
     fn default() -> Self {
         Self {
-            region: Region::default(),
+            region: Region::Box { lengths: [6.0, 6.0] },
             method: Method::default(),
             viscosity: 100.0,
             step: StepSize::default(),
+            integrator: IntegratorKind::default(),
             repulsion: None,
             least_gap: None,
+            mirror_symmetric: false,
             droplets: vec![DropletSetup::default()],
             solids: Vec::new(),
             rigid_bodies: Vec::new(),
@@ -135,11 +143,18 @@ impl Setup {
         }
     }
 
+    /// All bodies with their numbers in their lists, in the order in which they are added to the scene.
+    fn bodies(&self) -> impl Iterator<Item = (usize, &dyn BodySetup)> {
+        let bodies = numbered(&self.droplets).chain(numbered(&self.solids));
+        bodies.chain(numbered(&self.rigid_bodies)).chain(numbered(&self.shells))
+    }
+
     /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not
     /// different time steps: what checkpoints bear to say which scene they are of. FNV-1a of the printed description.
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        let printed = format!("{:?}", Self { step: StepSize::default(), ..self.clone() });
+        let printed =
+            format!("{:?}", Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() });
         let hash = printed
             .bytes()
             .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));

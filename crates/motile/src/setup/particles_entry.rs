@@ -5,7 +5,7 @@ use std::fmt;
 use serde::de::{Error, MapAccess, Unexpected, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::Particles;
+use crate::setup::Particles;
 
 const NONE: &str = "none";
 

@@ -1,12 +1,12 @@
 //! Descriptions of rigid walls and obstacles.
 
 use boundary_integral::RigidWall;
-use elastic_solids::{Outline, channel::ChannelShape};
-use ib_core::gap::Boundary;
-use ib_core::{Hydrodynamics, Vec2};
+use elastic_solids::{ChannelShape, Outline};
+use motile_base::{Region, Vec2};
+use motile_scene::{Hydrodynamics, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
-use super::{Setup, SolidOutline};
+use super::{Setup, SolidOutline, check::Checked};
 use crate::SetupError;
 
 /// Points per node by which corners are rounded.
@@ -107,6 +107,19 @@ fn points(outline: &Outline, count: usize) -> Result<Vec<Vec2>, SetupError> {
     Ok(points)
 }
 
+impl RigidSetup {
+    pub(super) fn check(&self, place: &str, setup: &Setup) -> Result<(), SetupError> {
+        let checked = Checked { place };
+        checked.positive("spacing", self.spacing)?;
+        checked.not_negative("rounding", self.rounding)?;
+        if !matches!(setup.region, Region::Channel { .. }) {
+            let remedy = "rigid walls stand in a channel, wider than they are: give such a region";
+            checked.refuse("outline", &"a rigid wall", remedy)?;
+        }
+        Ok(())
+    }
+}
+
 impl Setup {
     /// The rigid walls of this scene, for scenes that are put together by hand.
     ///
@@ -120,7 +133,7 @@ impl Setup {
 
     /// Refuses a droplet that starts beyond a rigid wall.
     pub(super) fn check_walls(&self, key: &str, markers: &[Vec2], flow: &dyn Hydrodynamics) -> Result<(), SetupError> {
-        let periods = flow.discretisation().domain.periods;
+        let periods = flow.fluid_view().domain.periods;
         let Some((gap, marker)) = flow.walls().and_then(|walls| walls.smallest(markers, periods)) else {
             return Ok(());
         };

@@ -1,10 +1,14 @@
 //! Descriptions of rigid bodies that move.
 
 use elastic_solids::RigidBody;
-use ib_core::Vec2;
+use motile_base::{Region, Vec2};
 use serde::{Deserialize, Serialize};
 
-use super::{DropletShape, Setup};
+use super::{
+    DropletShape, MethodKind, Setup,
+    body::{BodySetup, Planned},
+    check::Checked,
+};
 use crate::SetupError;
 
 /// A rigid body that the fluid carries along, alone or inside a droplet: a nucleus.
@@ -42,23 +46,46 @@ impl Default for RigidBodySetup {
     /// A disc of radius 0.5 in the origin.
     fn default() -> Self {
         let shape = DropletShape::Round { radius: 0.5 };
-        Self { name: Self::NAME.to_owned(), centre: [0.0; 2], angle: 0.0, shape, force: [0.0; 2], torque: 0.0 }
+        Self { name: "rigid body".to_owned(), centre: [0.0; 2], angle: 0.0, shape, force: [0.0; 2], torque: 0.0 }
     }
 }
 
 impl RigidBodySetup {
-    /// Its name unless it has one of its own.
-    pub(super) const NAME: &str = "rigid body";
-
     /// A disc of that radius (length) in the origin.
     #[must_use]
     pub fn disc(radius: f64) -> Self {
         Self { shape: DropletShape::Round { radius }, ..Self::default() }
     }
+}
 
-    pub(super) fn build(&self, setup: &Setup) -> Result<RigidBody, SetupError> {
+impl BodySetup for RigidBodySetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["rigid-bodies", "rigid body"]
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
+        Some(("rigid bodies", &[MethodKind::Integral, MethodKind::Layers]))
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
         let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
-        let markers = curve.markers(setup.marker_count(&curve, &self.name, true)?)?;
-        Ok(RigidBody::new(&markers)?.named(&self.name).with_load(Vec2::from(self.force), self.torque)?)
+        let markers = curve.markers(setup.marker_count(&curve, &self.name)?)?;
+        Ok(Planned::of(RigidBody::new(&markers)?.named(&self.name).with_load(Vec2::from(self.force), self.torque)?))
+    }
+
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        checked.all_finite("force", &self.force)?;
+        checked.finite("torque", self.torque)?;
+        for &force in self.force.iter().filter(|_| setup.region == Region::Plane) {
+            let remedy = "in the plane nothing holds a fluid that is pushed: give 0, or a box or a channel";
+            checked.require(force == 0.0, "force", force, remedy)?;
+        }
+        self.shape.check(checked)
     }
 }

@@ -3,7 +3,11 @@
 use elastic_solids::{BendingMeasure, Shell};
 use serde::{Deserialize, Serialize};
 
-use super::{DropletShape, Setup};
+use super::{
+    DropletShape, Setup,
+    body::{BodySetup, Planned},
+    check::Checked,
+};
 use crate::SetupError;
 
 /// A closed elastic membrane around fluid: the shell of a nucleus in a droplet, or a capsule. It is at rest in the
@@ -35,7 +39,7 @@ impl Default for ShellSetup {
     /// A circle of radius 0.5 in the origin.
     fn default() -> Self {
         Self {
-            name: Self::NAME.to_owned(),
+            name: "shell".to_owned(),
             centre: [0.0; 2],
             angle: 0.0,
             viscosity: None,
@@ -48,13 +52,18 @@ impl Default for ShellSetup {
     }
 }
 
-impl ShellSetup {
-    /// Its name unless it has one of its own.
-    pub(super) const NAME: &str = "shell";
+impl BodySetup for ShellSetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["shells", "shell"]
+    }
 
-    pub(super) fn build(&self, setup: &Setup, layers: bool) -> Result<Shell, SetupError> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
         let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
-        let markers = curve.markers(setup.marker_count(&curve, &self.name, layers)?)?;
+        let markers = curve.markers(setup.marker_count(&curve, &self.name)?)?;
         let mut shell = Shell::new(&markers, self.stretching, self.bending)?.named(&self.name);
         if let Some(curvature) = self.reference_curvature {
             shell = shell.with_reference_curvature(curvature)?;
@@ -62,6 +71,20 @@ impl ShellSetup {
         if let Some(viscosity) = self.viscosity {
             shell = shell.with_viscosity_inside(viscosity)?;
         }
-        Ok(shell.with_measure(self.measure))
+        Ok(Planned::of(shell.with_measure(self.measure)))
+    }
+
+    fn check(&self, checked: &Checked<'_>, _: &Setup) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("stretching", self.stretching)?;
+        checked.not_negative("bending", self.bending)?;
+        if let Some(curvature) = self.reference_curvature {
+            checked.finite("reference-curvature", curvature)?;
+        }
+        self.shape.check(checked)
     }
 }

@@ -1,12 +1,18 @@
 //! Descriptions of elastic solids.
 
-use elastic_solids::channel::ChannelShape;
-use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
-use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh};
-use ib_core::Vec2;
+use elastic_solids::ChannelShape;
+use elastic_solids::mesh::TriangleMesh;
+use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
+use elastic_solids::{MooneyRivlin, SaintVenantKirchhoff};
+use motile_base::{Region, Vec2};
+use motile_scene::{MarkerKind, Scene};
 use serde::{Deserialize, Serialize};
 
-use super::{GridMethod, Method, Region, Setup};
+use super::{
+    AnyFlow, Method, MethodKind, Setup,
+    body::{BodySetup, Planned},
+    check::Checked,
+};
 use crate::SetupError;
 
 /// An elastic solid in the fluid: a wall, an island, a nucleus.
@@ -21,7 +27,7 @@ use crate::SetupError;
 /// let solids = walls.into_iter().map(|wall| SolidSetup { grading: grading.clone(), ..wall }).collect();
 /// let setup = Setup {
 ///     region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
-///     method: Method::Grid(GridMethod::of_spacing(0.1)),
+///     method: Method::Layers(LayersMethod::of_spacing(0.1)),
 ///     droplets: vec![DropletSetup::active(-4.0)],
 ///     solids,
 ///     ..Setup::default()
@@ -42,15 +48,13 @@ pub struct SolidSetup {
     /// How its points are arranged.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length), on a finer surface half of that; `None` for that of the grid, twice that with a
-    /// layer.
+    /// Spacing of its points (length), on a finer surface half of that; `None` for that of the grid, among layers twice
+    /// that.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
-    /// How its surface meets the fluid.
-    #[serde(default)]
-    pub surface: Surface,
-    /// Whether a surface that is a layer has a point more in the middle of each side: more accurate beside thin films,
-    /// but it folds where it is compressed by a third along itself, springs first; `None` for all but springs.
+    /// Whether its surface has a point more in the middle of each side: more accurate beside thin films, but it folds
+    /// where it is compressed by a third along itself, springs first; `None` for all but springs among layers, and for
+    /// none on a grid.
     #[serde(default)]
     pub finer_surface: Option<bool>,
     /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
@@ -83,12 +87,13 @@ pub struct SkinSetup {
 }
 
 fn solid_name() -> String {
-    SolidSetup::NAME.to_owned()
+    "solid".to_owned()
 }
 
 /// Outlines of solids, in their reference state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
+#[non_exhaustive]
 pub enum SolidOutline {
     /// The wall from the lower rigid wall of the region up to the lower side of a channel.
     WallBelow(ChannelShape),
@@ -128,6 +133,7 @@ pub enum SolidOutline {
 /// What a solid is made of. Moduli are those of the plane (force per length).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Material {
     /// Springs along the edges of the mesh (Cowley section 4.1); their bulk modulus is twice the shear modulus.
     Springs {
@@ -162,6 +168,7 @@ pub enum Material {
 /// Moduli as a function of the reference position: a factor on all moduli of the material.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Grading {
     /// The same everywhere.
     #[default]
@@ -188,6 +195,7 @@ pub enum Axis {
 /// How the points of a solid are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum MeshKind {
     /// Equilateral triangles where the shape allows it, as in a straight wall.
     #[default]
@@ -196,24 +204,10 @@ pub enum MeshKind {
     Unstructured,
 }
 
-/// How the surface of a solid meets the fluid; the same for all solids of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Surface {
-    /// As a layer, where it is and exact in films ([`ib_core::ImmersedLayers`]), beside interfaces that are layers of
-    /// the resolution [`GridMethod::layers`]. Needs a composite B-spline, inner points two or more grid spacings apart,
-    /// 16 or more points on the surface and a sharp contrast where viscosities differ. A round droplet that would start
-    /// in contact with walls starts squeezed a little, beside a film.
-    #[default]
-    Layer,
-    /// Smeared over the grid like all points, as in Cowley: a stiff surface stops the fluid 0.31 to 0.44 grid spacings
-    /// in front of it (with the default kernel).
-    Plain,
-}
-
 /// How a solid is held in place.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Hold {
     /// By the rigid walls of the region, to which its outermost row of points is pinned.
     #[default]
@@ -227,18 +221,19 @@ pub enum Hold {
     Free,
 }
 
+/// Largest length over the spacing of its points that a solid may have.
+const MOST_ACROSS: f64 = 1e5;
 /// Angle by which the seeds of unstructured meshes are turned (radians).
 const TURN: f64 = 0.2;
 
 impl SolidSetup {
-    /// A solid that is pinned to the rigid walls of the region, its surface a layer.
+    /// A solid that is pinned to the rigid walls of the region.
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
-            name: Self::NAME.to_owned(),
+            name: "solid".to_owned(),
             mesh: MeshKind::default(),
             mesh_spacing: None,
-            surface: Surface::default(),
             finer_surface: None,
             may_invert: false,
             hold: Hold::default(),
@@ -267,19 +262,19 @@ impl SolidSetup {
     }
 
     /// The same by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
-    /// springs), a surface that is smeared over the grid, and triangles may be inverted.
+    /// springs), and triangles may be inverted. For [`Method::Grid`], which smears the surface over the grid.
     #[must_use]
     pub fn thesis(self) -> Self {
-        Self { mesh: MeshKind::Unstructured, surface: Surface::Plain, may_invert: true, ..self }
+        Self { mesh: MeshKind::Unstructured, may_invert: true, ..self }
     }
 
-    /// What makes the mesh of this solid on a grid.
+    /// The mesher of this solid in a scene.
     ///
     /// # Errors
-    /// A spacing that is no length.
-    pub fn mesher(&self, grid: &GridMethod) -> Result<Mesher, SetupError> {
-        let usual = if self.surface == Surface::Layer { 2.0 * grid.spacing } else { grid.spacing };
-        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(usual))?;
+    /// A spacing that is no length; a scene without a grid.
+    pub fn mesher(&self, setup: &Setup) -> Result<Mesher, SetupError> {
+        setup.able(self)?;
+        let mesher = Mesher::new(self.spacing(setup))?;
         Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
     }
 
@@ -287,11 +282,12 @@ impl SolidSetup {
     ///
     /// # Errors
     /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region.
-    pub fn on_mesh(&self, mesh: TriangleMesh, region: &Region) -> Result<Solid, SetupError> {
-        let half = 0.5 * region.lengths()[1];
+    pub fn on_mesh(&self, mesh: TriangleMesh, setup: &Setup) -> Result<Solid, SetupError> {
+        let half = 0.5 * setup.region.lengths()[1];
         let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
         let springs = matches!(self.material, Material::Springs { .. });
-        let finer = self.surface == Surface::Layer && self.finer_surface.unwrap_or(!springs);
+        let layers = setup.method.kind() == MethodKind::Layers;
+        let finer = self.finer_surface.unwrap_or(layers && !springs);
         let mesh = if finer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
         let share = mesh.area() / mesh.points().len() as f64;
         let mut solid = self.at_rest(mesh)?.named(&self.name);
@@ -308,15 +304,14 @@ impl SolidSetup {
 }
 
 impl SolidSetup {
-    /// Its name unless it has one of its own.
-    pub(super) const NAME: &str = "solid";
-
-    /// The solid of this description in a scene.
-    pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
-        let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
-        let enclosed = self.enclosed(&setup.region)?;
-        let mesh = self.mesher(grid)?.mesh(&enclosed)?;
-        self.on_mesh(mesh, &setup.region)
+    /// Spacing of its points (length); infinite where there is no grid to give it.
+    pub(super) fn spacing(&self, setup: &Setup) -> f64 {
+        let usual = match setup.method {
+            Method::Integral(_) => f64::INFINITY,
+            Method::Layers(layers) => 2.0 * layers.spacing,
+            Method::Grid(grid) => grid.spacing,
+        };
+        self.mesh_spacing.unwrap_or(usual)
     }
 
     /// What it fills.
@@ -400,6 +395,142 @@ impl Grading {
             (Some([x0, f0]), Some(&[x1, f1])) => f0 + (f1 - f0) * (at - x0) / (x1 - x0),
             (Some([_, factor]), None) | (None, Some(&[_, factor])) => factor,
             (None, None) => 1.0,
+        }
+    }
+}
+
+impl BodySetup for SolidSetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["solids", "solid"]
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
+        Some(("solids", &[MethodKind::Layers, MethodKind::Grid]))
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
+        let enclosed = self.enclosed(&setup.region)?;
+        let grid = setup.method.spacing().unwrap_or(f64::INFINITY);
+        let boundary = enclosed.boundary(self.mesh_spacing.map_or(grid, |spacing| spacing.min(grid)))?;
+        let corners = if enclosed.period().is_none() { boundary.corners().collect() } else { Vec::new() };
+        let add = move |scene: &mut Scene<AnyFlow>| {
+            let (mesher, [period, height]) = (self.mesher(setup)?, setup.region.lengths());
+            let mesh = match &self.outline {
+                SolidOutline::WallAbove(shape) => shape.channel(period)?.upper_wall(0.5 * height, &mesher)?,
+                _ => mesher.mesh(&enclosed)?,
+            };
+            scene.add(self.on_mesh(mesh, setup)?);
+            Ok(())
+        };
+        Ok(Planned { boundary, kind: MarkerKind::Points, corners, add: Box::new(add) })
+    }
+
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
+        if let Some(spacing) = self.mesh_spacing {
+            checked.positive("mesh-spacing", spacing)?;
+            let least = 2.0 * setup.method.spacing().unwrap_or(0.0);
+            if setup.method.kind() == MethodKind::Layers && spacing < least * (1.0 - 1e-9) {
+                let remedy = format!(
+                    "the grid hardly sees inner points so close to a layer: give {least} or more, or the method grid"
+                );
+                checked.refuse("mesh-spacing", &spacing, remedy)?;
+            }
+        }
+        if let Some(SkinSetup { stretching, bending }) = self.skin {
+            checked.not_negative("skin.stretching", stretching)?;
+            checked.not_negative("skin.bending", bending)?;
+        }
+        let spacing = self.spacing(setup);
+        let across = |key: &str, length: f64| {
+            let remedy = format!("with points {spacing} apart it would have too many of them: give less");
+            checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
+        };
+        match &self.outline {
+            SolidOutline::WallBelow(shape)
+            | SolidOutline::WallAbove(shape)
+            | SolidOutline::Island { of: shape, .. } => {
+                let outline = match &self.outline {
+                    SolidOutline::WallBelow(_) => "outline.wall-below".to_owned(),
+                    SolidOutline::WallAbove(_) => "outline.wall-above".to_owned(),
+                    _ => "outline.island.of".to_owned(),
+                };
+                if !matches!(setup.region, Region::Channel { .. }) {
+                    checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
+                }
+                let (width, height) = (shape.width(), setup.region.lengths()[1]);
+                let key = format!("{outline}.{}.width", shape.name());
+                checked.positive(&key, width)?;
+                across(&key, height.max(setup.region.lengths()[0]))?;
+                let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
+                checked.require(self.side().is_none() || width < height, &key, width, &remedy)?;
+                let islands = shape.islands();
+                if let SolidOutline::Island { number, .. } = self.outline {
+                    let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
+                    checked.require(number < islands, "outline.island.number", number as f64, &remedy)?;
+                }
+            }
+            SolidOutline::Disc { centre, radius } => {
+                checked.all_finite("outline.disc.centre", centre)?;
+                checked.positive("outline.disc.radius", *radius)?;
+                across("outline.disc.radius", *radius)?;
+            }
+            SolidOutline::Ellipse { centre, half_axes } => {
+                checked.all_finite("outline.ellipse.centre", centre)?;
+                for &axis in half_axes {
+                    checked.positive("outline.ellipse.half-axes", axis)?;
+                    across("outline.ellipse.half-axes", axis)?;
+                }
+            }
+            SolidOutline::Polygon { corners, fillet } => {
+                checked.all_finite("outline.polygon.corners", corners.as_flattened())?;
+                checked.not_negative("outline.polygon.fillet", *fillet)?;
+                for length in corners.as_flattened() {
+                    across("outline.polygon.corners", length.abs())?;
+                }
+            }
+        }
+        if self.hold == Hold::Pinned && self.side().is_none() {
+            let remedy = "only walls reach the rigid walls of the region: give tethered or free";
+            checked.refuse("hold", &"pinned", remedy)?;
+        }
+        if let Hold::Tethered { stiffness } = self.hold {
+            checked.positive("hold.tethered.stiffness", stiffness)?;
+        }
+        if let Grading::Along { factors, .. } = &self.grading {
+            factors.iter().try_for_each(|[place, factor]| {
+                checked.finite("grading.along.factors", *place)?;
+                checked.positive("grading.along.factors", *factor)
+            })?;
+            if factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
+                let remedy = "give at least one place with its factor, places increasing";
+                checked.refuse("grading.along.factors", &format!("{factors:?}"), remedy)?;
+            }
+        }
+        self.material.check(checked)
+    }
+}
+
+impl Material {
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        let (name, bulk) = match *self {
+            Self::Springs { .. } => ("springs", None),
+            Self::NeoHookean { bulk, .. } => ("neo-hookean", Some(bulk)),
+            Self::SaintVenantKirchhoff { bulk, .. } => ("saint-venant-kirchhoff", Some(bulk)),
+            Self::MooneyRivlin { bulk, .. } => ("mooney-rivlin", Some(bulk)),
+        };
+        let key = |entry: &str| format!("material.{name}.{entry}");
+        checked.positive(&key("shear"), self.shear())?;
+        bulk.map_or(Ok(()), |bulk| checked.positive(&key("bulk"), bulk))?;
+        match *self {
+            Self::MooneyRivlin { fraction, .. } => {
+                let holds = (0.0..=1.0).contains(&fraction);
+                checked.require(holds, &key("fraction"), fraction, "give a number from 0 to 1")
+            }
+            _ => Ok(()),
         }
     }
 }

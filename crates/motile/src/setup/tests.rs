@@ -1,24 +1,28 @@
-use active_interface::curve::polygon_moments;
-use ib_core::{Body, Handle, StepSize, Vec2};
-use stokes_grid::Drive;
+use active_interface::polygon_moments;
+use motile_base::{Drive, Vec2};
+use motile_scene::{Body, Handle, StepSize};
 
 use interior_fields::{DirectorStart, GelMaterial};
 
 use super::*;
-use crate::ChannelShape;
+use elastic_solids::ChannelShape;
 
 fn channel(width: f64) -> Region {
     Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient }
 }
 
-fn elastic(width: f64, surface: Surface) -> Setup {
-    let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear: 187.5 });
-    Setup {
-        region: channel(width + 2.0),
-        method: Method::Grid(GridMethod::of_spacing(0.1)),
-        solids: walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect(),
-        ..Setup::default()
-    }
+fn elastic(width: f64, method: Method) -> Setup {
+    let solids = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear: 187.5 });
+    Setup { region: channel(width + 2.0), method, solids, ..Setup::default() }
+}
+
+/// Solids' surfaces as layers, and on the grid.
+fn layers() -> Method {
+    Method::Layers(LayersMethod::of_spacing(0.1))
+}
+
+fn plain() -> Method {
+    Method::Grid(GridMethod::uncorrected(0.1))
 }
 
 /// Key, value and remedy of what is wrong.
@@ -77,11 +81,19 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         }),
         ("method.grid.marker-spacing = 0.0000000001", grid(GridMethod { marker_spacing: Some(1e-10), ..coarse })),
         ("region = plane", Setup { region: Region::Plane, ..grid(coarse) }),
-        ("method = integral: solids need a grid", Setup { method: Method::default(), ..elastic(3.0, Surface::Plain) }),
-        ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
-        ("method.grid.corrected = true", {
-            Setup { droplets: vec![contrast], ..grid(GridMethod { contrast: Contrast::Arithmetic, ..coarse }) }
+        ("method = integral: it has no solids: give layers or grid", elastic(3.0, Method::default())),
+        ("method = grid: it has no rigid bodies: give integral or layers", {
+            Setup { rigid_bodies: vec![RigidBodySetup::default()], ..grid(coarse) }
         }),
+        ("method = layers: it has no rigid walls", {
+            let rigid = RigidSetup::walls(&ChannelShape::Straight { width: 3.0 }, 0.15);
+            Setup { region: channel(6.0), method: layers(), rigid, ..Setup::default() }
+        }),
+        ("method.grid.corrected = true: solids on the grid", {
+            Setup { method: Method::Grid(coarse), ..elastic(3.0, plain()) }
+        }),
+        ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
+        ("method.grid.corrected = true", { Setup { droplets: vec![contrast], ..grid(coarse) } }),
         (
             "repulsion.range",
             Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.0 }), ..Setup::default() },
@@ -145,7 +157,9 @@ fn gels_that_make_no_scene_are_refused() {
             let start = DirectorStart::Uniform { angle: 0.0, noise: -1.0, seed: 0 };
             with(GelSetup { start, ..GelSetup::default() })
         }),
-        ("method = integral: gels need a grid", { Setup { method: Method::default(), ..with(GelSetup::default()) } }),
+        ("method = integral: it has no gels: give layers or grid", {
+            Setup { method: Method::default(), ..with(GelSetup::default()) }
+        }),
         ("droplets[0].motion =", {
             let mut setup = with(GelSetup::default());
             setup.droplets[0].motion = MarkerMotion::WithFluid;
@@ -154,12 +168,7 @@ fn gels_that_make_no_scene_are_refused() {
             setup
         }),
         ("droplets[0].gel = a gel: solids[0] lies inside", {
-            let inside = SolidSetup { surface: Surface::Plain, ..disc(0.1, 0.0, 0.3) };
-            Setup { solids: vec![inside], ..with(GelSetup::default()) }
-        }),
-        ("droplets[0].gel = a gel: the grid hardly sees", {
-            let base = elastic(3.0, Surface::Layer);
-            Setup { droplets: with(GelSetup::default()).droplets, ..base }
+            Setup { method: plain(), solids: vec![disc(0.1, 0.0, 0.3)], ..with(GelSetup::default()) }
         }),
     ];
     for (start, setup) in cases {
@@ -170,22 +179,18 @@ fn gels_that_make_no_scene_are_refused() {
 
 #[test]
 fn layers_that_make_no_scene_are_refused() {
-    let method = GridMethod::of_spacing(0.1);
-    let base = Setup { method: Method::Grid(method), ..elastic(3.0, Surface::Layer) };
-    let grid = |grid: GridMethod| Setup { method: Method::Grid(grid), ..base.clone() };
-    let nodes = |nodes, cells| grid(GridMethod { layers: IntegralMethod { nodes, cells }, ..method });
+    let method = LayersMethod::of_spacing(0.1);
+    let base = elastic(3.0, layers());
+    let of = |layers: LayersMethod| Setup { method: Method::Layers(layers), ..base.clone() };
     let solid = |solid: SolidSetup| Setup { solids: vec![solid], ..base.clone() };
     let wall = base.solids[0].clone();
     let cases = [
-        ("method.grid.layers.nodes = 4", nodes(4, 64)),
-        ("method.grid.layers.cells = 32", nodes(64, 32)),
-        ("method.grid.marker-spacing = 0.05", grid(GridMethod { marker_spacing: Some(0.05), ..method })),
-        ("method.grid.contrast = arithmetic", grid(GridMethod { contrast: Contrast::Arithmetic, ..method })),
-        ("method.grid.kernel = Peskin4", grid(GridMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
-        ("solids[0].surface = plain", {
-            let plain = SolidSetup { surface: Surface::Plain, ..wall.clone() };
-            Setup { solids: vec![plain, wall.clone()], ..base.clone() }
-        }),
+        ("method.layers.nodes = 4", of(LayersMethod { nodes: 4, cells: 64, ..method })),
+        ("method.layers.cells = 32", of(LayersMethod { nodes: 64, cells: 32, ..method })),
+        ("method.layers.spacing = 0.07: a length of 6 is not", of(LayersMethod::of_spacing(0.07))),
+        ("method.layers.spacing = -1", of(LayersMethod::of_spacing(-1.0))),
+        ("method.layers.kernel = Peskin4", of(LayersMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
+        ("region = plane", Setup { region: Region::Plane, method: layers(), ..Setup::default() }),
         ("solids[0].mesh-spacing = 0.1", solid(SolidSetup { mesh_spacing: Some(0.1), ..wall.clone() })),
     ];
     for (start, setup) in cases {
@@ -204,7 +209,7 @@ fn layers_that_make_no_scene_are_refused() {
 
 #[test]
 fn solids_that_make_no_scene_are_refused() {
-    let base = elastic(3.0, Surface::Plain);
+    let base = elastic(3.0, plain());
     let wall = base.solids[0].clone();
     let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.3 };
     let along = |factors: Vec<[f64; 2]>| Grading::Along { axis: Axis::X, factors };
@@ -249,7 +254,7 @@ fn disc(x: f64, y: f64, radius: f64) -> SolidSetup {
 
 #[test]
 fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
-    let grid = Method::Grid(GridMethod::of_spacing(0.1));
+    let grid = layers();
     let round = |x: f64, radius: f64, viscosity| DropletSetup {
         centre: [x, 0.0],
         shape: DropletShape::Round { radius },
@@ -277,7 +282,7 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
         }
     }
     let named = |name: &str, solid: SolidSetup| SolidSetup { name: name.to_owned(), ..solid };
-    let mut walls = elastic(3.0, Surface::Layer).solids;
+    let mut walls = elastic(3.0, layers()).solids;
     let material = Material::Springs { shear: 10.0 };
     let long = SolidOutline::Ellipse { centre: [0.0, 0.0], half_axes: [4.0, 0.5] };
     let cases = [
@@ -312,7 +317,7 @@ fn messages_name_the_entry_and_short_numbers() {
         "{}",
         refused(&bent)
     );
-    let base = elastic(3.0, Surface::Plain);
+    let base = elastic(3.0, plain());
     let island = SolidOutline::Island { of: ChannelShape::Straight { width: 3.0 }, number: 3 };
     let crossing =
         SolidOutline::WallBelow(ChannelShape::Sinusoidal { width: 2.0, amplitude: 1.2, waves: 2, phase: 0.0 });
@@ -329,6 +334,17 @@ fn messages_name_the_entry_and_short_numbers() {
         ("solids[0].outline.island.number = 3: a straight channel has 0", of(island)),
         ("solids[0] (lower wall): outlines cross or touch near (", of(crossing)),
         ("solids[0] (lower wall): the solid at (2.01", of(thin)),
+        (
+            "region.box.lengths[0] = 1e308: give a number from 1e-100 to 1e100",
+            Setup { region: Region::Box { lengths: [1e308, 1e308] }, ..Setup::default() },
+        ),
+        (
+            "region.channel.length = 1e-300: give a number from 1e-100",
+            Setup {
+                region: Region::Channel { length: 1e-300, width: 3.0, drive: Drive::ZeroFlux },
+                ..Setup::default()
+            },
+        ),
         ("region.channel.drive.gradient = NaN", {
             let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::Gradient(f64::NAN) };
             Setup { region, ..Setup::default() }
@@ -350,9 +366,10 @@ fn moduli_follow_their_grading() {
     assert_eq!(Grading::Uniform.factor(Vec2::ZERO), 1.0);
     // The energy of a wall that is stiffer by a factor everywhere is larger by it.
     let energy = |grading: Grading| {
-        let base = elastic(3.0, Surface::Plain);
+        let base = elastic(3.0, plain());
         let wall = SolidSetup { grading, ..base.solids[0].clone() };
-        let solid = wall.build(&base).unwrap().deformed(|s| Vec2::new(s.x, 1.1 * s.y)).unwrap();
+        let mesh = wall.mesher(&base).unwrap().mesh(&wall.enclosed(&base.region).unwrap()).unwrap();
+        let solid = wall.on_mesh(mesh, &base).unwrap().deformed(|s| Vec2::new(s.x, 1.1 * s.y)).unwrap();
         solid.elastic_energy().unwrap()
     };
     let (uniform, graded) =
@@ -373,9 +390,9 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
     for (setup, half_height) in [
         (&narrow, 0.95),
         (&wide, 1.0),
-        (&elastic(2.0, Surface::Layer), 0.95),
-        (&elastic(2.0, Surface::Plain), 1.0),
-        (&elastic(1.6, Surface::Plain), 0.75),
+        (&elastic(2.0, layers()), 0.95),
+        (&elastic(2.0, plain()), 1.0),
+        (&elastic(1.6, plain()), 0.75),
     ] {
         let (area, height) = area_and_height(setup);
         assert!((height - half_height).abs() < 1e-3, "{height} {half_height}");
@@ -393,7 +410,7 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
     };
     for y in [0.7, -0.9, 1.2] {
         assert!(refused(&at(3.0, y)).starts_with("droplets[0]: a region of 6 x 3 does not hold it"), "{y}");
-        let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, Surface::Layer) };
+        let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, layers()) };
         assert!(refused(&elastic).contains(" overlaps droplets[0] by"), "{y}: {}", refused(&elastic));
         elastic.solids.clear();
         assert!(elastic.build().is_ok());
@@ -417,7 +434,7 @@ fn bodies_stand_in_the_order_of_the_description() {
             Material::MooneyRivlin { shear: 100.0, bulk: 200.0, fraction: 0.5 },
         )
     };
-    let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, Surface::Layer) };
+    let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, layers()) };
     setup.solids.push(core);
     let Built { mut scene, droplets, solids, .. } = setup.build().unwrap();
     let names: Vec<&str> = droplets.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
@@ -440,8 +457,8 @@ fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
         ..Setup::default()
     };
     let integral = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
-    let grid = GridMethod { layers: IntegralMethod { nodes: 32, cells: 64 }, ..GridMethod::of_spacing(0.2) };
-    for method in [integral, Method::Grid(grid)] {
+    let layers = LayersMethod { nodes: 32, cells: 64, ..LayersMethod::of_spacing(0.2) };
+    for method in [integral, Method::Layers(layers)] {
         let Built { mut scene, droplets, rigid_bodies, shells, .. } = inside(method, 0.3, [-0.4, 0.1]).build().unwrap();
         scene.step(1e-3).unwrap();
         let gap = |body: Handle<dyn Body>| scene.system().gap(droplets[0], body).unwrap().unwrap();
@@ -476,7 +493,7 @@ fn fingerprints_tell_scenes_apart_but_not_steps() {
     }
 }
 
-#[cfg(feature = "serde")]
+#[cfg(feature = "toml")]
 mod file {
     use super::*;
 
@@ -487,7 +504,7 @@ mod file {
             DropletShape::Modes { radius: 1.0, cosines: vec![0.0, 0.1], sines: vec![0.05] },
             DropletShape::Points((0..9).map(|k| f64::from(k) * 0.69).map(|t| [t.cos(), t.sin()]).collect()),
         ];
-        let mut setup = elastic(3.0, Surface::Plain);
+        let mut setup = elastic(3.0, plain());
         setup.region = Region::Channel { length: 40.0, width: 5.0, drive: Drive::Flux(-0.25) };
         setup.step = StepSize::Adaptive { tolerance: 1e-4 };
         setup.repulsion = Some(RepulsionSetup { strength: 2.0, range: 0.1 });
@@ -515,7 +532,6 @@ mod file {
             grading: graded,
             mesh: MeshKind::Unstructured,
             mesh_spacing: Some(0.07),
-            surface: Surface::Plain,
             ..SolidSetup::new(
                 SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], fillet: 0.1 },
                 Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
@@ -532,8 +548,9 @@ mod file {
         let mut layers = varied();
         layers.droplets.iter_mut().for_each(|droplet| (droplet.viscosity, droplet.gel) = (None, None));
         layers.rigid_bodies.push(RigidBodySetup { torque: 0.1, ..RigidBodySetup::disc(0.2) });
-        layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Layer));
-        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied(), layers] {
+        layers.solids.iter_mut().for_each(|solid| solid.mesh_spacing = None);
+        layers.method = super::layers();
+        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, plain()), varied(), layers] {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
         }
@@ -544,13 +561,16 @@ mod file {
         let text = "[[droplets]]\n[droplets.particles]\n";
         assert_eq!(Setup::from_toml(text).unwrap(), Setup::default());
         assert_eq!(Setup::from_toml("").unwrap(), Setup { droplets: Vec::new(), ..Setup::default() });
+        let stiff = Setup::from_toml("integrator = \"runge-kutta-chebyshev\"").unwrap();
+        assert_eq!(stiff.integrator, IntegratorKind::RungeKuttaChebyshev);
+        assert_eq!(stiff.build().unwrap().scene.integrator().name(), "the Runge-Kutta-Chebyshev method");
         let active = Setup::from_toml("[[droplets]]\ntension = 3.0\n").unwrap();
         assert_eq!(active.droplets, [DropletSetup { tension: 3.0, ..DropletSetup::default() }]);
         let passive = Setup::from_toml("[[droplets]]\ntension = 3.0\nparticles = \"none\"\n").unwrap();
         assert_eq!(passive.droplets, [DropletSetup::passive(3.0)]);
         let constriction = "{ width = 3.0, throat = 1.0, throat-length = 2.0, ramp = 1.0 }";
         let text = format!(
-            "region.channel = {{ length = 12.0, width = 5.0 }}\nmethod.grid = {{}}\n[[solids]]\n\
+            "region.channel = {{ length = 12.0, width = 5.0 }}\nmethod.layers = {{}}\n[[solids]]\n\
              outline.wall-below.constriction = {constriction}\nmaterial.springs.shear = 10.0"
         );
         let shape = ChannelShape::Constriction { width: 3.0, throat: 1.0, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
@@ -575,6 +595,13 @@ mod file {
             ("[[droplets]]\nparticles.diffusion = -1.0", &["droplets[0].particles.diffusion = -1"]),
             ("method.grid.spacing = 0.07", &["method.grid.spacing = 0.07", "whole number"]),
             ("viscosity = ", &["line 1"]),
+            ("method.grid.contrast = \"sharp\"", &["method.grid.contrast", "[method.layers]", "take the entry away"]),
+            ("method.grid.layers.nodes = 72", &["method.grid.layers", "give nodes and cells in [method.layers]"]),
+            (
+                "[[solids]]\nsurface = \"plain\"\noutline.disc = { centre = [0.0, 0.0], radius = 0.3 }\n\
+                 material.springs.shear = 1.0",
+                &["solids[0].surface = \"plain\"", "[method.grid] with corrected = false"],
+            ),
         ] {
             let error = Setup::from_toml(text).unwrap_err().to_string();
             assert!(parts.iter().all(|part| error.contains(part)), "{text}: {error}");

@@ -1,20 +1,20 @@
-//! The part of a channel's flow that does not depend on x.
+//! Flow along a channel averaged over x.
 
-use super::Drive;
 use crate::Grid;
+use motile_base::Drive;
 
-/// The x velocities of a channel averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with
-/// the mean force f and the mean pressure gradient g.
+/// Solver for the x velocities averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with
+/// the mean force density f and the mean pressure gradient g.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeanFlow {
     /// h^2 / eta.
     scale: f64,
     pivots: Vec<f64>,
     h: f64,
-    /// The flow of a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`: the constant is what the no-slip
-    /// condition half a cell from the wall adds to the parabola.
+    /// Flow of a unit force density, `(y (H - y) / 2 + h^2 / 8) / eta`; the constant comes from the no-slip condition
+    /// half a cell from the wall.
     poiseuille: Vec<f64>,
-    /// Its flux.
+    /// Flux of that flow.
     flux: f64,
 }
 
@@ -36,8 +36,8 @@ impl MeanFlow {
         Self { scale: h * h / viscosity, pivots, h, poiseuille, flux }
     }
 
-    /// Turns the mean force on each row into its mean velocity, for the mean velocities of the bottom and the top wall;
-    /// gives the mean pressure gradient.
+    /// Turns the mean force density on each row into its mean velocity, for the mean velocities of the bottom and the
+    /// top wall, and returns the mean pressure gradient.
     pub(crate) fn solve(&self, drive: Drive, walls: [f64; 2], u: &mut [f64]) -> f64 {
         for u in u.iter_mut() {
             *u *= -self.scale;

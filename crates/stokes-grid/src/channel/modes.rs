@@ -1,23 +1,24 @@
-//! The tridiagonal systems of a channel's streamfunction.
+//! Tridiagonal systems for the streamfunction of a channel, one for each wave number of x.
 
 use num_complex::Complex64;
 
 use crate::transform::second_difference;
 
-/// What a wall does at a distance, relative to what it does nearby, is left out when it is smaller than this: it is far
-/// below round-off, and skipping it saves half of the work in the middle of a wide channel.
+/// Influence of a wall on a row, relative to that nearby, below which it is left out: a ten-thousandth of round-off, so
+/// that nothing changes. Skipping it saves half of the work in the middle of a wide channel.
 const NEGLIGIBLE: f64 = 1e-20;
 
-/// Tables and sweeps for `T w = g`, `T psi = w` on rows 1..N of nodes, for each wave number m of x, where
+/// Tables and sweeps for the Dirichlet problems `T w = g`, `T psi = w` on rows 1..N of nodes, for each wave number m of
+/// x, where
 ///
 /// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
 ///
-/// and the wall values of w are such that `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`, which is no
-/// slip. (All lengths in cells, psi and U in the same units.)
+/// and the no-slip condition gives the wall values `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`
+/// (lengths in cells).
 ///
-/// The first problem is eliminated upwards and substituted downwards; the second one is eliminated downwards on the
-/// same way and substituted upwards. So the spectrum is passed three times, and twice together with a transform. The
-/// influence of the wall values on psi comes from a table.
+/// The first problem is eliminated upwards and substituted downwards; in the same downward sweep the second one is
+/// eliminated, to be substituted upwards. So the spectrum is passed three times, twice of them together with a
+/// transform. The influence of the wall values on psi comes from a table.
 #[derive(Debug, Clone)]
 pub(crate) struct ChannelModes {
     ny: usize,
@@ -28,12 +29,12 @@ pub(crate) struct ChannelModes {
     harmonic: Vec<f64>,
     /// Solution of T P = E with P = 0 at both walls.
     influence: Vec<f64>,
-    /// How many wave numbers a wall `d` rows away reaches: beyond, `pivots` are `limits`, `harmonic` and `influence`
-    /// are zero.
+    /// Number of wave numbers that a wall `d` rows away reaches: beyond, `pivots` equal `limits`, `harmonic` and
+    /// `influence` are zero.
     reach: Vec<usize>,
     /// Reciprocal pivots of T far from the walls.
     limits: Vec<f64>,
-    /// For the sum and the difference of the two wall values.
+    /// Factors of the sum and of the difference of the two wall values.
     sum_factor: Vec<f64>,
     difference_factor: Vec<f64>,
     wall_bottom: Vec<Complex64>,
@@ -61,7 +62,7 @@ impl ChannelModes {
             carried: vec![Complex64::ZERO; width],
             near_top: vec![Complex64::ZERO; width],
         };
-        // The tables are zero for m = 0, whose flow is found otherwise.
+        // The tables are zero for m = 0, whose flow is the mean flow.
         for m in 1..width {
             let k2 = second_difference(m, nx);
             // Solutions of T psi = 0 are sinh(j decay) and cosh(j decay).
@@ -103,7 +104,7 @@ impl ChannelModes {
         &table[(j - 1) * self.width..j * self.width]
     }
 
-    /// Elimination of the first problem in row `j`, upwards; `below` is row `j - 1`, empty for the first.
+    /// Eliminates the first problem in row `j`, upwards; `below` is row `j - 1`, empty for the first.
     pub(crate) fn eliminate(&self, j: usize, below: &[Complex64], row: &mut [Complex64]) {
         let near = self.reach[j];
         if below.is_empty() {
@@ -122,14 +123,15 @@ impl ChannelModes {
         }
     }
 
-    /// Substitution of the first problem and elimination of the second one, downwards; then the wall values, for walls
+    /// Substitutes the first problem and eliminates the second one, downwards, then computes the wall values for walls
     /// of velocities `bottom` and `top`.
     pub(crate) fn descend(&mut self, spectrum: &mut [Complex64], bottom: &[Complex64], top: &[Complex64]) {
         let (width, ny) = (self.width, self.ny);
         let mut carried = std::mem::take(&mut self.carried);
         let mut near_top = std::mem::take(&mut self.near_top);
-        carried.fill(Complex64::ZERO);
-        near_top.fill(Complex64::ZERO);
+        for zeros in [&mut carried, &mut near_top, &mut self.wall_top] {
+            zeros.fill(Complex64::ZERO);
+        }
         for j in (1..ny).rev() {
             let near = self.reach[j].max(self.reach[ny - j]);
             let (lower, upper) = spectrum.split_at_mut(j * width);
@@ -140,11 +142,9 @@ impl ChannelModes {
                 harmonic: &self.row(&self.harmonic, ny - j)[..near],
                 limits: &self.limits[near..],
             };
-            if j + 1 == ny {
-                sweep.first_row(row, &mut carried, &mut near_top);
-            } else {
-                sweep.row(row, &upper[..width], &mut carried, &mut near_top);
-            }
+            // Above the first row there is none.
+            let above = if j + 1 == ny { &self.wall_top } else { &upper[..width] };
+            sweep.row(row, above, &mut carried, &mut near_top);
         }
         let near_bottom = &spectrum[..width];
         for m in 0..width {
@@ -159,8 +159,8 @@ impl ChannelModes {
         self.near_top = near_top;
     }
 
-    /// Substitution of the second problem in row `j`, upwards, and the influence of the walls: gives the spectrum of
-    /// psi.
+    /// Substitutes the second problem in row `j`, upwards, and adds the influence of the walls, which gives the
+    /// spectrum of psi.
     pub(crate) fn ascend(&mut self, j: usize, row: &mut [Complex64]) {
         let (near, far) = (self.reach[j].max(self.reach[self.ny - j]), self.width);
         let pivots = self.row(&self.pivots, self.ny - j);
@@ -185,7 +185,7 @@ impl ChannelModes {
     }
 }
 
-/// The tables of one row on the way down: where the walls are felt, and beyond.
+/// Tables of one row in the downward sweep: for wave numbers that the walls reach, and limits for those beyond.
 struct Sweep<'a> {
     pivots: &'a [f64],
     pivots_down: &'a [f64],
@@ -194,17 +194,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// The row next to the top wall; next to a wall all wave numbers feel it.
-    fn first_row(&self, row: &mut [Complex64], carried: &mut [Complex64], near_top: &mut [Complex64]) {
-        carried.copy_from_slice(row);
-        for ((near_top, w), harmonic) in near_top.iter_mut().zip(row.iter()).zip(self.harmonic) {
-            *near_top = w * harmonic;
-        }
-        for (w, pivot) in row.iter_mut().zip(self.pivots_down) {
-            *w *= *pivot;
-        }
-    }
-
+    /// Sweeps a row; `above` is the row above.
     fn row(&self, row: &mut [Complex64], above: &[Complex64], carried: &mut [Complex64], near_top: &mut [Complex64]) {
         let near = self.harmonic.len();
         let (row_near, row_far) = row.split_at_mut(near);

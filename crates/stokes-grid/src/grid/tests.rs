@@ -1,4 +1,4 @@
-use input_checks::InputError;
+use motile_base::InputError;
 
 use super::*;
 

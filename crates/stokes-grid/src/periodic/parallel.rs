@@ -1,23 +1,22 @@
-//! The streamfunction solver of a large periodic box on several threads.
+//! Transforms of a large periodic box on several threads.
 
-use fourier::InputError;
+use motile_base::{InputError, sum};
 use num_complex::Complex64;
 use rayon::prelude::*;
 
-use crate::field::sum;
 use crate::transform::{ColumnTransform, RowTransform};
 use crate::{StaggeredField, Symbol, stencil};
 
-/// Pieces of work, whatever the number of threads: enough for eight of them to share evenly.
+/// Pieces of work, whatever the number of threads, so that results do not depend on it: two for each of eight threads.
 const SHARES: usize = 16;
 
-/// Rows that are gathered from the columns at a time: two cache lines of each column.
+/// Rows that are gathered from the columns at a time: eight complex numbers are two cache lines of each column.
 const BATCH: usize = 8;
 
-/// Cells from which several threads pay.
+/// Least number of cells for which several threads are used: their spectrum takes 6 MB, more than the cache of a core.
 const LEAST_CELLS: usize = 800_000;
 
-/// Room for one real forward and inverse transform in shares that any thread may take, and the numbers in between.
+/// A real forward and inverse transform in shares that any thread may take, with its working memory.
 ///
 /// Rows go into `spectrum`, columns of that into `columns` (each column contiguous), rows of those into the velocity:
 /// no share writes where another one does, and every number comes from the same operations in the same order as on one
@@ -34,7 +33,7 @@ pub(crate) struct ParallelTransform {
     totals: Vec<[f64; 2]>,
 }
 
-/// Room for the rows of one share.
+/// Working memory for the rows of one share.
 #[derive(Debug, Clone)]
 struct RowShare {
     transform: RowTransform,
@@ -43,7 +42,7 @@ struct RowShare {
     finite: bool,
 }
 
-/// Whether several threads are there and pay for that many cells.
+/// True if there are several threads and enough cells for them.
 pub(crate) fn pays(cells: usize) -> bool {
     cells >= LEAST_CELLS && rayon::current_num_threads() > 1
 }
@@ -67,12 +66,12 @@ impl ParallelTransform {
         })
     }
 
-    /// Rows of a share; the last one may have fewer.
+    /// Number of rows of a share; the last one may have fewer.
     fn rows_of_share(&self) -> usize {
         self.ny.div_ceil(SHARES)
     }
 
-    /// Transforms h times the curl of `force` along x, and returns the sums of its components.
+    /// Transforms the rows that `curl(j, row)` writes along x, and returns the sums of the components of `force`.
     pub(crate) fn forward(&mut self, force: &StaggeredField, curl: impl Fn(usize, &mut [f64]) + Sync) -> [f64; 2] {
         let (nx, width, count) = (self.nx, self.width, self.rows_of_share());
         let (fx, fy) = (force.x(), force.y());
@@ -98,7 +97,7 @@ impl ParallelTransform {
         });
     }
 
-    /// Transforms psi / h back along x and writes its differences, the velocity; whether they are finite.
+    /// Transforms psi / h back along x and writes its differences, the velocity; false if they are not finite.
     pub(crate) fn velocity(&mut self, [mean_u, mean_v]: [f64; 2], velocity: &mut StaggeredField) -> bool {
         let (nx, ny, width, count) = (self.nx, self.ny, self.width, self.rows_of_share());
         let columns = &self.columns;

@@ -1,12 +1,13 @@
-//! Transforms along y.
+//! Fourier transforms along y.
 
-use fourier::{ComplexTransform, InputError};
+use motile_base::{ComplexTransform, InputError};
 use num_complex::Complex64;
 
-/// Columns that are gathered, changed and put back together: two cache lines of each row.
+/// Columns that are gathered, changed and put back together: eight complex numbers are two cache lines of each row.
 const BATCH: usize = 8;
 
-/// Room between gathered columns, so that those of a power of two do not compete for the same places in the cache.
+/// Complex numbers between gathered columns, one cache line, so that columns of a power of two do not compete for the
+/// same places in the cache.
 const GAP: usize = 4;
 
 /// A plan for changes of the transformed columns of an array of `ny` rows of complex numbers, not normalised.
@@ -47,7 +48,8 @@ impl ColumnTransform {
         }
     }
 
-    /// Does the same for the columns from `first` on and puts them, one after another, into `columns`.
+    /// Transforms the columns from `first` on, lets `change(m, column)` change them and writes them, transformed back,
+    /// one after another into `columns`.
     #[cfg(feature = "rayon")]
     pub(crate) fn filter_into(
         &mut self,
@@ -76,15 +78,15 @@ impl ColumnTransform {
     }
 }
 
-/// Transforms a column, changes it and transforms it back. It has the length of the plan, so that no call can fail.
+/// Transforms a column, changes it and transforms it back; it has the length of the plan, so that no call can fail.
 fn filter(plan: &mut ComplexTransform, column: &mut [Complex64], change: impl FnOnce(&mut [Complex64])) {
     let _ = plan.forward(column);
     change(column);
     let _ = plan.inverse(column);
 }
 
-/// Copies the leading `N` columns of rows of length `width` into contiguous ones. (The number is a constant because the
-/// copies of one row then need no loop, which halves the time.)
+/// Copies the leading `N` columns of rows of length `width` into contiguous ones. With a constant number the copies of
+/// one row need no loop, which halves the time.
 fn gather<const N: usize>(rows: &[Complex64], width: usize, columns: &mut [&mut [Complex64]; N]) {
     for (j, row) in rows.chunks(width).enumerate() {
         if let Some(row) = row.first_chunk::<N>() {
@@ -95,7 +97,7 @@ fn gather<const N: usize>(rows: &[Complex64], width: usize, columns: &mut [&mut 
     }
 }
 
-/// The way back from [`gather`].
+/// Copies contiguous columns back into the leading columns of rows, the reverse of [`gather`].
 fn scatter<const N: usize>(columns: &[&mut [Complex64]; N], rows: &mut [Complex64], width: usize) {
     for (j, row) in rows.chunks_mut(width).enumerate() {
         if let Some(row) = row.first_chunk_mut::<N>() {

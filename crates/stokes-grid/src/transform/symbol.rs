@@ -1,11 +1,11 @@
-//! Symmetric operators with constant coefficients, in wave numbers.
+//! Symbols of symmetric operators with constant coefficients: a factor for each wave number.
 
 use num_complex::Complex64;
 
-use crate::{StokesError, error::checks::check_size};
+use crate::{Grid, StokesError};
 
-/// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a
-/// symmetric linear operator with constant coefficients, to be applied by [`crate::RealFft2::filter`].
+/// Symbol of a symmetric linear operator with constant coefficients: a real factor for each pair of wave numbers, even
+/// in both. [`crate::RealFft2::filter`] applies it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symbol {
     nx: usize,
@@ -14,23 +14,24 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// Minus the inverse of h^2 times the five-point Laplacian, times `factor`; the constant goes to zero.
+    /// Symbol of minus the inverse of h^2 times the five-point Laplacian, times `factor`; that of constants is zero.
     pub(crate) fn inverse_laplacian(nx: usize, ny: usize, factor: f64) -> Self {
         Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
     }
 
-    /// The inverse of h^4 times the square of the five-point Laplacian, times `factor`; the constant goes to zero.
+    /// Symbol of the inverse of h^4 times the square of the five-point Laplacian, times `factor`; that of constants is
+    /// zero.
     pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64) -> Self {
         Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
     }
 
-    /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)`
-    /// of a forward and an inverse transform is put in here, so that a factor of one everywhere gives the identity.
+    /// A symbol with the factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The
+    /// normalisation `1 / (nx ny)` of the transforms is included, so that factors of one give the identity.
     ///
     /// # Errors
     /// More than [`crate::Grid::MAXIMUM_CELLS`] values.
     pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Result<Self, StokesError> {
-        check_size(nx, ny)?;
+        Grid::check_size(nx, ny)?;
         Ok(Self::of_size(nx, ny, factor))
     }
 
@@ -43,6 +44,7 @@ impl Symbol {
         Self { nx, ny, values }
     }
 
+    /// True for transforms of that size.
     pub(crate) fn fits(&self, nx: usize, ny: usize) -> bool {
         self.nx == nx && self.ny == ny
     }
@@ -65,7 +67,7 @@ impl Symbol {
     }
 }
 
-/// `(2 sin(pi m / n))^2`: minus h^2 times the symbol of the three-point second difference.
+/// Minus h^2 times the symbol of the three-point second difference, `(2 sin(pi m / n))^2`.
 pub(crate) fn second_difference(m: usize, n: usize) -> f64 {
     let s = 2.0 * (std::f64::consts::PI * m as f64 / n as f64).sin();
     s * s

@@ -1,11 +1,11 @@
-//! The viscous force of a fluid whose viscosity varies.
+//! Viscous force density of a fluid whose viscosity varies in space.
 
-use crate::stencil::{left, right};
-use crate::{CentreField, Grid, NodeField, StaggeredField, Wall, WallMotion};
+use crate::stencil::{self, left, right};
+use crate::{CentreField, NodeField, StaggeredField, WallMotion};
 
-/// `div(2 eta D)` of a velocity without divergence, D its strain rate: normal stresses at the centres, shear stresses
-/// at the nodes, each with the viscosity there. Minus this operator is symmetric and positive, and `eta lap` where eta
-/// is uniform.
+/// Operator `div(2 eta D)` (force per volume) of a velocity without divergence, D its strain rate: normal stresses at
+/// the centres, shear stresses at the nodes, each with the viscosity there. It is symmetric and negative, and `eta lap`
+/// where eta is uniform.
 #[derive(Debug, Clone)]
 pub(crate) struct ViscousForce {
     centres: CentreField,
@@ -30,11 +30,8 @@ impl ViscousForce {
         (self.centres.values_mut(), self.nodes.values_mut())
     }
 
-    fn grid(&self) -> &Grid {
-        self.centres.grid()
-    }
-
-    /// `out = base + factor * div(2 eta D(velocity))`, zero on the rows that lie on walls, which move as `walls`.
+    /// Writes `out = base + factor * div(2 eta D(velocity))` for the wall velocities `walls`; zero on the rows that lie
+    /// on walls.
     pub(crate) fn add(
         &mut self,
         velocity: &StaggeredField,
@@ -43,38 +40,24 @@ impl ViscousForce {
         base: Option<&StaggeredField>,
         out: &mut StaggeredField,
     ) {
-        let grid = *self.grid();
+        let grid = *self.centres.grid();
         let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
         let channel = grid.has_walls();
-        let (u, v) = (velocity.x(), velocity.y());
         let scale = factor / (h * h);
         for j in 0..ny {
             let row = j * nx..(j + 1) * nx;
-            let u = &u[row.clone()];
-            let above = if j + 1 == ny && !channel { 0 } else { (j + 1) * nx };
-            let (v, v_above) = (&v[row.clone()], &v[above..above + nx]);
             let eta = &self.centres.values()[row.clone()];
             let (xx, yy) = (&mut self.xx.values_mut()[row.clone()], &mut self.yy.values_mut()[row]);
-            for i in 0..nx {
-                xx[i] = 2.0 * scale * eta[i] * (u[right(i, nx)] - u[i]);
-                yy[i] = 2.0 * scale * eta[i] * (v_above[i] - v[i]);
-            }
+            stencil::normal_steps(velocity, j, |i, u_step, v_step| {
+                xx[i] = 2.0 * scale * eta[i] * u_step;
+                yy[i] = 2.0 * scale * eta[i] * v_step;
+            });
         }
         for j in 0..grid.node_rows() {
             let row = j * nx..(j + 1) * nx;
-            let v = &v[row.clone()];
             let eta = &self.nodes.values()[row.clone()];
             let xy = &mut self.xy.values_mut()[row];
-            for i in 0..nx {
-                let slope = if channel && j == 0 {
-                    2.0 * (u[i] - walls.at(Wall::Bottom, i))
-                } else if channel && j == ny {
-                    2.0 * (walls.at(Wall::Top, i) - u[(ny - 1) * nx + i])
-                } else {
-                    u[j * nx + i] - u[if j > 0 { j - 1 } else { ny - 1 } * nx + i]
-                };
-                xy[i] = scale * eta[i] * (slope + v[i] - v[left(i, nx)]);
-            }
+            stencil::shear_steps(velocity, walls, j, |i, u_step, v_step| xy[i] = scale * eta[i] * (u_step + v_step));
         }
         let (fx, fy) = out.components_mut();
         let (xx, yy, xy) = (self.xx.values(), self.yy.values(), self.xy.values());

@@ -3,9 +3,10 @@
 use crate::common::{DiscreteFlow, distance, largest, random_force, relative_distance, residuals};
 use crate::dense;
 use approx::assert_abs_diff_eq;
+use motile_base::{Drive, InputError, SolveReport};
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, InputError, SolveReport, StaggeredField, StokesError, StokesSolver, Wall,
-    WallMotion, flux, wall_shear_stress,
+    CentreField, ChannelStokes, Grid, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, flux,
+    wall_shear_stress,
 };
 
 const DRIVES: [Drive; 4] = [Drive::ZeroGradient, Drive::Gradient(0.7), Drive::ZeroFlux, Drive::Flux(-0.4)];

@@ -1,8 +1,9 @@
-//! What the tests share: random fields, and the discrete Stokes equations written out term by term.
+//! Helpers of the tests: random fields, and the discrete Stokes equations written out term by term.
 
 use std::f64::consts::{PI, TAU};
 
-use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, Wall, WallMotion};
+use motile_base::SolveReport;
+use stokes_grid::{CentreField, Grid, StaggeredField, Wall, WallMotion};
 
 /// Numbers in [-1, 1) from a linear congruential generator.
 pub(crate) fn random(count: usize, seed: u64) -> Vec<f64> {

@@ -1,7 +1,8 @@
 //! The whole discrete system of a channel, written out term by term and solved by LU factorisation.
 
+use motile_base::Drive;
 use nalgebra::{DMatrix, DVector};
-use stokes_grid::{CentreField, Drive, Grid, StaggeredField, Wall, WallMotion};
+use stokes_grid::{CentreField, Grid, StaggeredField, Wall, WallMotion};
 
 pub(crate) struct Dense {
     pub(crate) velocity: StaggeredField,

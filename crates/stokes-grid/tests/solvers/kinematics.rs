@@ -1,9 +1,10 @@
 //! Derived fields of discrete velocities, where they are known exactly.
 
 use approx::assert_abs_diff_eq;
+use motile_base::{Drive, InputError};
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, StaggeredField, StokesError,
-    StokesSolver, Wall, WallMotion, divergence, flux, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
+    CentreField, ChannelStokes, Grid, NodeField, PeriodicStokes, StaggeredField, StokesError, StokesSolver, Wall,
+    WallMotion, divergence, flux, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 
 use crate::common::{largest, random, random_force};

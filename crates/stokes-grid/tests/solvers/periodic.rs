@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use crate::common::{DiscreteFlow, distance, largest, random_force, relative_distance, residuals};
 use approx::assert_abs_diff_eq;
+use motile_base::InputError;
 use stokes_grid::{
-    CentreField, Grid, InputError, PeriodicStokes, StaggeredField, StokesError, StokesSolver, WallMotion, divergence,
+    CentreField, Grid, PeriodicStokes, StaggeredField, StokesError, StokesSolver, WallMotion, divergence,
 };
 
 #[test]

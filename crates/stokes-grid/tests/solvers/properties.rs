@@ -1,7 +1,8 @@
 //! Properties of the solution operator, on random grids and forces.
 
+use motile_base::Drive;
 use proptest::prelude::*;
-use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver};
+use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver};
 
 use crate::common::{largest, random_force, relative_distance};
 

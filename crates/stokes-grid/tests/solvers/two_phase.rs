@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use motile_base::{Drive, InputError};
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, StaggeredField, StokesError,
-    StokesSolver, TwoPhaseStokes, WallMotion, divergence,
+    CentreField, ChannelStokes, Grid, NodeField, PeriodicStokes, StaggeredField, StokesError, StokesSolver,
+    TwoPhaseStokes, WallMotion, divergence,
 };
 
 const SPACINGS: [usize; 3] = [32, 64, 128];
@@ -155,28 +156,34 @@ fn the_number_of_iterations_does_not_depend_on_the_grid() {
 fn a_uniform_viscosity_takes_one_iteration() {
     let periodic = Grid::periodic(24, 20, 0.1).unwrap();
     let channel = Grid::channel(24, 20, 0.1).unwrap();
-    let driven = |drive, moves: bool| {
-        let mut solver = ChannelStokes::new(channel, 0.7).unwrap();
+    let driven = |drive, moves: bool, viscosity| {
+        let mut solver = ChannelStokes::new(channel, viscosity).unwrap();
         solver.set_drive(drive).unwrap();
         if moves {
             solver.set_walls(WallMotion::from_fn(&channel, |x| 0.2 + x.cos(), |_| -0.4).unwrap()).unwrap();
         }
         Box::new(solver) as Box<dyn StokesSolver>
     };
-    let solvers: Vec<Box<dyn Fn() -> Box<dyn StokesSolver>>> = vec![
-        Box::new(|| Box::new(PeriodicStokes::new(periodic, 0.7).unwrap())),
-        Box::new(|| driven(Drive::ZeroGradient, false)),
-        Box::new(|| driven(Drive::Gradient(-0.3), true)),
-        Box::new(|| driven(Drive::ZeroFlux, true)),
-        Box::new(|| driven(Drive::Flux(0.8), false)),
-    ];
-    for make in &solvers {
-        let mut plain = make();
+    let solver = |kind: usize, viscosity| match kind {
+        0 => Box::new(PeriodicStokes::new(periodic, viscosity).unwrap()),
+        1 => driven(Drive::ZeroGradient, false, viscosity),
+        2 => driven(Drive::Gradient(-0.3), true, viscosity),
+        3 => driven(Drive::ZeroFlux, true, viscosity),
+        _ => driven(Drive::Flux(0.8), false, viscosity),
+    };
+    for kind in 0..5 {
+        let make = |viscosity| solver(kind, viscosity);
+        let mut plain = make(0.7);
         let grid = *plain.grid();
         let force = BOX.fill(&grid, |x, y| [(3.0 * x + y).sin() + 0.3, (x * y).cos()]);
         let (mut expected, mut found) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
         let report = plain.solve(&force, &mut expected).unwrap();
-        let mut two_phase = TwoPhaseStokes::new(make()).unwrap();
+        // None where it is that of the solver.
+        let mut same = TwoPhaseStokes::new(make(0.7)).unwrap();
+        assert_eq!(same.solve(&force, &mut found).unwrap(), report);
+        assert_eq!(found, expected);
+        let mut two_phase = TwoPhaseStokes::new(make(0.9)).unwrap();
+        two_phase.set_viscosity(|_, _| 0.7).unwrap();
         let again = two_phase.solve(&force, &mut found).unwrap();
         assert_eq!(again.iterations, 1);
         for (a, b) in report.mean_pressure_gradient.iter().zip(again.mean_pressure_gradient) {

@@ -1,8 +1,8 @@
-//! Per-node values that pair sums need, as arrays for vector registers.
+//! Coordinates and vectors at nodes as arrays of components, for sums over pairs in vector registers.
 
 use num_complex::Complex64;
 
-/// Coordinates of the nodes of a curve and their circular and hyperbolic functions. Every array is stored twice in a
+/// Coordinates of the nodes of a curve with their circular and exponential functions. Every array is stored twice in a
 /// row, so that a cyclic shift is a slice.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Nodes {
@@ -33,8 +33,8 @@ pub(crate) struct Window<'a> {
 }
 
 impl Nodes {
-    /// Takes over positions relative to the centre of a curve. `wave` is k = 2 pi/period where there is a row of images
-    /// along x; without it the last four arrays are not computed.
+    /// Takes over positions (length) relative to the centre of a curve. `wave` is k = 2 pi/period (1/length) of a row
+    /// of images along x; without one, only x and y are computed.
     pub(crate) fn fill(&mut self, positions: &[Complex64], wave: Option<f64>) {
         self.nodes = positions.len();
         let arrays = [&mut self.x, &mut self.y, &mut self.sin, &mut self.cos, &mut self.up, &mut self.down];
@@ -61,7 +61,7 @@ impl Nodes {
         self.nodes
     }
 
-    /// The `count` nodes from `start` on, start below the number of nodes.
+    /// The `count` nodes from `start` on, which is below the number of nodes.
     #[inline(always)]
     pub(crate) fn window(&self, start: usize, count: usize) -> Window<'_> {
         let range = start..start + count;
@@ -84,6 +84,7 @@ pub(crate) struct Vectors {
 }
 
 impl Vectors {
+    /// Takes over complex numbers x + i y.
     pub(crate) fn fill(&mut self, values: &[Complex64]) {
         let n = values.len();
         self.x.resize(2 * n, 0.0);

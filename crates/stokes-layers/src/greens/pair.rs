@@ -1,8 +1,8 @@
-//! Stokeslet and stress between two points, in free space and for rows of images.
+//! Stokeslet and stress between two nodes: in free space, for a row of images and for all images of a periodic box.
 
-use super::{logarithm::ln, nodes::Window};
+use super::{nodes::Window, point::ln};
 
-/// The parts of a Stokeslet `G = -1/2 ln(q) I + [[xx, xy], [xy, yy]]`.
+/// Parts of a Stokeslet `G = -1/2 ln(q) I + [[xx, xy], [xy, yy]]`.
 pub(crate) struct Stokeslet {
     pub(crate) q: f64,
     pub(crate) xx: f64,
@@ -13,14 +13,14 @@ pub(crate) struct Stokeslet {
 /// A Green's function of the Stokes equations, `lap G - grad p = -4 pi delta`, and its stress, between node i of two
 /// windows.
 pub(crate) trait PairKernel {
-    /// The Stokeslet.
+    /// The Stokeslet of pair i.
     fn stokeslet(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> Stokeslet;
 
     /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
     fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
 
-    /// The stress acting on dipoles (xx, s, yy) at the source and at the target: velocity at the target, and at the
-    /// source.
+    /// Velocities at the target and at the source: the stress acting on dipoles (xx, s, yy) at the source and at the
+    /// target.
     #[inline(always)]
     fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
         let [xxx, xxy, xyy, yyy] = self.stress(t, s, i);
@@ -76,9 +76,15 @@ impl PairKernel for FreePair {
     }
 }
 
-/// Periodic along x, unbounded in y: `G = -A I + ...` with `A = 1/2 ln(2 cosh k dy - 2 cos k dx)`, for channels.
+/// A row of images along x, unbounded in y: with `A = 1/2 ln(2 cosh k dy - 2 cos k dx)` and k = 2 pi/period,
 ///
-/// Circular and hyperbolic functions of differences are products of those of the nodes and of the offset of the curves.
+/// ```text
+/// G_xx = 1 - A - dy A_y,   G_xy = dy A_x,   G_yy = -A + dy A_y
+/// ```
+///
+/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). Circular and hyperbolic functions of
+/// differences are products of those of the nodes and of the offset of the curves, so that a pair needs none of its
+/// own.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RowPair {
     /// 2 pi / period (1/length).
@@ -90,7 +96,7 @@ pub(crate) struct RowPair {
     dy: f64,
 }
 
-/// Functions of the difference of two nodes that rows of images are made of.
+/// Circular and hyperbolic functions of the difference of two nodes.
 struct RowTerms {
     /// sin and cos of k dx/2.
     s: f64,
@@ -103,7 +109,7 @@ struct RowTerms {
 }
 
 impl RowPair {
-    /// For a source whose centre lies `offset` from that of the target.
+    /// The kernel for a source whose centre lies `[along, across]` (length) from that of the target.
     pub(crate) fn new(k: f64, [along, across]: [f64; 2]) -> Self {
         let (sin, cos) = (0.5 * k * along).sin_cos();
         let up = (0.5 * k * across).exp();
@@ -156,7 +162,8 @@ impl PairKernel for RowPair {
     }
 }
 
-/// All images of a periodic box: rows along x, those beside the first one as functions that fall off across.
+/// All images of a periodic box as rows along x: the row of the nodes themselves and those beside it, whose functions
+/// fall off like `exp(-k |y|)`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LatticePair {
     row: RowPair,
@@ -167,15 +174,15 @@ pub(crate) struct LatticePair {
 }
 
 impl LatticePair {
-    /// For a source whose centre lies `offset` from that of the target; rows of images are as many as bring the rest
-    /// below `tolerance`.
+    /// The kernel for a source whose centre lies `offset` (length) from that of the target, with as many rows of images
+    /// as bring the rest below `tolerance`.
     pub(crate) fn new([lx, ly]: [f64; 2], offset: [f64; 2], tolerance: f64) -> Self {
         let k = std::f64::consts::TAU / lx;
         let rows = (1.0 - tolerance.ln() / (k * ly)).ceil() as usize;
         Self { row: RowPair::new(k, offset), across: ly, rows, decay: (-k * ly).exp() }
     }
 
-    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), y and the side.
+    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), the distance y and the sign of its side.
     #[inline(always)]
     fn beside(&self, terms: &RowTerms, mut take: impl FnMut(f64, f64, f64)) {
         let (up, down) = (terms.ch + terms.sh, terms.ch - terms.sh);
@@ -188,7 +195,7 @@ impl LatticePair {
         }
     }
 
-    /// What the mean flow of a box adds to xx.
+    /// Term of xx that makes the mean velocity in the box zero.
     fn mean(&self, dy: f64) -> f64 {
         self.row.k * (dy * dy / self.across + self.across / 6.0) - 1.0
     }
@@ -245,4 +252,12 @@ impl PairKernel for LatticePair {
         });
         [xx + self.mean(0.0), xy, yy]
     }
+}
+
+/// A Green's function that is summed over the nodes of two curves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum AnyPair {
+    Free(FreePair),
+    Row(RowPair),
+    Lattice(LatticePair),
 }

@@ -1,4 +1,4 @@
-//! Kernels of velocity, gradient and pressure of forces and dipoles, in complex form.
+//! Kernels of the velocity, the velocity gradient and the pressure of forces and dipoles, in complex form.
 //!
 //! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, that of the double
 //! layer with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free
@@ -8,23 +8,25 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use super::logarithm::ln;
-use crate::Geometry;
+use motile_base::Region;
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// The functions of d that the flow at a point is made of.
+/// Functions of d = source minus target that make up the flow at the target.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernels {
+    /// l.
     pub(crate) log: f64,
+    /// c_1, c_2, c_3.
     pub(crate) c: [Complex64; 3],
+    /// e_1, e_2, e_3.
     pub(crate) e: [Complex64; 3],
     /// Minus the derivative of c_1 by conj(d): pi/area in a periodic box.
     pub(crate) background: f64,
 }
 
-/// Flow times viscosity at a point, as complex numbers.
+/// Flow at a point times 4 pi and viscosity, as complex numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Flow {
     /// u + i v.
@@ -33,6 +35,7 @@ pub(crate) struct Flow {
     pub(crate) spin: Complex64,
     /// Derivative of u + i v by conj(z).
     pub(crate) strain: Complex64,
+    /// Pressure times 4 pi (force per length in 2D).
     pub(crate) pressure: f64,
 }
 
@@ -46,13 +49,13 @@ impl std::ops::AddAssign for Flow {
 }
 
 impl Flow {
-    /// `[[du/dx, du/dy], [dv/dx, dv/dy]]`.
+    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]`.
     pub(crate) fn gradient(&self) -> [[f64; 2]; 2] {
         let (along, across) = (self.spin + self.strain, I * (self.spin - self.strain));
         [[along.re, across.re], [along.im, across.im]]
     }
 
-    /// Adds 4 pi times the flow of a force; times `sign`.
+    /// Adds `sign` times the flow of a force.
     pub(crate) fn add_force(&mut self, k: &Kernels, force: Complex64, sign: f64) {
         let force = force * sign;
         self.velocity += 0.5 * (force * k.e[0]).conj() - force * k.log;
@@ -62,8 +65,8 @@ impl Flow {
         self.pressure -= 2.0 * pull.re;
     }
 
-    /// Adds 4 pi times the flow of a double layer: velocity times contrast and weight on the element `tangent`; times
-    /// `sign`.
+    /// Adds `sign` times the flow of a double layer with this velocity on the element `tangent`, which carries contrast
+    /// and weight.
     pub(crate) fn add_dipole(&mut self, k: &Kernels, velocity: Complex64, tangent: Complex64, sign: f64) {
         let velocity = velocity * sign;
         let product = velocity * tangent;
@@ -77,8 +80,8 @@ impl Flow {
     }
 }
 
-/// The Green's function of a plane or of periodic images; a channel's is that of a row of images and its walls'
-/// correction ([`crate::greens::walls`]).
+/// Green's function of the plane or of periodic images; that of a channel is a row of images and the correction by the
+/// walls ([`crate::greens::walls`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum GreensFunction {
     /// The plane.
@@ -90,12 +93,13 @@ pub(crate) enum GreensFunction {
 }
 
 impl GreensFunction {
-    /// That of a region, less the walls; rows of images are as many as bring the rest below `tolerance`.
-    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Self {
-        match *geometry {
-            Geometry::Plane => Self::Free,
-            Geometry::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
-            Geometry::Box { lengths } => {
+    /// The Green's function of a region without its walls, with as many rows of images as bring the rest below
+    /// `tolerance`.
+    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
+        match *region {
+            Region::Plane => Self::Free,
+            Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
+            Region::Box { lengths } => {
                 let transposed = lengths[1] < lengths[0];
                 let [along, across] = if transposed { [lengths[1], lengths[0]] } else { lengths };
                 let k = 2.0 * PI / along;
@@ -105,13 +109,14 @@ impl GreensFunction {
         }
     }
 
-    /// All images, d being the shortest of the equivalent distances.
+    /// Kernels of all images, d (length) being the shortest of the equivalent distances.
     pub(crate) fn at(&self, d: Complex64) -> Kernels {
         self.evaluate(d, false)
     }
 
-    /// All images but the one at d itself: `at(d)` minus [`free`] of d, without the loss of digits close to d = 0.
-    pub(crate) fn images(&self, d: Complex64) -> Kernels {
+    /// Kernels of all images but the one at d itself: `at(d)` minus [`free`] of d, without the loss of digits close to
+    /// d = 0.
+    pub(crate) fn without_nearest(&self, d: Complex64) -> Kernels {
         self.evaluate(d, true)
     }
 
@@ -119,7 +124,10 @@ impl GreensFunction {
         match *self {
             Self::Free if regular => Kernels { log: 0.0, c: [ZERO; 3], e: [ZERO; 3], background: 0.0 },
             Self::Free => free(d),
-            Self::Row { k } => row(d, k, regular),
+            Self::Row { k } => {
+                let (log, c) = singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), regular);
+                row_weighted(log, c, d.im, if regular { 0.0 } else { 1.0 })
+            }
             Self::Lattice { transposed: false, .. } => self.lattice::<3>(d, regular),
             Self::Lattice { transposed: true, .. } => {
                 // Reflection at the diagonal, d' = i conj(d).
@@ -134,7 +142,7 @@ impl GreensFunction {
         }
     }
 
-    /// `l` and `e_1`, all that the velocity of a force needs.
+    /// `l` and `e_1`, which make up the velocity of a force.
     pub(crate) fn stokeslet(&self, d: Complex64) -> (f64, Complex64) {
         let kernels = match *self {
             Self::Lattice { transposed: false, .. } => self.lattice::<1>(d, false),
@@ -147,7 +155,7 @@ impl GreensFunction {
         (kernels.log, kernels.e[0])
     }
 
-    /// Rows along x, of which the first N functions of each family are computed.
+    /// Kernels of rows along x, the first N functions of each family.
     #[inline(always)]
     fn lattice<const N: usize>(&self, d: Complex64, regular: bool) -> Kernels {
         let Self::Lattice { k, across, rows, .. } = *self else { return free(d) };
@@ -188,23 +196,25 @@ impl GreensFunction {
     }
 }
 
+/// Kernels of free space.
 pub(crate) fn free(d: Complex64) -> Kernels {
     let inverse = d.inv();
     let c = [inverse, inverse * inverse, inverse * inverse * inverse];
     weighted(0.5 * ln(d.norm_sqr()) - 0.5, c, d.conj())
 }
 
-/// Free-space kernels from functions that stand for ln|d| and 1/d^k.
+/// Kernels of free space from values that replace ln|d| - 1/2 and 1/d^k.
 pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Kernels {
     Kernels { log, c, e: c.map(|c| c * conjugate), background: 0.0 }
 }
 
-/// The singular functions of a row of images: `ln|2 sin(k d/2)|` and the sums of 1/d, 1/d^2, 1/d^3.
+/// Singular functions of a row of images: `ln|2 sin(k d/2)|` and the sums of 1/d, 1/d^2, 1/d^3.
 fn row_singularities(d: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), false)
 }
 
-/// The same from the [`half_turns`] of source and target, without circular functions.
+/// Singular functions of a row of images from the [`half_turns`] of source and target, without circular functions of
+/// their own.
 pub(crate) fn row_of_turns(
     d: Complex64,
     k: f64,
@@ -212,34 +222,27 @@ pub(crate) fn row_of_turns(
     target: [Complex64; 2],
 ) -> (f64, [Complex64; 3]) {
     let [turn, back] = [source[0] * target[1], source[1] * target[0]];
-    // Digits of the difference are lost close to zero.
+    // Cancellation close to zero: below |2 sin(k d/2)| = 0.06 the difference loses more than a digit.
     if (turn - back).norm_sqr() < 4e-3 {
         return row_singularities(d, k);
     }
     singular_of(k, -0.5 * I * (turn - back), 0.5 * (turn + back))
 }
 
-/// exp(i k z/2) and its inverse.
+/// exp(i k z/2) and its inverse, for [`row_of_turns`].
 pub(crate) fn half_turns(z: Complex64, k: f64) -> [Complex64; 2] {
     let turn = (0.5 * k * I * z).exp();
     [turn, turn.inv()]
 }
 
-/// Kernels of a row of images from functions that stand for its singular ones.
-pub(crate) fn row_weighted(log: f64, c: [Complex64; 3], dy: f64) -> Kernels {
+/// Kernels of a row of images from values that replace its singular functions: conj(d) is d - 2 i dy, and the sum over
+/// images of 1/d^k a derivative of the cotangent. `own` is 1 with the image at d and 0 without.
+pub(crate) fn row_weighted(log: f64, c: [Complex64; 3], dy: f64, own: f64) -> Kernels {
     let y = Complex64::new(0.0, -2.0 * dy);
-    Kernels { log: log - 0.5, c, e: [1.0 + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
+    Kernels { log: log - 0.5 * own, c, e: [own + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
 }
 
-/// conj(d) becomes d - 2 i dy, and the sum over images of 1/d^k is a derivative of the cotangent.
-fn row(d: Complex64, k: f64, regular: bool) -> Kernels {
-    let (log, c) = singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), regular);
-    let y = Complex64::new(0.0, -2.0 * d.im);
-    let one = if regular { 0.0 } else { 1.0 };
-    Kernels { log: log - 0.5 * one, c, e: [one + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
-}
-
-/// Circular functions of a complex number.
+/// Circular functions of a complex number x.
 struct HalfAngle {
     x: Complex64,
     sin: Complex64,
@@ -254,7 +257,7 @@ impl HalfAngle {
     fn new(x: Complex64) -> Self {
         let ((s, c), up) = (x.re.sin_cos(), x.im.exp());
         let down = 1.0 / up;
-        // Digits of the difference are lost close to zero.
+        // Cancellation close to zero.
         let sh = if x.im.abs() < 0.5 { x.im.sinh() } else { 0.5 * (up - down) };
         let ch = 0.5 * (up + down);
         let (sin, cos) = (Complex64::new(s * ch, c * sh), Complex64::new(c * ch, -s * sh));
@@ -268,7 +271,7 @@ impl HalfAngle {
     }
 }
 
-/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of d alone.
+/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of the image at d.
 fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, [Complex64; 3]) {
     if regular && half.x.norm_sqr() < 0.25 {
         return near_row(half.x, k);
@@ -282,14 +285,15 @@ fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, 
     }
 }
 
-/// The functions of a row from the sine and cosine of k d/2.
+/// Singular functions of a row from the sine and cosine of k d/2.
 fn singular_of(k: f64, sin: Complex64, cos: Complex64) -> (f64, [Complex64; 3]) {
     let cosecant = 0.5 * k * sin.inv();
     let first = cosecant * cos;
     (0.5 * ln(4.0 * sin.norm_sqr()), [first, cosecant * cosecant, cosecant * cosecant * first])
 }
 
-/// The regular functions of a row by the Laurent series `cot x = 1/x - sum a_n x^(2n - 1)`, a_n = 2 zeta(2n)/pi^(2n).
+/// Regular functions of a row for small x = k d/2, by the Laurent series `cot x = 1/x - sum a_n x^(2n - 1)`, a_n = 2
+/// zeta(2n)/pi^(2n).
 fn near_row(x: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     const SERIES: [f64; 11] = [
         1.0 / 3.0,
@@ -320,6 +324,37 @@ fn near_row(x: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     }
     let c = [first * x * half, second * (half * half), third * x * (half * half * half)];
     (k.ln() + (log * square).re, c)
+}
+
+// Bit patterns of sqrt(1/2), 1 and 2^52, and the mask of a mantissa.
+const HALF_ROOT: u64 = 0x3FE6_A09E_667F_3BCD;
+const ONE: u64 = 0x3FF0_0000_0000_0000;
+const TWO_52: u64 = 0x4330_0000_0000_0000;
+const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
+// ln 2 to 33 bits, so that its product with an exponent is exact, and the rest.
+const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
+const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+
+/// Natural logarithm of a positive normal number to about 1e-16 of max(1, |ln x|); anything else gives a meaningless
+/// number.
+///
+/// x = 2^e m with m between sqrt(1/2) and sqrt(2), and ln m = 2 artanh s with s = (m - 1)/(m + 1), |s| < 0.1716, by its
+/// Taylor series. No branch and no table, so a loop over it runs in vector registers, which the library function's does
+/// not.
+#[inline(always)]
+pub(crate) fn ln(x: f64) -> f64 {
+    let shifted = x.to_bits().wrapping_add(ONE - HALF_ROOT);
+    // Put into the low bits of 2^52, the exponent becomes a float.
+    let exponent = f64::from_bits(TWO_52 | (shifted >> 52)) - (4_503_599_627_370_496.0 + 1023.0);
+    let mantissa = f64::from_bits((shifted & MANTISSA) + HALF_ROOT);
+    let s = (mantissa - 1.0) / (mantissa + 1.0);
+    let z = s * s;
+    let z2 = z * z;
+    let z4 = z2 * z2;
+    let low = (2.0 / 3.0 + z * (2.0 / 5.0)) + z2 * (2.0 / 7.0 + z * (2.0 / 9.0));
+    let high = (2.0 / 11.0 + z * (2.0 / 13.0)) + z2 * (2.0 / 15.0 + z * (2.0 / 17.0));
+    let series = z * (low + z4 * high + z4 * z4 * (2.0 / 19.0 + z * (2.0 / 21.0)));
+    exponent * LN2_HIGH + (s * (2.0 + series) + exponent * LN2_LOW)
 }
 
 #[cfg(test)]

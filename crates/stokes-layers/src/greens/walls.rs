@@ -1,7 +1,8 @@
-//! What two no-slip walls add to the flow of forces and dipoles that are periodic along them.
+//! Correction that two no-slip walls add to the flow of forces and dipoles that are periodic along them.
 //!
 //! The correction is a Fourier series in x with modes `exp(-k s)`, s the distance from a wall, so that sources and
-//! targets enter by products and the cost is (nodes) x (modes). Modes are as many as the gaps to the walls ask for.
+//! targets enter by products and the cost is (nodes) x (modes). The number of modes grows like the inverse of the gaps
+//! to the walls.
 
 use std::f64::consts::TAU;
 
@@ -13,11 +14,11 @@ mod points;
 pub(crate) use points::WallPoints;
 use points::{LANES, Lanes};
 
-/// No gap asks for more modes than this.
+/// Largest number of modes: at a tolerance of 1e-8 as many resolve gaps down to 1/2500 of the period.
 const MOST_MODES: usize = 4096;
 
-/// Sums over sources for some modes, real and imaginary parts: of e q and of e (p - k s q), with e = exp(-k s - i k x),
-/// q complex and p real.
+/// Sums over sources for some modes, real and imaginary parts: of e q (`plain`) and of e (p - k s q) (`mixed`), with
+/// e = exp(-k s - i k x), q complex and p real.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     plain: [Lanes; 2],
@@ -32,7 +33,7 @@ impl Sums {
     }
 }
 
-/// Velocities that the sources alone would have at a wall, mode by mode.
+/// Velocity of the sources at a wall without the correction, one mode.
 #[derive(Debug, Clone, Copy, Default)]
 struct Slip {
     u: Complex64,
@@ -50,49 +51,41 @@ pub(crate) struct Coefficients {
     pub(crate) linear: [Lanes; 2],
 }
 
-/// Factors of one mode that depend on the height alone.
+/// Factors of one mode in the even and the odd part of the streamfunction, which depend on the width alone.
 #[derive(Debug, Clone, Copy)]
 struct Factors {
     even: [f64; 4],
     odd: [f64; 4],
 }
 
-/// The correction by the walls as a series, and the flow that does not depend on x.
-#[derive(Debug, Clone)]
+/// The correction by the walls as a Fourier series, with the flow that does not depend on x.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct WallModes {
     /// 2 pi / period (1/length).
     pub(crate) k: f64,
     /// Half the distance between the walls (length).
     pub(crate) half: f64,
+    /// True if the correction makes the flux zero instead of the mean pressure gradient.
     zero_flux: bool,
-    /// Smallest decay that still counts, as an exponent.
+    /// Exponent of the decay beyond which modes are left out.
     exponent: f64,
     factors: Vec<Factors>,
     sums: [Vec<Sums>; 2],
     slips: [Vec<Slip>; 2],
     pub(crate) coefficients: [Vec<Coefficients>; 2],
-    /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
+    /// Coefficients of 1, y and half^2 - y^2 in the x velocity that does not depend on x.
     pub(crate) mean: [f64; 3],
     modes: usize,
 }
 
 impl WallModes {
+    /// The walls of a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
-        Self {
-            k: TAU / period,
-            half,
-            zero_flux,
-            exponent: 0.0,
-            factors: Vec::new(),
-            sums: Default::default(),
-            slips: Default::default(),
-            coefficients: Default::default(),
-            mean: [0.0; 3],
-            modes: 0,
-        }
+        Self { k: TAU / period, half, zero_flux, ..Self::default() }
     }
 
-    /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
+    /// Removes all sources and counts the modes for targets no closer to a wall than `target_gap` and sources no closer
+    /// than `source_gap` (length).
     pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64, accuracy: f64) {
         self.exponent = 2.5 - accuracy.ln();
         self.modes = self.count(source_gap + target_gap);
@@ -108,12 +101,13 @@ impl WallModes {
         self.mean = [0.0; 3];
     }
 
+    /// Number of modes at this distance of source and target by way of a wall (length).
     fn count(&self, distance: f64) -> usize {
         let needed = self.exponent / (self.k * distance.max(1e-300));
         (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
     }
 
-    /// Sums over points with q (for the upper wall; its conjugate for the lower one) and p.
+    /// Computes the sums over points with `source(j)` = (q, p); the lower wall takes the conjugate of q.
     fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64)) {
         let (k, exponent, modes) = (self.k, self.exponent, self.modes);
         for ((side, sums), sign) in points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]) {
@@ -148,7 +142,7 @@ impl WallModes {
         }
     }
 
-    /// Adds forces (times weight) at points; `target_gap` as in [`WallModes::begin`].
+    /// Adds forces (times weight) at points as sources; `target_gap` as in [`WallModes::begin`].
     pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
         self.moments(points, target_gap, |j| (forces(j), forces(j).re));
         for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
@@ -174,8 +168,8 @@ impl WallModes {
         }
     }
 
-    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as
-    /// long as the flux through the curve is zero.
+    /// Adds dipoles (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points as sources; `x` has any origin, since
+    /// the flux through a curve is zero.
     pub(crate) fn add_dipoles(
         &mut self,
         points: &WallPoints,
@@ -207,7 +201,7 @@ impl WallModes {
         }
     }
 
-    /// Solves for the series that cancels the velocity of the sources at the walls.
+    /// Solves for the series that cancels the velocity of the sources at the walls, mode by mode.
     pub(crate) fn solve(&mut self) {
         let chunks = self.modes.div_ceil(LANES);
         for coefficients in &mut self.coefficients {
@@ -234,7 +228,8 @@ impl WallModes {
         }
     }
 
-    /// Adds the velocity of the correction at points by `add(index, u, v)`; `source_gap` as in [`WallModes::begin`].
+    /// Computes the velocity of the correction at points and calls `add(index, u, v)`; `source_gap` as in
+    /// [`WallModes::begin`].
     pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
         for (i, y) in points.y.iter().enumerate() {
             let (mut u, mut v) = (self.mean_velocity(*y), 0.0);
@@ -264,6 +259,7 @@ impl WallModes {
         }
     }
 
+    /// x velocity of the correction that does not depend on x, at the height y (length).
     pub(crate) fn mean_velocity(&self, y: f64) -> f64 {
         self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
     }
@@ -271,8 +267,8 @@ impl WallModes {
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
 
-/// Solution of the biharmonic equation between the walls for given values and slopes, split into even and odd parts and
-/// scaled by exp(-k half) to stay finite.
+/// Factors of one mode of the biharmonic equation between walls with given values and slopes of the streamfunction, in
+/// even and odd parts, scaled by exp(-k half) to stay finite.
 fn factors(k: f64, half: f64) -> Factors {
     let kh = k * half;
     let decay = (-2.0 * kh).exp();

@@ -1,24 +1,28 @@
-//! What the walls of a channel add to layers, and the flow that its forcing drives.
+//! Contribution of the straight walls of a channel to layers, and the flow that the drive of the channel drives.
 
 use std::{f64::consts::TAU, ops::Range};
 
 use num_complex::Complex64;
 
 use crate::{
-    Forcing, LayerError,
-    close::reach,
-    curve::{Curve, REFINEMENT},
+    LayerError,
+    close_weights::reach,
+    curve::Curve,
+    density::Density,
     greens::{
         Flow, Vectors,
         walls::{WallModes, WallPoints},
     },
+    plan::Plan,
+    transforms::REFINEMENT,
 };
+use motile_base::Drive;
 
-use super::{Density, Plan};
-
-/// Beyond a wall by less than this fraction of the width is taken for touching it.
+/// Part of the half width by which a node may lie beyond a wall: round-off of positions that touch it, which are sums
+/// of some thousand steps.
 const ROUND_OFF: f64 = 1e-12;
-/// Sources closer to a wall than this many spacings count as that far away.
+/// Distance from a wall, in spacings, below which sources count as that far away: a twelfth of the distance of fine
+/// nodes, at which a wall's modes are no longer resolved in any case.
 const LEAST_GAP: f64 = 0.02;
 
 /// The walls of a channel with the nodes of the curves between them.
@@ -26,43 +30,49 @@ const LEAST_GAP: f64 = 0.02;
 pub(crate) struct Walls {
     length: f64,
     half: f64,
-    pub(crate) forcing: Forcing,
+    pub(crate) drive: Drive,
     tolerance: f64,
     modes: WallModes,
     nodes: WallPoints,
     fine: WallPoints,
     /// Curve and number of each node.
     owners: Vec<[usize; 2]>,
-    /// Whether the walls see the fine nodes: those of the nodes would be too coarse for their gap.
+    /// True where a gap to a wall is so narrow that sources are taken from the fine nodes.
     refined: bool,
+    /// Smallest distance of a node from a wall (length).
     gap: f64,
+    /// Points off the curves.
     points: WallPoints,
 }
 
 impl Walls {
-    pub(crate) fn new(length: f64, width: f64, forcing: Forcing, tolerance: f64) -> Self {
+    pub(crate) fn new(length: f64, width: f64, drive: Drive, tolerance: f64) -> Self {
         let half = 0.5 * width;
+        let points = WallPoints::new(length, half);
         Self {
             length,
             half,
-            forcing,
+            drive,
             tolerance,
-            modes: WallModes::new(length, half, matches!(forcing, Forcing::Flux(_))),
-            nodes: WallPoints::default(),
-            fine: WallPoints::default(),
+            modes: WallModes::new(length, half, drive.flux().is_some()),
+            nodes: points.clone(),
+            fine: points.clone(),
             owners: Vec::new(),
             refined: false,
             gap: 0.0,
-            points: WallPoints::default(),
+            points,
         }
     }
 
-    /// Whether velocities are needed at the fine nodes.
+    /// True where sources are taken from the fine nodes, so that velocities are needed there.
     pub(crate) fn is_refined(&self) -> bool {
         self.refined
     }
 
     /// Takes over the present shapes.
+    ///
+    /// # Errors
+    /// A node beyond a wall.
     pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut [Plan]) -> Result<(), LayerError> {
         self.nodes.clear();
         self.owners.clear();
@@ -77,11 +87,11 @@ impl Walls {
                     return Err(LayerError::BeyondWall { curve: number, node, x: z.re, y: z.im, depth, allowed });
                 }
                 self.owners.push([number, node]);
-                self.nodes.push(&self.modes, z.re, z.im.clamp(-self.half, self.half));
+                self.nodes.push(z.re, z.im.clamp(-self.half, self.half));
             }
         }
         self.gap = self.nodes.gap();
-        // The wall's image of a node is two gaps away from the node.
+        // The image of a node behind the wall is two gaps away from the node.
         self.refined = 2.0 * self.gap < reach(self.tolerance) * spacing;
         if self.refined {
             curves.iter_mut().for_each(|curve| curve.refine(&mut plans[curve.plan].transforms));
@@ -96,7 +106,7 @@ impl Walls {
         for curve in curves {
             for z in &curve.fine.position {
                 let z = z + curve.centre;
-                self.fine.push(&self.modes, z.re, z.im);
+                self.fine.push(z.re, z.im);
             }
         }
     }
@@ -112,8 +122,8 @@ impl Walls {
         self.modes.add_forces(points, target_gap, force);
     }
 
-    /// Adds the dipoles at the nodes or, where there are velocities of those, at the fine nodes to the modes, times
-    /// `sign`.
+    /// Adds `sign` times the dipoles to the modes: those at the fine nodes if `fine` has the velocities there, those at
+    /// the nodes otherwise.
     fn put_dipoles(
         &mut self,
         curves: &[Curve],
@@ -149,7 +159,7 @@ impl Walls {
         self.modes.add_dipoles(points, target_gap, dipole, x);
     }
 
-    /// Adds what the modes give at the nodes.
+    /// Adds the flow of the modes at the nodes.
     fn add_modes(&mut self, out: &mut [Vectors]) {
         self.modes.solve();
         self.modes.velocities(&self.nodes, self.gap, |i, u, v| {
@@ -159,7 +169,7 @@ impl Walls {
         });
     }
 
-    /// Adds what the walls add to the single layer of some curves.
+    /// Adds the contribution of the walls to the single layer of some curves.
     pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, out: &mut [Vectors]) {
         if !curves.is_empty() {
             self.modes.begin(self.gap, self.gap, self.tolerance);
@@ -168,7 +178,8 @@ impl Walls {
         }
     }
 
-    /// Adds what the walls add to the double layer; `fine` are the velocities at the fine nodes if those are needed.
+    /// Adds the contribution of the walls to the double layer; `fine` has the velocities at the fine nodes where they
+    /// are needed.
     pub(crate) fn add_dipoles(
         &mut self,
         curves: &[Curve],
@@ -182,28 +193,26 @@ impl Walls {
         self.add_modes(out);
     }
 
-    /// Velocity at height y of the flow that the forcing drives.
-    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> f64 {
+    /// Velocity (length per time) and shear rate (1/time) at the height y of the parabolic flow that the forcing
+    /// drives.
+    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> [f64; 2] {
         let h = self.half;
-        let parabola = h * h - y * y;
-        match self.forcing {
-            Forcing::Gradient(gradient) => -gradient / (2.0 * viscosity) * parabola,
-            Forcing::Flux(flux) => 0.75 * flux / (h * h * h) * parabola,
-        }
+        let factor = match self.drive.flux() {
+            None => -self.drive.gradient() / (2.0 * viscosity),
+            Some(flux) => 0.75 * flux / (h * h * h),
+        };
+        [factor * (h * h - y * y), -2.0 * factor * y]
     }
 
     /// Mean pressure gradient along x (force per volume).
     pub(crate) fn pressure_gradient(&self, curves: &[Curve], density: Density<'_>, viscosity: f64) -> f64 {
         let h = self.half;
-        let flux = match self.forcing {
-            Forcing::Gradient(gradient) => return gradient,
-            Forcing::Flux(flux) => flux,
-        };
+        let Some(flux) = self.drive.flux() else { return self.drive.gradient() };
         let sum = self.force_moment(curves) - self.dipole_moment(curves, density);
         1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * flux)
     }
 
-    /// The sum of (h^2 - y^2) F_x: 2 l eta times the flux of the forces without a mean pressure gradient.
+    /// Sum of (h^2 - y^2) F_x (force times area): 2 l eta times the flux of the forces at zero mean pressure gradient.
     pub(crate) fn force_moment(&self, curves: &[Curve]) -> f64 {
         let parabola = |y: f64| self.half * self.half - y * y;
         let nodes = |curve: &Curve| -> f64 {
@@ -213,7 +222,7 @@ impl Walls {
         curves.iter().map(nodes).sum()
     }
 
-    /// The same of the double layer.
+    /// Moment of the double layer, `-2 sum [y (v_x n_y + v_y n_x) - x v.n]`: 2 l eta times its flux.
     pub(crate) fn dipole_moment(&self, curves: &[Curve], density: Density<'_>) -> f64 {
         let mut sum = 0.0;
         for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {
@@ -240,7 +249,7 @@ impl Walls {
     ) {
         self.points.clear();
         for z in points {
-            self.points.push(&self.modes, z.re, z.im.clamp(-self.half, self.half));
+            self.points.push(z.re, z.im.clamp(-self.half, self.half));
         }
         self.load_fine(curves);
         if curves.is_empty() {
@@ -258,13 +267,13 @@ impl Walls {
         self.modes.solve();
     }
 
-    /// Adds the flow at the point of that number.
+    /// Adds the contribution of the walls to the flow at the point of that number.
     pub(crate) fn add_flow(&self, index: usize, flow: &mut Flow) {
         *flow += self.modes.flow(&self.points, index);
     }
 }
 
-/// Curve and number of a node or fine node from those of the nodes.
+/// Curve and number in it of node j, or of fine node j.
 fn owner(owners: &[[usize; 2]], j: usize, fine: bool) -> [usize; 2] {
     if fine {
         let [curve, node] = owners[j / REFINEMENT];

@@ -1,4 +1,4 @@
-//! Sums of Green's functions that have a [`Series`], by moments.
+//! Sums over sources of a Green's function with a [`Series`], by the moments of the sources.
 //!
 //! With distances as `D + z - z'`, target and source each taken from the centre of its curve, the powers of z - z'
 //! separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial. The cost grows
@@ -12,7 +12,7 @@ use crate::greens::Vectors;
 
 use super::series::Series;
 
-/// Moments of sources about a point, k = 0 .. degree, with lengths in a unit of their own.
+/// Moments of sources about a point, k = 0 .. degree, with lengths in the unit of the series.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Moments {
     /// Sum of F z^k.
@@ -21,11 +21,12 @@ pub(crate) struct Moments {
     conjugate: Vec<Complex64>,
     /// Sum of F conj(z) z^k.
     mixed: Vec<Complex64>,
-    /// Sum of (v.n) z^k, of dipoles alone.
+    /// Sum of (v.n) z^k over dipoles; zero for forces.
     flux: Vec<Complex64>,
 }
 
 impl Moments {
+    /// Sets all moments up to a degree to zero.
     pub(crate) fn clear(&mut self, degree: usize) {
         for family in [&mut self.plain, &mut self.conjugate, &mut self.mixed, &mut self.flux] {
             family.clear();
@@ -34,20 +35,22 @@ impl Moments {
     }
 }
 
-/// The flow near a point as `P(z) + conj Q(z) + z conj R(z)`, R = -P', and terms of second order.
+/// The flow near a point, `P(z) + conj Q(z) + z conj R(z)` with R = -P' and quadratic terms of a uniform background
+/// force.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Expansion {
     p: Vectors,
     q: Vectors,
     r: Vectors,
-    low: Low,
+    /// Moments 0, 1 and 2 of all sources, for the quadratic terms.
+    low: [[Complex64; 3]; 4],
     power: Vectors,
     columns: [Vec<f64>; 5],
     accumulators: [Vectors; 3],
 }
 
 impl Expansion {
-    /// Moments of forces at `positions` about their origin.
+    /// Writes the moments of forces at `positions` about their origin.
     pub(crate) fn forces(&mut self, unit: f64, positions: &[Complex64], forces: &[Complex64], out: &mut Moments) {
         let [fx, fy, gx, gy, _] = &mut self.columns;
         resize([&mut *fx, fy, gx, gy], positions.len());
@@ -59,20 +62,15 @@ impl Expansion {
         let degree = out.plain.len();
         for k in 0..degree {
             let [fx, fy, gx, gy, _] = &self.columns;
-            let (xr, xi) = dot(fx, &self.power);
-            let (yr, yi) = dot(fy, &self.power);
-            out.plain[k] = Complex64::new(xr - yi, xi + yr);
-            out.conjugate[k] = Complex64::new(xr + yi, xi - yr);
-            let (xr, xi) = dot(gx, &self.power);
-            let (yr, yi) = dot(gy, &self.power);
-            out.mixed[k] = Complex64::new(xr - yi, xi + yr);
+            [out.plain[k], out.conjugate[k]] = sums(fx, fy, &self.power);
+            [out.mixed[k], _] = sums(gx, gy, &self.power);
             out.flux[k] = Complex64::default();
             advance(&mut self.power, positions, unit);
         }
     }
 
-    /// Moments of the double layer: `products` holds v n and `fluxes` v.n, both times their weight. Force F along v
-    /// with a derivative along n, and the reverse.
+    /// Writes the moments of a double layer, `products` having v n (as complex numbers) and `fluxes` v.n, both times
+    /// their weight: pairs of opposite forces along v displaced along n, and the reverse.
     pub(crate) fn dipoles(
         &mut self,
         unit: f64,
@@ -95,14 +93,8 @@ impl Expansion {
         let mut last = [Complex64::default(); 3];
         for k in 0..degree {
             let [ax, ay, cx, cy, b] = &self.columns;
-            let (xr, xi) = dot(ax, &self.power);
-            let (yr, yi) = dot(ay, &self.power);
-            let a = Complex64::new(xr - yi, xi + yr);
-            let (xr, xi) = dot(cx, &self.power);
-            let (yr, yi) = dot(cy, &self.power);
-            let c = Complex64::new(xr - yi, xi + yr);
-            let (re, im) = dot(b, &self.power);
-            let b = Complex64::new(re, im);
+            let ([a, _], [c, _]) = (sums(ax, ay, &self.power), sums(cx, cy, &self.power));
+            let b = dot(b, &self.power);
             let factor = 2.0 * inverse * k as f64;
             out.plain[k] = last[0] * factor;
             out.conjugate[k] = last[1] * factor;
@@ -113,15 +105,15 @@ impl Expansion {
         }
     }
 
-    /// Clears the flow for targets about a new origin.
+    /// Sets the flow to zero, for targets about a new origin.
     pub(crate) fn begin(&mut self, degree: usize) {
         for part in [&mut self.p, &mut self.q] {
             part.clear(degree + 2);
         }
-        self.low = Low::default();
+        self.low = Default::default();
     }
 
-    /// Adds the flow of the moments of a source, whose origin lies where delta = 0 in `series`.
+    /// Adds the flow of the moments of a source; delta = 0 in `series` belongs to their origin.
     pub(crate) fn add(&mut self, series: &Series, moments: &Moments, unit: f64) {
         let degree = series.degree().min(moments.plain.len() - 1);
         let [sr, si] = &series.s;
@@ -148,10 +140,13 @@ impl Expansion {
                 qi[k] += sr[k] * b.im + si[k] * b.re + tr[k] * a.im + ti[k] * a.re + dr[k] * c.im + di[k] * c.re;
             }
         }
-        self.low.add(moments);
+        let Moments { plain, conjugate, mixed, flux } = moments;
+        for (low, family) in self.low.iter_mut().zip([plain, conjugate, mixed, flux]) {
+            low.iter_mut().zip(family).for_each(|(low, moment)| *low += moment);
+        }
     }
 
-    /// Adds the flow at `positions`; `area` is infinite without a uniform background force.
+    /// Adds the flow at `positions` (length) to `out`; `area` is that of a box, infinite without a background force.
     pub(crate) fn add_flow(&mut self, positions: &[Complex64], unit: f64, area: f64, out: &mut Vectors) {
         // Divide by k!: the coefficients of P, Q and R = -P'.
         let mut inverse = 1.0;
@@ -176,7 +171,7 @@ impl Expansion {
         for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
             horner(coefficients, &self.power, sums);
         }
-        let Low { a0, a1, b0, b1, b2, c0, c1, e0, e1 } = self.low;
+        let [[a0, a1, _], [b0, b1, b2], [c0, c1, _], [e0, e1, _]] = self.low;
         let second = PI * unit * unit / (2.0 * area);
         let flux = 2.0 * PI * unit / area;
         let constant = second * c1 - 0.5 * second * b2 + flux * e1;
@@ -194,46 +189,19 @@ impl Expansion {
     }
 }
 
-/// The low moments of all sources, for the terms of second order.
-#[derive(Debug, Clone, Copy, Default)]
-struct Low {
-    a0: Complex64,
-    a1: Complex64,
-    b0: Complex64,
-    b1: Complex64,
-    b2: Complex64,
-    c0: Complex64,
-    c1: Complex64,
-    e0: Complex64,
-    e1: Complex64,
-}
-
-impl Low {
-    fn add(&mut self, m: &Moments) {
-        self.a0 += m.plain[0];
-        self.a1 += m.plain[1];
-        self.b0 += m.conjugate[0];
-        self.b1 += m.conjugate[1];
-        self.b2 += m.conjugate[2];
-        self.c0 += m.mixed[0];
-        self.c1 += m.mixed[1];
-        self.e0 += m.flux[0];
-        self.e1 += m.flux[1];
-    }
-}
-
 fn resize<const N: usize>(arrays: [&mut Vec<f64>; N], len: usize) {
     for array in arrays {
         array.resize(len, 0.0);
     }
 }
 
+/// Sets the powers to z^0.
 fn start(power: &mut Vectors, len: usize) {
     power.clear(len);
     power.x.fill(1.0);
 }
 
-/// Multiplies the powers by z in the unit.
+/// Multiplies the powers by z in units of `unit`.
 fn advance(power: &mut Vectors, positions: &[Complex64], unit: f64) {
     let inverse = 1.0 / unit;
     for ((x, y), z) in power.x.iter_mut().zip(&mut power.y).zip(positions) {
@@ -242,8 +210,14 @@ fn advance(power: &mut Vectors, positions: &[Complex64], unit: f64) {
     }
 }
 
-/// Sums of a real column times real and imaginary part of the powers.
-fn dot(column: &[f64], power: &Vectors) -> (f64, f64) {
+/// Sums over F z^k and over conj(F) z^k, from the components of F and the powers.
+fn sums(fx: &[f64], fy: &[f64], power: &Vectors) -> [Complex64; 2] {
+    let (x, y) = (dot(fx, power), dot(fy, power));
+    [Complex64::new(x.re - y.im, x.im + y.re), Complex64::new(x.re + y.im, x.im - y.re)]
+}
+
+/// Sum of a real column times the powers.
+fn dot(column: &[f64], power: &Vectors) -> Complex64 {
     const LANES: usize = 8;
     let n = column.len();
     let (columns, rest) = column.as_chunks::<LANES>();
@@ -256,15 +230,11 @@ fn dot(column: &[f64], power: &Vectors) -> (f64, f64) {
             imaginary[lane] += c[lane] * im[lane];
         }
     }
-    let mut sums = (real.iter().sum::<f64>(), imaginary.iter().sum::<f64>());
-    for ((c, re), im) in rest.iter().zip(re_rest).zip(im_rest) {
-        sums.0 += c * re;
-        sums.1 += c * im;
-    }
-    sums
+    let sum = Complex64::new(real.iter().sum(), imaginary.iter().sum());
+    rest.iter().zip(re_rest).zip(im_rest).fold(sum, |sum, ((c, re), im)| sum + Complex64::new(c * re, c * im))
 }
 
-/// Values of a polynomial at all points by Horner's scheme.
+/// Values of a polynomial at all points, by Horner's scheme.
 fn horner(coefficients: &Vectors, points: &Vectors, out: &mut Vectors) {
     let n = points.x.len();
     out.clear(n);

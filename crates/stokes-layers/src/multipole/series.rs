@@ -2,22 +2,25 @@
 
 use std::f64::consts::{PI, TAU};
 
-use input_checks::InputError;
+use motile_base::InputError;
 use num_complex::Complex64;
 
 use crate::{
-    Geometry,
-    curve::Transform,
-    geometry::Images,
     greens::{GreensFunction, ln},
+    images::Images,
+    transforms::Transform,
 };
+use motile_base::Region;
 
-/// Largest ratio of the distance of points to that of a singularity for which a series is used.
-pub(crate) const LARGEST_RATIO: f64 = 0.6;
-/// Largest degree of a series: its smallest terms are 1e-14 then.
+/// Largest degree of a series: 62 + 2 coefficients fill half of the longer transform, the other half being their
+/// mirror images.
 pub(crate) const MOST_DEGREES: usize = 62;
+/// Largest ratio of the distance of points to that of the nearest singularity for which a series is used: at the
+/// largest degree its terms have fallen to 0.6^62 = 2e-14.
+pub(crate) const LARGEST_RATIO: f64 = 0.6;
 
-/// Series of a Green's function around a distance D, for target minus source D + delta and a force F, in complex form:
+/// Series of a Green's function around a distance D, for target minus source D + delta. The flow of a force F in
+/// complex form, w = u + i v, is
 ///
 /// ```text
 /// w = F [ (pi/2V)|delta|^2 + Re S(delta) ] + conj F [ -(pi/4V) delta^2 - 1/2 delta conj S'(delta) + conj T(delta) ]
@@ -33,13 +36,13 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// Nothing, with room for any degree.
+    /// The empty series, with memory for any degree.
     pub(crate) fn new() -> Self {
         let room = || [Vec::with_capacity(MOST_DEGREES + 2), Vec::with_capacity(MOST_DEGREES + 2)];
         Self { s: room(), t: room() }
     }
 
-    /// The highest power; one coefficient more is kept for the derivative.
+    /// Highest power; one coefficient more is stored for the derivative.
     pub(crate) fn degree(&self) -> usize {
         self.s[0].len().saturating_sub(2)
     }
@@ -54,7 +57,7 @@ impl Series {
         }
     }
 
-    /// Free space, D not zero: `S = 1/2 - ln(D + delta)`, `T = conj(D)/(2 (D + delta))`.
+    /// Becomes the series of free space around D, not zero: `S = 1/2 - ln(D + delta)`, `T = conj(D)/(2 (D + delta))`.
     pub(crate) fn free(&mut self, distance: Complex64, extent: Extent) {
         let Extent { unit, degree, .. } = extent;
         self.clear();
@@ -69,7 +72,7 @@ impl Series {
         }
     }
 
-    /// Another series in terms of another unit and to a lower degree.
+    /// Becomes another series in a unit of length `ratio` times as large, to a lower degree.
     pub(crate) fn rescale(&mut self, other: &Self, ratio: f64, degree: usize) {
         for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
             own.clear();
@@ -81,7 +84,7 @@ impl Series {
         }
     }
 
-    /// The series for the reverse direction, source and target exchanged.
+    /// Becomes another series with source and target exchanged.
     pub(crate) fn reverse(&mut self, other: &Self) {
         for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
             own.clear();
@@ -90,18 +93,18 @@ impl Series {
     }
 }
 
-/// Where a series has to hold and how it is scaled.
+/// Radius of validity, unit and degree of a series.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extent {
     /// Largest |delta| (length).
     pub(crate) reach: f64,
-    /// Length that delta is divided by.
+    /// Unit of delta (length).
     pub(crate) unit: f64,
-    /// The highest power.
+    /// Highest power.
     pub(crate) degree: usize,
 }
 
-/// Finds series from the values on a circle.
+/// Computation of series from the values of the Green's function on a circle.
 #[derive(Debug, Clone)]
 pub(crate) struct SeriesFinder {
     circles: [Circle; 2],
@@ -110,26 +113,28 @@ pub(crate) struct SeriesFinder {
     area: f64,
 }
 
+/// Points on a circle and the values there.
 #[derive(Debug, Clone)]
 struct Circle {
     transform: Transform,
-    /// Of radius one.
+    /// Points on the unit circle.
     points: Vec<Complex64>,
+    /// Factors of F and of conj F in the flow.
     even: Vec<Complex64>,
     odd: Vec<Complex64>,
 }
 
 impl SeriesFinder {
-    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Result<Self, InputError> {
-        let greens = GreensFunction::new(geometry, tolerance.min(1e-12));
+    pub(crate) fn new(region: &Region, tolerance: f64) -> Result<Self, InputError> {
+        let greens = GreensFunction::new(region, tolerance.min(1e-12));
         let circles = [Circle::new(64)?, Circle::new(128)?];
-        Ok(Self { circles, greens, images: geometry.images(), area: geometry.area() })
+        Ok(Self { circles, greens, images: Images::of(region), area: Images::of(region).area() })
     }
 
-    /// The series around `distance` (target minus source), those parts of the images at the distances `direct` left out
-    /// that the plane has.
+    /// Writes the series around `distance` (length, target minus source), without the free-space flow of the images at
+    /// the distances `direct`.
     pub(crate) fn find(&mut self, distance: Complex64, direct: &[Complex64], extent: Extent, out: &mut Series) {
-        // A coefficient is spoilt by the one that is its mirror image in the length of the transform.
+        // Aliasing: a coefficient is mixed with its mirror image in the length of the transform.
         let circle = &mut self.circles[usize::from(2 * extent.degree + 2 > 64)];
         circle.values(&self.greens, &self.images, distance, extent.reach);
         circle.subtract(direct, extent.reach);
@@ -145,7 +150,7 @@ impl Circle {
         Ok(Self { transform, points, even: zeros.clone(), odd: zeros })
     }
 
-    /// The parts of the flow that go with F and with conj F, on a circle around `centre`.
+    /// Computes the factors of F and conj F on a circle around `centre` (length).
     fn values(&mut self, greens: &GreensFunction, images: &Images, centre: Complex64, radius: f64) {
         for ((point, even), odd) in self.points.iter().zip(&mut self.even).zip(&mut self.odd) {
             let (log, direction) = greens.stokeslet(images.wrap(centre + point * radius));
@@ -154,7 +159,7 @@ impl Circle {
         }
     }
 
-    /// Takes off free space around the distances given.
+    /// Subtracts the free-space factors around the distances `direct` (length).
     fn subtract(&mut self, direct: &[Complex64], radius: f64) {
         for ((point, even), odd) in self.points.iter().zip(&mut self.even).zip(&mut self.odd) {
             for distance in direct {
@@ -165,6 +170,7 @@ impl Circle {
         }
     }
 
+    /// Writes the series with these values.
     fn series(&mut self, area: f64, extent: Extent, out: &mut Series) {
         let Extent { reach, unit, degree } = extent;
         self.transform.forward(&mut self.even);

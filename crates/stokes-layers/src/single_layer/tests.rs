@@ -1,15 +1,16 @@
 use super::*;
-use crate::{Forcing, PeriodicCalculus, TensionPlacement};
+use crate::{PeriodicCalculus, TensionPlacement};
+use motile_base::Drive;
 use std::f64::consts::TAU;
 
 const LENGTH: f64 = 5.0;
 
-fn channel() -> Geometry {
-    Geometry::Channel { length: LENGTH, width: 4.0, forcing: Forcing::default() }
+fn channel() -> Region {
+    Region::Channel { length: LENGTH, width: 4.0, drive: Drive::default() }
 }
 
-fn regions() -> [Geometry; 3] {
-    [channel(), Geometry::Box { lengths: [LENGTH, 6.0] }, Geometry::Box { lengths: [LENGTH, 3.4] }]
+fn regions() -> [Region; 3] {
+    [channel(), Region::Box { lengths: [LENGTH, 6.0] }, Region::Box { lengths: [LENGTH, 3.4] }]
 }
 
 /// A wavy curve to the right or left at a height, `count` points.
@@ -43,12 +44,12 @@ fn forces(nodes: &[usize]) -> Vec<f64> {
 
 /// Two open curves and a closed one with a film of `gap` (roughly) between all of them, at `n` nodes a curve and half
 /// as many on the closed one.
-fn loaded(geometry: Geometry, gap: f64, n: usize) -> (SingleLayer, Vec<Vec<Vec2>>) {
-    reciprocal(geometry, gap, n, Reciprocity::Accurate)
+fn loaded(region: Region, gap: f64, n: usize) -> (SingleLayer, Vec<Vec<Vec2>>) {
+    reciprocal(region, gap, n, Symmetry::ToResolution)
 }
 
-fn reciprocal(geometry: Geometry, gap: f64, n: usize, reciprocity: Reciprocity) -> (SingleLayer, Vec<Vec<Vec2>>) {
-    let mut layer = SingleLayer::new(geometry, 1e-13, reciprocity).unwrap();
+fn reciprocal(region: Region, gap: f64, n: usize, reciprocity: Symmetry) -> (SingleLayer, Vec<Vec<Vec2>>) {
+    let mut layer = SingleLayer::new(region, 1e-13, reciprocity).unwrap();
     let curves = vec![wave(-0.8, 1.0, n), wave(0.8 + gap, -1.0, n), ellipse(Vec2::new(0.4, -0.25 + gap), n / 2)];
     let open = |sign: f64| Vec2::new(sign * LENGTH, 0.0);
     let given = [
@@ -61,8 +62,8 @@ fn reciprocal(geometry: Geometry, gap: f64, n: usize, reciprocity: Reciprocity) 
 }
 
 /// Velocities at the nodes and at points.
-fn flow(geometry: Geometry, gap: f64, n: usize, points: &[Vec2]) -> (Vec<f64>, Vec<FlowSample>) {
-    let (mut layer, _) = loaded(geometry, gap, n);
+fn flow(region: Region, gap: f64, n: usize, points: &[Vec2]) -> (Vec<f64>, Vec<FlowSample>) {
+    let (mut layer, _) = loaded(region, gap, n);
     let mut out = vec![0.0; layer.entry_count()];
     layer.apply(&forces(&[n, n, n / 2]), &mut out).unwrap();
     let mut samples = vec![FlowSample::default(); points.len()];
@@ -85,47 +86,47 @@ fn every(values: &[f64], nodes: &[usize], step: usize) -> Vec<f64> {
 
 #[test]
 fn coarse_and_fine_nodes_agree_at_nodes_and_close_points() {
-    for geometry in regions() {
+    for region in regions() {
         for gap in [0.2, 0.02] {
             let on_curve = wave(-0.8, 1.0, 7);
             let mut points = vec![Vec2::new(0.4, -0.25 + gap), Vec2::new(-1.9, 0.1), Vec2::new(2.4, -1.2)];
             points.extend(on_curve.iter().flat_map(|x| [0.01, -0.01, 1e-4].map(|d| *x + Vec2::new(0.0, d))));
             points.extend(on_curve);
-            let (coarse, at_coarse) = flow(geometry, gap, 96, &points);
+            let (coarse, at_coarse) = flow(region, gap, 96, &points);
             // Ten times as many: the plain sums are exact to round-off at most of these points.
-            let (fine, at_fine) = flow(geometry, gap, 960, &points);
+            let (fine, at_fine) = flow(region, gap, 960, &points);
             let kept = every(&fine, &[960, 960, 480], 10);
             let error = coarse.iter().zip(&kept).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let between = at_coarse.iter().zip(&at_fine).map(|(a, b)| (a.velocity - b.velocity).length());
             let between = between.fold(0.0, f64::max);
-            println!("{geometry:?} {gap}: {error:.1e} {between:.1e}");
-            assert!(error < 1e-10 && between < 1e-10, "{geometry:?} {gap}: {error:e} {between:e}");
+            println!("{region:?} {gap}: {error:.1e} {between:.1e}");
+            assert!(error < 1e-10 && between < 1e-10, "{region:?} {gap}: {error:e} {between:e}");
         }
     }
 }
 
 #[test]
 fn the_operator_is_symmetric() {
-    for geometry in regions() {
+    for region in regions() {
         for (gap, n) in [(0.1, 96), (0.02, 96), (0.02, 48)] {
             let nodes = [n, n, n / 2];
             let mut layers =
-                [Reciprocity::Accurate, Reciprocity::Exact].map(|kind| reciprocal(geometry, gap, n, kind).0);
+                [Symmetry::ToResolution, Symmetry::ToRoundOff].map(|kind| reciprocal(region, gap, n, kind).0);
             let count = layers[0].entry_count();
             let (a, mut b) = (forces(&nodes), forces(&nodes));
             b.rotate_left(n / 3);
             let mut power = |f: &[f64], g: &[f64], reciprocity| {
                 let mut out = vec![0.0; count];
-                layers[usize::from(reciprocity == Reciprocity::Exact)].apply(f, &mut out).unwrap();
+                layers[usize::from(reciprocity == Symmetry::ToRoundOff)].apply(f, &mut out).unwrap();
                 out.iter().zip(g).map(|(u, g)| u * g).sum::<f64>()
             };
-            let exact = power(&a, &b, Reciprocity::Exact) - power(&b, &a, Reciprocity::Exact);
+            let exact = power(&a, &b, Symmetry::ToRoundOff) - power(&b, &a, Symmetry::ToRoundOff);
             assert!(exact.abs() < 1e-10, "{exact:e}");
             // Any forces lose power, resolved or not.
             let rough: Vec<f64> = (0..count).map(|k| ((k * k) as f64).sin()).collect();
-            assert!(power(&rough, &rough, Reciprocity::Exact) > 0.0);
+            assert!(power(&rough, &rough, Symmetry::ToRoundOff) > 0.0);
             let smooth = forces(&nodes);
-            let [accurate, exact] = [Reciprocity::Accurate, Reciprocity::Exact].map(|r| power(&smooth, &smooth, r));
+            let [accurate, exact] = [Symmetry::ToResolution, Symmetry::ToRoundOff].map(|r| power(&smooth, &smooth, r));
             println!("{gap} {n}: {:.1e}", accurate / exact - 1.0);
             assert!(n < 96 || (accurate / exact - 1.0).abs() < 1e-9, "{accurate} {exact}");
         }
@@ -134,8 +135,8 @@ fn the_operator_is_symmetric() {
 
 #[test]
 fn a_pressure_behind_a_curve_moves_nothing() {
-    for geometry in regions() {
-        let (mut layer, _) = loaded(geometry, 0.05, 96);
+    for region in regions() {
+        let (mut layer, _) = loaded(region, 0.05, 96);
         let mut out = vec![0.0; layer.entry_count()];
         for curve in 0..3 {
             let mut forces = vec![0.0; layer.entry_count()];
@@ -143,7 +144,7 @@ fn a_pressure_behind_a_curve_moves_nothing() {
             layer.normals(curve, &mut forces[range]).unwrap();
             layer.apply(&forces, &mut out).unwrap();
             let largest = out.iter().map(|u| u.abs()).fold(0.0, f64::max);
-            assert!(largest < 1e-11, "{geometry:?} {curve}: {largest:e}");
+            assert!(largest < 1e-11, "{region:?} {curve}: {largest:e}");
         }
     }
 }
@@ -151,18 +152,18 @@ fn a_pressure_behind_a_curve_moves_nothing() {
 #[test]
 fn curves_that_do_not_go_on_with_the_region_are_refused() {
     let positions = wave(0.0, 1.0, 32);
-    let load = |geometry, period| {
-        let mut layer = SingleLayer::new(geometry, 1e-8, Reciprocity::Accurate).unwrap();
+    let load = |region, period| {
+        let mut layer = SingleLayer::new(region, 1e-8, Symmetry::ToResolution).unwrap();
         layer.load([LayerCurve { positions: &positions, period, nodes: 32 }].into_iter())
     };
     assert_eq!(load(channel(), Vec2::new(LENGTH, 0.0)), Ok(()));
-    for (geometry, period) in [
+    for (region, period) in [
         (channel(), Vec2::new(4.9, 0.0)),
         (channel(), Vec2::new(LENGTH, 0.1)),
         (channel(), Vec2::new(f64::NAN, 0.0)),
-        (Geometry::Plane, Vec2::new(LENGTH, 0.0)),
+        (Region::Plane, Vec2::new(LENGTH, 0.0)),
     ] {
-        assert!(matches!(load(geometry, period), Err(LayerError::Period { curve: 0, .. })));
+        assert!(matches!(load(region, period), Err(LayerError::Period { curve: 0, .. })));
     }
 }
 
@@ -170,14 +171,14 @@ fn curves_that_do_not_go_on_with_the_region_are_refused() {
 #[test]
 fn waves_relax_at_their_rate() {
     let (nodes, amplitude) = (48, 1e-3);
-    let geometry = Geometry::Channel { length: TAU, width: 40.0, forcing: Forcing::default() };
+    let region = Region::Channel { length: TAU, width: 40.0, drive: Drive::default() };
     let period = Vec2::new(TAU, 0.0);
     let at = |k: usize| TAU * k as f64 / nodes as f64;
     let positions: Vec<Vec2> = (0..nodes).map(|k| Vec2::new(at(k), amplitude * (2.0 * at(k)).cos())).collect();
     let mut forces = vec![Vec2::ZERO; nodes];
     let mut calculus = PeriodicCalculus::new(nodes).unwrap().with_period(period);
     calculus.tension_forces(&positions, &vec![3.0; nodes], TensionPlacement::Points, &mut forces).unwrap();
-    let mut layer = SingleLayer::new(geometry, 1e-12, Reciprocity::Accurate).unwrap();
+    let mut layer = SingleLayer::new(region, 1e-12, Symmetry::ToResolution).unwrap();
     layer.load([LayerCurve { positions: &positions, period, nodes }].into_iter()).unwrap();
     let forces: Vec<f64> = forces.iter().map(|f| f.x).chain(forces.iter().map(|f| f.y)).collect();
     let mut out = vec![0.0; 2 * nodes];
@@ -191,9 +192,9 @@ fn waves_relax_at_their_rate() {
 
 #[test]
 fn steady_state_allocates_nothing() {
-    let kinds = [Reciprocity::Accurate, Reciprocity::Exact];
-    for (geometry, kind) in regions().into_iter().flat_map(|geometry| kinds.map(|kind| (geometry, kind))) {
-        let (mut layer, curves) = reciprocal(geometry, 0.05, 64, kind);
+    let kinds = [Symmetry::ToResolution, Symmetry::ToRoundOff];
+    for (region, kind) in regions().into_iter().flat_map(|region| kinds.map(|kind| (region, kind))) {
+        let (mut layer, curves) = reciprocal(region, 0.05, 64, kind);
         let forces = forces(&[64, 64, 32]);
         let mut out = vec![0.0; layer.entry_count()];
         let mut go = |layer: &mut SingleLayer| {

@@ -3,11 +3,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use motile::Region;
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{RealFft2, Symbol};
 
-use super::{Droplet, sharp, smeared};
+use super::{Droplet, layers, smeared};
 use crate::validation::StudyError;
 use crate::validation::scene::open_channel;
 
@@ -27,11 +28,13 @@ pub struct Cost {
 /// A scene to time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CostScene {
-    /// Grid spacing (length).
+    /// Grid spacing (length), for layers the measure of the cost alone.
     pub h: f64,
+    /// Nodes of layers.
+    pub nodes: usize,
     /// Viscosity of the droplet, that of the exterior fluid being one.
     pub ratio: f64,
-    /// A viscosity that is smeared instead of a double layer.
+    /// A viscosity that is smeared instead of layers.
     pub smeared: bool,
     /// Points that stand for solids along the walls of a channel 12 x 6 long and wide; none in a box 6 x 6.
     pub solid_points: usize,
@@ -44,7 +47,7 @@ impl CostScene {
     /// What an evaluation can fail with.
     pub fn cost(&self) -> Result<Cost, StudyError> {
         let region = if self.solid_points == 0 { Region::Box { lengths: [6.0; 2] } } else { open_channel(12.0, 6.0) };
-        let mut flow = if self.smeared { smeared(region, self.h, 1e-4)? } else { sharp(region, self.h)? };
+        let mut flow = if self.smeared { smeared(region, self.h, 1e-4)? } else { layers(region, self.nodes)? };
         let mut markers = Markers::new();
         Droplet::circle(1, self.ratio).at(0.01, 0.013).push_even(0.5 * self.h, &mut markers)?;
         let droplet = markers.len();

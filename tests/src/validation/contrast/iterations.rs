@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use motile::Region;
 use motile::active_interface::Curve;
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
-use motile::{DropletSetup, GridMethod, Method, Particles, Setup};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize};
+use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 
 use super::smeared;
 use crate::validation::StudyError;

@@ -3,20 +3,12 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::observables::InterfaceState;
-use motile::active_interface::{Convention, observe};
-use motile::ib_core::{Hydrodynamics, Markers, Vec2};
+use motile::active_interface::observables::{Convention, observe};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, Markers};
 
-use super::{Exact, sharp};
+use super::{Exact, layers};
 use crate::validation::StudyError;
-
-/// Errors of the stresslet of one droplet, relative to it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StressletErrors {
-    /// As observed.
-    pub observed: f64,
-    /// From forces and velocities alone, which is the difference of numbers larger by the ratio of viscosities.
-    pub of_moments: f64,
-}
 
 /// Distance over the size of the second.
 fn relative([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
@@ -41,37 +33,27 @@ impl Exact {
         sum.map(|sum| step * sum)
     }
 
-    /// The errors of the stresslets with grid spacing `h` and markers h/2 apart, droplet by droplet.
+    /// The errors of the stresslets relative to them, as observed from forces and velocities of layers with `nodes`
+    /// nodes, droplet by droplet.
     ///
     /// # Errors
     /// As [`Exact::errors`].
-    pub fn stresslet_errors(&self, h: f64) -> Result<Vec<StressletErrors>, StudyError> {
-        let (mut flow, mut markers) = (sharp(self.region, h)?, Markers::new());
-        self.droplets.iter().try_for_each(|droplet| droplet.push_even(0.5 * h, &mut markers))?;
+    pub fn stresslet_errors(&self, nodes: usize) -> Result<Vec<f64>, StudyError> {
+        let (mut flow, mut markers) = (layers(self.region, nodes)?, Markers::new());
+        self.droplets.iter().for_each(|droplet| droplet.push_exact(4 * nodes, &mut markers));
         flow.velocities(&mut markers)?;
         let errors = markers.groups().iter().enumerate().map(|(index, group)| {
-            let (droplet, range, exact) = (&self.droplets[index], group.range.clone(), self.stresslet(index));
-            let [positions, forces, velocities] =
+            let range = group.range.clone();
+            let [markers, forces, velocities] =
                 [markers.positions(), markers.forces(), markers.velocities()].map(|list| &list[range.clone()]);
-            let state = InterfaceState {
-                markers: positions,
-                forces,
-                velocities,
-                numbers: &[],
-                viscosities: [droplet.ratio, 1.0],
-                inside: None,
-                filled: None,
-                stresslet: flow.stresslet(index)?,
-            };
-            let stresslet = |state: &InterfaceState<'_>| -> Result<[f64; 2], StudyError> {
-                let seen = observe(state, Convention::FarField)?;
-                let [[along, across], _] = seen.moments.stresslet();
-                // Back from the droplet's axes.
-                let (sin, cos) = (2.0 * seen.heading()).sin_cos();
-                Ok([cos * along - sin * across, sin * along + cos * across])
-            };
-            let of_moments = relative(stresslet(&InterfaceState { stresslet: None, ..state })?, exact);
-            Ok(StressletErrors { observed: relative(stresslet(&state)?, exact), of_moments })
+            let viscosities = [self.droplets[index].ratio, 1.0];
+            let state =
+                InterfaceState { markers, forces, velocities, numbers: &[], viscosities, inside: None, filled: None };
+            let seen = observe(&state, Convention::FarField)?;
+            let [[along, across], _] = seen.moments.stresslet();
+            // Back from the droplet's axes.
+            let (sin, cos) = (2.0 * seen.heading()).sin_cos();
+            Ok(relative([cos * along - sin * across, sin * along + cos * across], self.stresslet(index)))
         });
         errors.collect()
     }

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings};
-use motile::ib_core::{Scene, StepSize, Vec2};
+use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings};
+use motile::motile_base::{Region, Vec2};
+use motile::motile_scene::{Scene, StepSize};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};
 
@@ -28,7 +29,7 @@ pub fn relax(ratio: u32, nodes: usize, markers: usize, dt: f64) -> Result<Integr
     let reference = Reference::read(ReferenceFile::EllipseRelaxation)?.select("eta_in", &ratio.to_string());
     let reference = reference.select("t", "2");
     let settings = Settings { nodes, tolerance: 1e-10, ..Settings::default() };
-    let mut scene = Scene::new(BoundaryIntegral::new(Geometry::Box { lengths: [6.0, 6.0] }, 1.0, settings)?);
+    let mut scene = Scene::new(BoundaryIntegral::new(Region::Box { lengths: [6.0, 6.0] }, 1.0, settings)?);
     let mut start = Curve::ellipse(1.3, 1.0 / 1.3)?.markers(markers)?;
     // A curve's markers are those of a polygon with its area, outside the curve by a common factor.
     let factor = start[0].x / 1.3;

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
-use motile::ib_core::{Handle, Hydrodynamics, Scene, Vec2, gap::Boundary};
-use motile::{AnyFlow, Built, DropletSetup, Region, Setup};
+use motile::active_interface::{ActiveDroplet, polygon_moments};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Handle, Hydrodynamics, Scene, gap::Boundary};
+use motile::setup::{AnyFlow, Built, DropletSetup, Setup};
 
 use crate::validation::StudyError;
 
@@ -55,7 +57,7 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
     let placed = |&(centre, angle)| DropletSetup { centre, angle, ..base.droplets[0].clone() };
     let setup = Setup { region, droplets: places.iter().map(placed).collect(), ..base.clone() };
     let Built { mut scene, droplets, .. } = setup.build()?;
-    let periods = scene.system().hydrodynamics().discretisation().domain.periods;
+    let periods = scene.system().hydrodynamics().fluid_view().domain.periods;
     let particles = |scene: &Scene<AnyFlow>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
         Ok(scene.body(droplet)?.particle_numbers().iter().sum())
     };
@@ -69,7 +71,7 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
             area_change = area_change.max((polygon_moments(body.markers())?.area / body.initial_area() - 1.0).abs());
             particle_change = particle_change.max((particles(&scene, droplet)? / start[k] - 1.0).abs());
             for &other in &droplets[..k] {
-                let gap = Boundary::of(scene.body(other)?).smallest(body.markers(), periods);
+                let gap = Boundary::of(scene.body(other)?, periods).smallest(body.markers(), periods);
                 least = gap.map_or(least, |(gap, _)| least.min(gap));
             }
         }

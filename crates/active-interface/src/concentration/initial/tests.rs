@@ -1,7 +1,7 @@
 use super::*;
 use crate::{Curve, curve::polygon_perimeter};
 use approx::assert_relative_eq;
-use ib_core::input::InputError;
+use motile_base::InputError;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

@@ -1,8 +1,10 @@
 use super::*;
 use crate::Curve;
 use approx::assert_relative_eq;
-use ib_core::{CubicQuadratic, Domain, ImmersedBoundary, Markers, Scene, hydrodynamics::FlowWork};
-use stokes_grid::{ChannelStokes, Drive, Grid, flux};
+use ib_core::{BSpline, ImmersedBoundary};
+use motile_base::Drive;
+use motile_scene::{Domain, FlowWork, Markers, Scene};
+use stokes_grid::{ChannelStokes, Grid, flux};
 
 /// A channel between y = -1 and y = 2 with the flow `plug + shear y + curve y^2`, whatever the forces are.
 #[derive(Debug)]
@@ -26,10 +28,10 @@ impl Profile {
 }
 
 impl Hydrodynamics for Profile {
-    fn discretisation(&self) -> Discretisation {
+    fn fluid_view(&self) -> FluidView {
         let walls = self.walls.then_some([-1.0, 2.0]);
         let domain = Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls };
-        Discretisation { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
+        FluidView { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
@@ -111,7 +113,7 @@ fn net_flux_on_a_grid() {
         let h = 3.0 / cells as f64;
         let mut solver = ChannelStokes::new(Grid::channel(2 * cells, cells, h).unwrap(), 2.0).unwrap();
         solver.set_drive(Drive::Gradient(-0.4)).unwrap();
-        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+        let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));
         scene.add(droplet(8, 0.1, [0.0, 0.0]));
         let found = net_flux(scene.system_mut(), 0.123).unwrap();
         let field = scene.system().hydrodynamics().velocity_field();
@@ -153,7 +155,7 @@ fn inside_flux_is_that_of_the_interface() {
         let grid = Grid::channel((6.0 / h).round() as usize, (3.0 / h).round() as usize, h).unwrap();
         let mut solver = ChannelStokes::new(grid, 1.0).unwrap();
         solver.set_drive(Drive::Flux(1.0)).unwrap();
-        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+        let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));
         let curve = Curve::ellipse(1.2, 1.0 / 1.2).unwrap().rotated(0.5).translated(Vec2::new(0.02, 0.13));
         let count = (80.0 * 0.1 / h) as usize * 2;
         let body = scene.add(ActiveDroplet::passive(&curve.markers(count).unwrap(), 2.0).unwrap());

@@ -1,10 +1,8 @@
 use super::*;
 use crate::{ContractileTension, Curve, InitialConcentration, trajectory::Regime};
 use approx::assert_relative_eq;
-use ib_core::{
-    Discretisation, Domain, Every, FlowError, FlowSample, Markers, Scene, SceneError, StepSize, Vec2,
-    hydrodynamics::{FlowWork, SolveReport},
-};
+use motile_base::{FlowSample, SolveReport, Vec2};
+use motile_scene::{Domain, Every, FlowError, FlowWork, FluidView, Markers, Scene, SceneError, StepSize};
 
 /// A wind between walls at y = -1 and y = 3 whose vertical part drives points back to y = 1 or away from it.
 #[derive(Debug)]
@@ -21,10 +19,10 @@ impl Wind {
 }
 
 impl Hydrodynamics for Wind {
-    fn discretisation(&self) -> Discretisation {
+    fn fluid_view(&self) -> FluidView {
         let domain =
             Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
-        Discretisation { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
+        FluidView { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

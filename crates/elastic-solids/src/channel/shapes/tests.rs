@@ -1,10 +1,11 @@
 //! Areas and widths of the ready channels, and their meshes.
 
-use ib_core::input::InputError;
+use motile_base::InputError;
 
 use super::*;
+use crate::Mesher;
 use crate::channel::Walls;
-use crate::{Mesher, TriangleMesh};
+use crate::mesh::TriangleMesh;
 
 const BOTTOM: f64 = -2.6;
 const TOP: f64 = 2.4;

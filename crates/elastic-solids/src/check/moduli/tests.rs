@@ -1,4 +1,4 @@
-use ib_core::input::InputError;
+use motile_base::InputError;
 
 use super::*;
 use crate::forces::{Hyperelastic, Springs};

@@ -1,10 +1,10 @@
-//! Points that are the same one period apart.
+//! Points of a mesh file that coincide, possibly one period apart.
 
 use std::collections::HashMap;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
-/// Distance at which points are the same, over the shortest edge.
+/// Distance up to which points coincide, over the shortest edge: far above the digits of a file, far below any edge.
 const TOLERANCE: f64 = 1e-3;
 
 /// Makes points that coincide modulo the period one, the first of them.
@@ -21,7 +21,7 @@ pub(super) fn join_ends(points: &[Vec2], triangles: &[[usize; 3]], period: f64) 
     (kept, triangles.iter().map(|triangle| triangle.map(|point| numbers[point])).collect())
 }
 
-/// For each point the first one that coincides with it, modulo the period if there is one.
+/// Index of the first point that coincides with each point, modulo the period if there is one.
 pub(super) fn first_of_same(points: &[Vec2], triangles: &[[usize; 3]], period: Option<f64>) -> Vec<usize> {
     let edges = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     let shortest = edges.map(|(a, b)| (points[a] - points[b]).length()).fold(f64::INFINITY, f64::min);

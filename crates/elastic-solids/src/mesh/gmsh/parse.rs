@@ -1,14 +1,14 @@
-//! The text of a .msh file.
+//! Parser of the text of a .msh file.
 
 use std::collections::{BTreeMap, HashMap};
 use std::str::{FromStr, SplitWhitespace};
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::PhysicalGroup;
 use crate::SolidError;
 
-/// What a file says of its triangles.
+/// Contents of a file, as far as they belong to the mesh.
 pub(super) struct Contents {
     pub(super) points: Vec<Vec2>,
     pub(super) triangles: Vec<[usize; 3]>,
@@ -73,21 +73,21 @@ impl Words<'_> {
     }
 }
 
-/// Words of a message no longer than a reader wants.
+/// Beginning of a text that is quoted in a message.
 fn shortened(text: &str) -> String {
     text.chars().take(40).collect()
 }
 
-/// What has been read so far.
+/// Sections that have been read.
 #[derive(Default)]
 struct File {
     names: BTreeMap<i32, String>,
-    /// Groups of each surface.
+    /// Groups of each surface, by its number.
     surfaces: HashMap<i64, Vec<i32>>,
     positions: Vec<Vec2>,
-    /// Places in `positions` by the numbers of the file.
+    /// Indices into `positions` by the numbers of the nodes in the file.
     nodes: HashMap<u64, usize>,
-    /// Height of the plane.
+    /// Coordinate z of the plane.
     height: Option<f64>,
     /// Number, surface, nodes and line of each triangle.
     triangles: Vec<(u64, i64, [u64; 3], usize)>,

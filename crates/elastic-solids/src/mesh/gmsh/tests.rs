@@ -1,6 +1,6 @@
 //! A file from hand, round trips, and files gone wrong.
 
-use ib_core::input::InputError;
+use motile_base::InputError;
 use proptest::prelude::*;
 
 use super::*;
@@ -98,9 +98,9 @@ fn nodes_that_were_not_merged_are_refused() {
         )
     };
     let error = |x| GmshMesh::from_text(&text(x)).unwrap_err();
-    assert_eq!(error(0.0), SolidError::CoincidentPoints { first: 0, second: 3, x: 0.0, y: 0.0 });
-    assert_eq!(error(5e-4), SolidError::CoincidentPoints { first: 0, second: 3, x: 5e-4, y: 0.0 });
-    assert_eq!(error(2e-3), SolidError::CoincidentPoints { first: 2, second: 4, x: 1.0, y: 1.0 });
+    assert_eq!(error(0.0), SolidError::CoincidentPoints { first: 0, second: 3, place: Vec2::ZERO });
+    assert_eq!(error(5e-4), SolidError::CoincidentPoints { first: 0, second: 3, place: Vec2::new(5e-4, 0.0) });
+    assert_eq!(error(2e-3), SolidError::CoincidentPoints { first: 2, second: 4, place: Vec2::ONE });
     assert!(error(0.0).to_string().ends_with("duplicate nodes)"));
 }
 

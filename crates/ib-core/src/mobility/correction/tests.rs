@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::CubicQuadratic;
+use crate::BSpline;
 
 /// Cells of 0.1 between walls at -1 and 1, a kernel of variance 4.
 const CHANNEL: Setting =
@@ -31,7 +31,7 @@ fn corrected(force: impl Fn(Vec2) -> Vec2) -> Vec<Vec2> {
     let positions: Vec<Vec2> = (0..128).map(at).collect();
     let forces: Vec<Vec2> = (0..128).map(|k| force(0.5 * (at(k + 1) - at(k + 127)))).collect();
     let mut velocities = vec![Vec2::ZERO; 128];
-    let deficit = MobilityDeficit::new(&CubicQuadratic::default());
+    let deficit = MobilityDeficit::new(&BSpline::<4>);
     let setting = Setting { walls: None, ..CHANNEL };
     MobilityCorrection::new(deficit).apply(&setting, &positions, &forces, &mut velocities).unwrap();
     velocities

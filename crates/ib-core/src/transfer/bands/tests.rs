@@ -1,6 +1,7 @@
 use stokes_grid::{Grid, StaggeredField};
 
-use crate::{AnyKernel, Kernel, Transfer, Vec2};
+use crate::{AnyKernel, Kernel, Transfer};
+use motile_base::Vec2;
 
 #[test]
 fn several_threads_give_the_bits_of_one() {

@@ -1,7 +1,7 @@
 use stokes_grid::Grid;
 
 use super::*;
-use crate::CubicQuadratic;
+use crate::BSpline;
 use crate::transfer::lanes::{Portable, dispatch};
 use crate::transfer::locations::Locations;
 
@@ -9,7 +9,7 @@ use crate::transfer::locations::Locations;
 #[test]
 fn all_instructions_agree() {
     let grid = Grid::channel(20, 16, 0.1).unwrap();
-    let kernel = CubicQuadratic::default();
+    let kernel = BSpline::<4>;
     let general = GeneralTransfer { kernel: &kernel, grid: &grid };
     let positions: Vec<Vec2> =
         (0..500).map(|k| f64::from(k) * 0.0731).map(|k| Vec2::new(k % 2.0 - 1.0, (k * 0.39) % 1.6 - 0.8)).collect();
@@ -22,7 +22,7 @@ fn all_instructions_agree() {
         let (mut fx, mut fy) = (vec![0.0; cells - 20], vec![0.0; cells]);
         let markers = Markers { locations, forces: &forces, stride: 8, irregular };
         let band = Band { first_row: 0, fx: &mut fx, fy: &mut fy };
-        let task = Spreading { general, pieces: CubicQuadratics, scale: 3.0, markers, band };
+        let task = Spreading { general, pieces: BSpline4Pieces, scale: 3.0, markers, band };
         if wide {
             dispatch(task);
         } else {
@@ -30,7 +30,7 @@ fn all_instructions_agree() {
         }
         let mut velocities = vec![Vec2::ZERO; positions.len()];
         let (u, v, velocities_mut) = (&fx[..], &fy[..], &mut velocities[..]);
-        let pieces = CubicQuadratics;
+        let pieces = BSpline4Pieces;
         let task = Interpolation { general, pieces, locations, irregular, u, v, velocities: velocities_mut };
         if wide {
             dispatch(task);

@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use active_interface::concentration::SplitMix64;
-use ib_core::Vec2;
+use active_interface::SplitMix64;
+use motile_base::Vec2;
 
 use super::Director;
 use crate::gel::{Anchoring, GelMaterial, elements::Elements};

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use ib_core::Vec2;
+use motile_base::Vec2;
 
 use super::Stabiliser;
 use crate::{DiscMesh, gel::elements::Elements};
@@ -44,7 +44,7 @@ fn it_is_a_diffusion() {
     out.fill(0.0);
     stabiliser.add(&square, 1.0, &mut out);
     let (mut sum, mut area) = (0.0, 0.0);
-    for (value, mass) in out.iter().zip(&stabiliser.masses).skip(40) {
+    for (value, mass) in out.iter().zip(&stabiliser.laplacian.masses).skip(40) {
         sum += value * mass;
         area += mass;
     }

@@ -50,3 +50,12 @@ fn images_are_embedded() {
                  href=\"data:image/png;base64,iVBORw0KGgo";
     assert!(document.contains(start), "{document}");
 }
+
+#[test]
+fn the_examples_of_rfc_4648() {
+    let cases =
+        [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
+    for (plain, coded) in cases {
+        assert_eq!(base64(plain.as_bytes()), coded);
+    }
+}

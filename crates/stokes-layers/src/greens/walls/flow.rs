@@ -6,7 +6,7 @@ use super::{LANES, Lanes, WallModes, WallPoints};
 use crate::greens::Flow;
 
 impl WallModes {
-    /// Velocity, gradient and pressure of the correction at point i.
+    /// Flow of the correction at point i.
     pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> Flow {
         let y = points.y[i];
         let mut velocity = Complex64::new(self.mean_velocity(y), 0.0);

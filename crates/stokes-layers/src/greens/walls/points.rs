@@ -1,10 +1,10 @@
-//! Points between walls, prepared for sums over modes.
+//! Points between walls with their factors in sums over modes.
+
+use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use super::WallModes;
-
-/// Modes done at a time.
+/// Modes in one pass of a loop, as many as a vector register of AVX has numbers.
 pub(crate) const LANES: usize = 4;
 
 pub(crate) type Lanes = [f64; LANES];
@@ -20,7 +20,7 @@ pub(crate) struct Powers {
 }
 
 impl Powers {
-    pub(crate) fn new(k: f64, distance: f64, phase: Complex64) -> Self {
+    fn new(k: f64, distance: f64, phase: Complex64) -> Self {
         let base = phase * (-k * distance).exp();
         let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
         let mut power = Complex64::new(1.0, 0.0);
@@ -31,6 +31,7 @@ impl Powers {
         Self { distance, re, im, step: power }
     }
 
+    /// Goes on to the next modes.
     #[inline(always)]
     pub(crate) fn advance(&mut self) {
         for lane in 0..LANES {
@@ -41,9 +42,13 @@ impl Powers {
     }
 }
 
-/// Points between the walls, prepared for sums over modes.
-#[derive(Debug, Clone, Default)]
+/// Points between the walls with the factors of their first modes.
+#[derive(Debug, Clone)]
 pub(crate) struct WallPoints {
+    /// 2 pi / period (1/length).
+    k: f64,
+    /// Half the distance between the walls (length).
+    half: f64,
     /// Upper wall, lower wall.
     pub(crate) sides: [Vec<Powers>; 2],
     /// Height above the middle (length).
@@ -51,17 +56,22 @@ pub(crate) struct WallPoints {
 }
 
 impl WallPoints {
+    /// No points, in a channel with this period and this half of its width (length).
+    pub(crate) fn new(period: f64, half: f64) -> Self {
+        Self { k: TAU / period, half, sides: Default::default(), y: Vec::new() }
+    }
+
     /// Removes all points, keeping the memory.
     pub(crate) fn clear(&mut self) {
         self.sides.iter_mut().for_each(Vec::clear);
         self.y.clear();
     }
 
-    /// Adds a point at x and y above the middle.
-    pub(crate) fn push(&mut self, modes: &WallModes, x: f64, y: f64) {
-        let phase = Complex64::cis(modes.k * x);
-        self.sides[0].push(Powers::new(modes.k, modes.half - y, phase));
-        self.sides[1].push(Powers::new(modes.k, modes.half + y, phase));
+    /// Adds a point at x and y above the middle (length).
+    pub(crate) fn push(&mut self, x: f64, y: f64) {
+        let phase = Complex64::cis(self.k * x);
+        self.sides[0].push(Powers::new(self.k, self.half - y, phase));
+        self.sides[1].push(Powers::new(self.k, self.half + y, phase));
         self.y.push(y);
     }
 

@@ -5,9 +5,10 @@ use crate::greens::{Flow, GreensFunction};
 
 /// Velocity and gradient at a target by a unit force at a source, times 4 pi viscosity.
 fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], force: Complex64) -> (Complex64, Flow) {
-    let (mut from, mut to) = (WallPoints::default(), WallPoints::default());
-    from.push(modes, source[0], source[1]);
-    to.push(modes, target[0], target[1]);
+    let mut from = WallPoints::new(TAU / modes.k, modes.half);
+    let mut to = from.clone();
+    from.push(source[0], source[1]);
+    to.push(target[0], target[1]);
     modes.begin(from.gap(), to.gap(), 1e-15);
     modes.add_forces(&from, to.gap(), |_| force);
     modes.solve();

@@ -1,7 +1,5 @@
-use crate::{
-    FlowSample, Forcing, Geometry, Interface, InterfaceFlow, LayerCurve, LayerError, PeriodicCalculus, Settings,
-    TensionPlacement, Vec2,
-};
+use crate::{Interface, InterfaceFlow, LayerCurve, LayerError, PeriodicCalculus, Settings, TensionPlacement};
+use motile_base::{Drive, FlowSample, Region, Vec2};
 use std::f64::consts::TAU;
 
 const LENGTH: f64 = 6.0;
@@ -19,7 +17,7 @@ fn side(height: impl Fn(f64) -> f64, fluid: f64, count: usize) -> (Vec<Vec2>, Ve
 /// Flow between two sides and around posts in a wider channel.
 fn walled(
     width: f64,
-    forcing: Forcing,
+    drive: Drive,
     nodes: usize,
     half_width: impl Fn(f64) -> f64,
     posts: &[Vec<Vec2>],
@@ -28,8 +26,8 @@ fn walled(
     let sides = [side(|x| -half_width(x), 1.0, nodes), side(&half_width, -1.0, nodes)];
     let open = sides.iter().map(|(positions, period)| LayerCurve { positions, period: *period, nodes });
     let closed = posts.iter().map(|positions| LayerCurve { positions, period: Vec2::ZERO, nodes: positions.len() });
-    let geometry = Geometry::Channel { length: LENGTH, width, forcing };
-    InterfaceFlow::new(geometry, 1.0, settings)?.with_walls(open.chain(closed))
+    let region = Region::Channel { length: LENGTH, width, drive };
+    InterfaceFlow::new(region, 1.0, settings)?.with_walls(open.chain(closed))
 }
 
 fn settings(nodes: usize) -> Settings {
@@ -65,22 +63,22 @@ fn samples(flow: &mut InterfaceFlow, points: &[Vec2]) -> Vec<FlowSample> {
 /// Straight walls as layers in a higher channel against the Green's function of the straight channel.
 #[test]
 fn straight_walls_are_those_of_the_straight_channel() {
-    for forcing in [Forcing::Gradient(0.0), Forcing::Gradient(-0.3), Forcing::Flux(0.0), Forcing::Flux(0.2)] {
+    for drive in [Drive::ZeroGradient, Drive::Gradient(-0.3), Drive::ZeroFlux, Drive::Flux(0.2)] {
         for inside in [1.0, 8.0, 0.2] {
             // The droplet nearly touches the upper wall: a film of 0.05.
             let (centre, axes) = (Vec2::new(2.8, 0.15), [1.1, 0.8]);
-            let geometry = Geometry::Channel { length: LENGTH, width: 2.0, forcing };
-            let mut straight = InterfaceFlow::new(geometry, 1.0, settings(160)).unwrap();
+            let region = Region::Channel { length: LENGTH, width: 2.0, drive };
+            let mut straight = InterfaceFlow::new(region, 1.0, settings(160)).unwrap();
             let expected = moved(&mut straight, centre, axes, inside).unwrap();
-            let mut layered = walled(3.0, forcing, 240, |_| 1.0, &[], settings(160)).unwrap();
+            let mut layered = walled(3.0, drive, 240, |_| 1.0, &[], settings(160)).unwrap();
             let found = moved(&mut layered, centre, axes, inside).unwrap();
             let error = largest(&expected, &found);
             let points = [Vec2::new(0.0, -0.99), Vec2::new(2.8, 0.97), Vec2::new(-2.0, 0.3), Vec2::new(2.5, 0.2)];
             let [a, b] = [&mut straight, &mut layered].map(|flow| samples(flow, &points));
             let between = a.iter().zip(&b).map(|(a, b)| (a.velocity - b.velocity).length()).fold(0.0, f64::max);
             let [a, b] = [&mut straight, &mut layered].map(|flow| flow.solve().unwrap().pressure_gradient);
-            println!("{forcing:?} {inside}: {error:.1e} {between:.1e} {:.1e}", a - b);
-            assert!(error < 1e-10 && between < 1e-10 && (a - b).abs() < 1e-10, "{forcing:?} {inside}");
+            println!("{drive:?} {inside}: {error:.1e} {between:.1e} {:.1e}", a - b);
+            assert!(error < 1e-10 && between < 1e-10 && (a - b).abs() < 1e-10, "{drive:?} {inside}");
         }
     }
 }
@@ -99,7 +97,7 @@ fn droplets_between_curved_walls_converge() {
         let centre = Vec2::new(0.1, wave(0.0) - film - 0.6);
         let at = |nodes: usize, droplet: usize| {
             let posts = std::slice::from_ref(&post);
-            let mut flow = walled(3.0, Forcing::Gradient(-0.1), nodes, wave, posts, settings(droplet)).unwrap();
+            let mut flow = walled(3.0, Drive::Gradient(-0.1), nodes, wave, posts, settings(droplet)).unwrap();
             let velocities = moved(&mut flow, centre, [0.7, 0.6], inside).unwrap();
             velocities.into_iter().step_by(droplet / 32).collect::<Vec<_>>()
         };
@@ -114,7 +112,7 @@ fn droplets_between_curved_walls_converge() {
 #[test]
 fn nothing_flows_through_walls() {
     for (inside, flux) in [(1.0, 0.4), (5.0, -0.2)] {
-        let mut flow = walled(3.0, Forcing::Flux(flux), 96, wave, &[], settings(64)).unwrap();
+        let mut flow = walled(3.0, Drive::Flux(flux), 96, wave, &[], settings(64)).unwrap();
         let velocities = moved(&mut flow, Vec2::new(0.3, 0.2), [0.8, 0.7], inside).unwrap();
         assert!(velocities.iter().any(|v| v.length() > 0.05));
         let on_wall: Vec<Vec2> = (0..97).map(|k| 0.063 * f64::from(k) - 3.0).map(|x| Vec2::new(x, wave(x))).collect();
@@ -136,7 +134,7 @@ fn nothing_flows_through_walls() {
 /// Without tension and of the same viscosity as the rest, interfaces move as the fluid does without them.
 #[test]
 fn what_has_no_tension_moves_with_the_flow() {
-    let mut flow = walled(3.0, Forcing::Gradient(-1.0), 96, wave, &[], settings(48)).unwrap();
+    let mut flow = walled(3.0, Drive::Gradient(-1.0), 96, wave, &[], settings(48)).unwrap();
     let points: Vec<Vec2> =
         (0..48).map(|k| Vec2::new(0.4 + 0.5 * angle(k, 48).cos(), 0.3 + 0.4 * angle(k, 48).sin())).collect();
     flow.load(std::iter::empty()).unwrap();
@@ -155,7 +153,7 @@ fn what_has_no_tension_moves_with_the_flow() {
 #[test]
 fn a_rough_droplet_is_not_beyond_a_wall() {
     let mut flow =
-        walled(3.0, Forcing::default(), 192, |_| 1.0, &[], Settings { tolerance: 1e-8, ..settings(64) }).unwrap();
+        walled(3.0, Drive::default(), 192, |_| 1.0, &[], Settings { tolerance: 1e-8, ..settings(64) }).unwrap();
     // Numbers between -1 and 1 without a pattern.
     let mut state = 1_u64;
     let mut noise = || {
@@ -182,7 +180,7 @@ fn a_rough_droplet_is_not_beyond_a_wall() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let build = |width: f64, half_width: fn(f64) -> f64, posts: &[Vec<Vec2>]| {
-        walled(width, Forcing::default(), 64, half_width, posts, settings(48)).map(drop).unwrap_err()
+        walled(width, Drive::default(), 64, half_width, posts, settings(48)).map(drop).unwrap_err()
     };
     let circle = |centre: Vec2, radius: f64| -> Vec<Vec2> {
         (0..32).map(|k| centre + radius * Vec2::from_angle(angle(k, 32))).collect()
@@ -196,14 +194,13 @@ fn what_does_not_fit_is_refused() {
     let eight: Vec<Vec2> = (0..64).map(|k| angle(k, 64)).map(|t| Vec2::new(t.sin(), 0.4 * (2.0 * t).sin())).collect();
     let error = build(3.0, wave, &[eight]);
     assert!(matches!(error, LayerError::WallsCross { first: 2, second: 2, .. } | LayerError::Clockwise { .. }));
-    let mut plane = InterfaceFlow::new(Geometry::Plane, 1.0, settings(48)).unwrap();
+    let mut plane = InterfaceFlow::new(Region::Plane, 1.0, settings(48)).unwrap();
     plane.load(std::iter::empty()).unwrap();
     let positions = circle(Vec2::ZERO, 1.0);
     let wall = LayerCurve { positions: &positions, period: Vec2::ZERO, nodes: 32 };
     assert!(matches!(plane.with_walls([wall].into_iter()), Err(LayerError::NoChannel)));
     // Droplets beyond walls or in posts, close to them and far from them.
-    let mut flow =
-        walled(4.0, Forcing::default(), 64, wave, &[circle(Vec2::new(-1.0, 0.0), 0.6)], settings(48)).unwrap();
+    let mut flow = walled(4.0, Drive::default(), 64, wave, &[circle(Vec2::new(-1.0, 0.0), 0.6)], settings(48)).unwrap();
     for (centre, radius) in [((0.0, 1.1), 0.2), ((0.0, 1.65), 0.2), ((-1.0, 0.0), 0.2), ((-1.5, 0.0), 0.3)] {
         let error = moved(&mut flow, centre.into(), [radius; 2], 1.0).unwrap_err();
         assert!(matches!(error, LayerError::CrossesWall { curve: 0, .. }), "{error}");
@@ -215,7 +212,7 @@ fn what_does_not_fit_is_refused() {
 
 #[test]
 fn steady_state_allocates_nothing() {
-    let mut flow = walled(3.0, Forcing::Flux(0.1), 64, wave, &[], settings(48)).unwrap();
+    let mut flow = walled(3.0, Drive::Flux(0.1), 64, wave, &[], settings(48)).unwrap();
     let count = 48;
     let positions: Vec<Vec2> = (0..count).map(|k| 0.9 * Vec2::from_angle(angle(k, count))).collect();
     let forces: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(2.0 * angle(k, count))).collect();

@@ -1,7 +1,7 @@
 use super::*;
 
 fn lattice(periods: [f64; 2]) -> SeriesFinder {
-    SeriesFinder::new(&Geometry::Box { lengths: periods }, 1e-15).unwrap()
+    SeriesFinder::new(&Region::Box { lengths: periods }, 1e-15).unwrap()
 }
 
 fn around_the_source(periods: [f64; 2], unit: f64) -> Series {

@@ -1,0 +1,446 @@
+//! An interface that carries particles: markers, particle numbers, tension, and how all of them change in a flow.
+//!
+//! Nothing here refers to the fluid that the interface encloses. A droplet adds its area, the particles inside, and
+//! the conservation of both.
+
+mod filter;
+pub(crate) mod geometry;
+mod limits;
+mod redistribution;
+mod spectral;
+
+use std::sync::Arc;
+
+use motile_base::{InputError, PeriodicSeries, Vec2};
+use motile_scene::{FluidView, write_points};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Flux, Tension,
+    concentration::{Repair, Transport},
+    curve::MINIMUM_MARKERS,
+};
+use filter::ShortWaveFilter;
+use geometry::{Geometry, Shape, equidistribute, motion_rate};
+use limits::finest_response;
+pub(crate) use limits::grid_spacing;
+use redistribution::redistribute;
+use spectral::SpectralCurve;
+
+/// Motion of the markers of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Motion {
+    /// Markers move with the fluid's normal velocity (its mean removed, which keeps the area) and with a tangential
+    /// velocity W of their own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility
+    /// correction of the immersed boundary method needs equal spacing.
+    Equidistributed {
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
+        /// R the perimeter; without particles, in units of a fifth of the tension over mean viscosity and R, so that
+        /// it sets no shorter time steps than the tension does.
+        relaxation: f64,
+        /// Filter of the modes of the markers that are shorter than the kernel, applied after each step; without it
+        /// they grow in long runs. It acts on a grid only. In a file it is on unless given.
+        #[serde(default = "filtered")]
+        filter: bool,
+    },
+    /// Markers move with the fluid's full velocity (Cowley (2.8)). They are inserted where segments exceed 1.5 times
+    /// the spacing at the start and removed where segments fall below half of it; no particle is lost.
+    WithFluid,
+}
+
+fn filtered() -> bool {
+    true
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self::Equidistributed { relaxation: 50.0, filter: true }
+    }
+}
+
+/// Laws of an interface, fixed over a run.
+#[derive(Debug, Clone)]
+pub(crate) struct Law {
+    /// Tension as a function of the concentration.
+    pub(crate) tension: Arc<dyn Tension>,
+    /// Diffusion constant D of the particles along the interface (length squared per time).
+    pub(crate) diffusion: f64,
+    pub(crate) motion: Motion,
+    /// Switch of the stabiliser, which treats the fast relaxation of crowded particles implicitly, see
+    /// [`ActiveInterface::begin_step`].
+    pub(crate) stabilised: bool,
+}
+
+/// Unknowns of an interface: marker positions (with their geometry) and the particle numbers of the segments.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    pub(crate) shape: Shape,
+    /// Particle number of each segment, segment k from marker k to the next; empty without particles.
+    pub(crate) numbers: Vec<f64>,
+}
+
+/// Quantities that follow from the state, and from the flow where they are velocities.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Derived {
+    /// Concentrations n_k / l_k of the segments (particles per length), zero without particles.
+    pub(crate) concentrations: Vec<f64>,
+    /// Tensions of the segments (force).
+    pub(crate) tensions: Vec<f64>,
+    /// Velocity V_t - W of the fluid along the interface relative to each marker (length per time).
+    pub(crate) slip: Vec<f64>,
+    /// Velocities of the markers (length per time).
+    pub(crate) motions: Vec<Vec2>,
+    /// Rate at which unequal spacing relaxes (1/time).
+    pub(crate) relaxation: f64,
+}
+
+/// FluidView of an interface and its working arrays.
+#[derive(Debug, Clone)]
+struct Scheme {
+    /// Transport of the particles; `None` without particles.
+    transport: Option<Transport>,
+    /// Diffusivities at the markers (length squared per time): of the stabiliser alone (empty where it is off), and of
+    /// diffusion and stabiliser together.
+    stabiliser: Vec<f64>,
+    diffusivities: Vec<f64>,
+    /// Shape of a second state: that of the start of a step, or one that an implicit equation is solved for.
+    other: Shape,
+    filter: ShortWaveFilter,
+    /// Truncation of the motion to a number of modes, where the flow resolves fewer modes than there are markers.
+    band: Option<(PeriodicSeries, usize)>,
+    /// Smooth curve through the markers, where the flow is spectrally accurate.
+    spectral: Option<SpectralCurve>,
+}
+
+/// Interventions of the scheme in particle numbers and markers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Interventions {
+    pub(crate) repair: Repair,
+    pub(crate) inserted: usize,
+    pub(crate) removed: usize,
+}
+
+/// Record of a run: the spacing that it started from and the interventions so far.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Account {
+    /// Mean length of the segments at the start (length).
+    pub(crate) spacing: f64,
+    /// Interventions of all steps that were kept.
+    pub(crate) kept: Interventions,
+    /// Interventions of the last step, which may yet be rejected.
+    last: Interventions,
+}
+
+/// A closed fluid interface that may carry particles which raise its tension.
+#[derive(Debug, Clone)]
+pub(crate) struct ActiveInterface {
+    pub(crate) law: Law,
+    pub(crate) state: State,
+    pub(crate) derived: Derived,
+    pub(crate) account: Account,
+    scheme: Scheme,
+}
+
+/// Implicit diffusion of particles over an interface of a given shape.
+pub(crate) struct Diffusion<'a> {
+    pub(crate) transport: &'a mut Transport,
+    /// Lengths of the segments (length).
+    pub(crate) lengths: &'a [f64],
+    /// Diffusivities at the markers (length squared per time).
+    pub(crate) diffusivities: &'a [f64],
+}
+
+impl ActiveInterface {
+    /// The interface through checked markers; `flux` is `None` for one without particles.
+    pub(crate) fn new(
+        markers: Vec<Vec2>,
+        numbers: Vec<f64>,
+        tension: Arc<dyn Tension>,
+        diffusion: f64,
+        flux: Option<Flux>,
+    ) -> Self {
+        let count = markers.len();
+        let scheme = Scheme {
+            transport: flux.map(|flux| Transport::new(count, flux)),
+            stabiliser: Vec::new(),
+            diffusivities: Vec::new(),
+            other: Shape::default(),
+            filter: ShortWaveFilter::default(),
+            band: None,
+            spectral: None,
+        };
+        let mut interface = Self {
+            law: Law { tension, diffusion, motion: Motion::default(), stabilised: true },
+            state: State { shape: Shape { markers, ..Shape::default() }, numbers },
+            derived: Derived { slip: vec![0.0; count], ..Derived::default() },
+            account: Account::default(),
+            scheme,
+        };
+        interface.update();
+        interface.account.spacing = interface.geometry().mean_length();
+        interface
+    }
+
+    pub(crate) fn markers(&self) -> &[Vec2] {
+        &self.state.shape.markers
+    }
+
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.state.shape.geometry
+    }
+
+    /// `true` for an interface with particles.
+    pub(crate) fn carries(&self) -> bool {
+        self.scheme.transport.is_some()
+    }
+
+    /// Number of particles on the interface.
+    pub(crate) fn number(&self) -> f64 {
+        self.state.numbers.iter().sum()
+    }
+
+    /// Carries the particles by another flux.
+    pub(crate) fn set_flux(&mut self, flux: Flux) {
+        self.scheme.transport = self.scheme.transport.take().map(|transport| Transport::new(transport.len(), flux));
+    }
+
+    /// Brings everything that follows from markers and particle numbers up to date.
+    pub(crate) fn update(&mut self) {
+        self.state.shape.update(self.scheme.spectral.as_mut());
+        self.update_tensions();
+    }
+
+    fn update_tensions(&mut self) {
+        let lengths = &self.state.shape.geometry.lengths;
+        let Derived { concentrations, tensions, .. } = &mut self.derived;
+        concentrations.resize(lengths.len(), 0.0);
+        tensions.resize(lengths.len(), 0.0);
+        for (k, c) in concentrations.iter_mut().enumerate() {
+            *c = self.state.numbers.get(k).map_or(0.0, |n| n / lengths[k]);
+        }
+        self.law.tension.values(concentrations, tensions);
+    }
+
+    /// Remakes the truncation and the geometry that `view` asks for, where they have changed.
+    ///
+    /// # Errors
+    /// More markers than a Fourier transform takes.
+    pub(crate) fn fit(&mut self, view: &FluidView) -> Result<(), InputError> {
+        let count = self.markers().len();
+        let smooth = view.shape_modes.is_some() && matches!(self.law.motion, Motion::Equidistributed { .. });
+        if smooth != self.scheme.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
+            self.scheme.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
+            self.scheme.other.markers.clear();
+            self.update();
+        }
+        let band = view.shape_modes.filter(|&modes| modes < count);
+        if band.map(|modes| (count, modes)) != self.scheme.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
+            self.scheme.band = band.map(|modes| Ok((PeriodicSeries::new(count)?, modes))).transpose()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)).
+    ///
+    /// # Errors
+    /// Those of [`ActiveInterface::fit`].
+    pub(crate) fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
+        self.fit(view)?;
+        let directions = &self.state.shape.geometry.directions;
+        let pull = |k: usize| self.derived.tensions[k] * directions[k];
+        let mut before = pull(directions.len() - 1);
+        for (k, force) in forces.iter_mut().enumerate() {
+            let here = pull(k);
+            *force = here - before;
+            before = here;
+        }
+        if let Some(spectral) = self.scheme.spectral.as_mut() {
+            spectral.sharpen(forces);
+        }
+        Ok(())
+    }
+
+    /// Length of the state: two coordinates a marker, and a particle number a segment where there are particles.
+    pub(crate) fn state_len(&self) -> usize {
+        2 * self.markers().len() + self.state.numbers.len()
+    }
+
+    pub(crate) fn write_state(&self, state: &mut [f64]) {
+        let (positions, numbers) = state.split_at_mut(2 * self.markers().len());
+        write_points(self.markers(), positions);
+        numbers.copy_from_slice(&self.state.numbers);
+    }
+
+    /// Takes over the finite state of an interface of `count` markers.
+    pub(crate) fn read_state(&mut self, count: usize, state: &[f64]) {
+        let (positions, numbers) = state.split_at(2 * count);
+        self.resize(count);
+        if !self.state.shape.is_at(positions) {
+            std::mem::swap(&mut self.state.shape, &mut self.scheme.other);
+            self.state.shape.move_to(positions, self.scheme.spectral.as_mut());
+        }
+        self.state.numbers.copy_from_slice(numbers);
+        self.update_tensions();
+    }
+
+    /// Makes all lists but those of the shape fit `count` markers.
+    fn resize(&mut self, count: usize) {
+        if let Some(transport) = &self.scheme.transport {
+            self.state.numbers.resize(count, 0.0);
+            if transport.len() != count {
+                self.scheme.transport = Some(Transport::new(count, transport.flux()));
+            }
+        }
+        self.scheme.diffusivities.resize(count, self.law.diffusion);
+        self.derived.slip.resize(count, 0.0);
+    }
+
+    /// Writes the explicit rate of change of positions (length per time) and particle numbers (1/time) in a flow with
+    /// these velocities at the markers (length per time). A body's entries beyond those of the interface become zero.
+    pub(crate) fn write_rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let State { shape: Shape { markers, geometry, .. }, numbers } = &self.state;
+        let count = markers.len();
+        let Derived { motions, slip, relaxation, tensions, .. } = &mut self.derived;
+        motions.resize(count, Vec2::ZERO);
+        slip.resize(count, 0.0);
+        match self.law.motion {
+            Motion::Equidistributed { relaxation: factor, .. } => {
+                if self.scheme.transport.is_none() && tensions.iter().all(|&tension| tension == 0.0) {
+                    *relaxation = factor * motion_rate(geometry, velocities);
+                }
+                match self.scheme.spectral.as_mut() {
+                    Some(curve) => curve.equidistribute(geometry, velocities, *relaxation, motions, slip),
+                    None => equidistribute(geometry, velocities, *relaxation, motions, slip),
+                }
+            }
+            Motion::WithFluid => {
+                motions.copy_from_slice(velocities);
+                slip.fill(0.0);
+            }
+        }
+        if let Some((series, modes)) = &mut self.scheme.band {
+            // The series is as long as the list since `fit`, so that the call cannot fail.
+            let _ = series.truncate_vectors(motions, *modes);
+        }
+        let (positions, rates) = rate.split_at_mut(2 * count);
+        write_points(motions, positions);
+        rates.fill(0.0);
+        if let Some(transport) = self.scheme.transport.as_mut() {
+            let rates = &mut rates[..count];
+            transport.add_advection(numbers, &geometry.lengths, slip, rates);
+            // The implicit part has the stabiliser's diffusion added: take it off here.
+            if self.scheme.stabiliser.len() == count {
+                transport.add_diffusion(&geometry.lengths, &self.scheme.stabiliser, numbers, -1.0, rates);
+            }
+        }
+    }
+
+    /// Prepares the implicit part of a step; `viscosity` is the mean of those on both sides (stress times time).
+    ///
+    /// The stabiliser adds the diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` to the implicit part and subtracts it
+    /// from the explicit one: crowded particles relax at the rate `c |d gamma/dc| q / (4 eta)` at the wave number q,
+    /// and that diffusivity has the same rate at q = 1/h.
+    ///
+    /// # Errors
+    /// Those of [`ActiveInterface::fit`].
+    pub(crate) fn begin_step(&mut self, view: &FluidView, viscosity: f64, stabilised: bool) -> Result<(), InputError> {
+        if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
+            self.derived.relaxation = relaxation * self.spacing_rate(viscosity);
+        }
+        let count = self.markers().len();
+        self.fit(view)?;
+        let Scheme { transport, stabiliser, diffusivities, .. } = &mut self.scheme;
+        diffusivities.resize(count, 0.0);
+        diffusivities.fill(self.law.diffusion);
+        stabiliser.clear();
+        if transport.is_none() || !(self.law.stabilised && stabilised) {
+            return Ok(());
+        }
+        stabiliser.resize(count, 0.0);
+        let scale = 0.25 * finest_response(view) / viscosity;
+        let stiffness = |c: f64| scale * c * (-self.law.tension.slope(c)).max(0.0);
+        let concentrations = &self.derived.concentrations;
+        let mut before = stiffness(concentrations[count - 1]);
+        for ((face, all), &c) in stabiliser.iter_mut().zip(diffusivities).zip(concentrations) {
+            let here = stiffness(c);
+            *face = 0.5 * (before + here);
+            *all += *face;
+            before = here;
+        }
+        Ok(())
+    }
+
+    /// Implicit diffusion over the interface with its markers at `positions`; `None` without particles.
+    pub(crate) fn diffusion_at(&mut self, positions: &[f64]) -> Option<Diffusion<'_>> {
+        let Scheme { transport, diffusivities, other, spectral, .. } = &mut self.scheme;
+        let transport = transport.as_mut()?;
+        let present = &self.state.shape;
+        let geometry = if present.is_at(positions) {
+            &present.geometry
+        } else {
+            other.move_to(positions, spectral.as_mut());
+            &other.geometry
+        };
+        Some(Diffusion { transport, lengths: &geometry.lengths, diffusivities })
+    }
+
+    /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time): filters the markers,
+    /// where there is a grid that does not see their short waves, or inserts and removes some.
+    pub(crate) fn move_markers(&mut self, view: &FluidView, viscosity: f64, dt: f64) {
+        let State { shape: Shape { markers, geometry, .. }, numbers } = &mut self.state;
+        match (self.law.motion, grid_spacing(view)) {
+            (Motion::Equidistributed { filter: true, .. }, Some(spacing)) => {
+                let rate = 0.5 * dt / (viscosity * spacing);
+                let tensions = &self.derived.tensions;
+                let before = |k: usize| tensions[if k == 0 { tensions.len() - 1 } else { k - 1 }];
+                self.scheme.filter.apply(markers, geometry, spacing, |k| 0.5 * rate * (tensions[k] + before(k)));
+                self.update();
+            }
+            (Motion::Equidistributed { .. }, _) => {}
+            (Motion::WithFluid, _) => {
+                let (inserted, removed) = redistribute(markers, numbers, self.account.spacing, MINIMUM_MARKERS);
+                self.account.last = Interventions { inserted, removed, ..self.account.last };
+                if inserted + removed > 0 {
+                    self.resize(self.markers().len());
+                    self.update();
+                }
+            }
+        }
+    }
+
+    /// Moves all markers outwards along their normals by `distance` (length).
+    pub(crate) fn inflate(&mut self, distance: f64) {
+        let Shape { markers, geometry, .. } = &mut self.state.shape;
+        for (marker, tau) in markers.iter_mut().zip(&geometry.tangents) {
+            *marker += distance * geometry::outward(*tau);
+        }
+        self.update();
+    }
+
+    /// Keeps particle numbers from being negative.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or whose sum is negative.
+    pub(crate) fn repair(&mut self) -> Result<(), crate::InterfaceError> {
+        if let Some(transport) = &mut self.scheme.transport {
+            self.account.last.repair = transport.repair(&mut self.state.numbers)?;
+            if self.account.last.repair.segments > 0 {
+                self.update_tensions();
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts the interventions of a step that is kept.
+    pub(crate) fn keep_step(&mut self) {
+        let Interventions { repair, inserted, removed } = std::mem::take(&mut self.account.last);
+        self.account.kept.inserted += inserted;
+        self.account.kept.removed += removed;
+        self.account.kept.repair.accumulate(repair);
+    }
+}
+
+#[cfg(test)]
+mod tests;

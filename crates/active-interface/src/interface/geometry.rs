@@ -1,0 +1,177 @@
+//! Geometry of a closed polygon of markers, and the motion that keeps the markers equally spaced.
+
+use motile_base::Vec2;
+
+use super::spectral::SpectralCurve;
+
+/// Geometry of a closed polygon, marker k followed by segment k.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Geometry {
+    /// Lengths of the segments (length).
+    pub(crate) lengths: Vec<f64>,
+    /// Unit vectors along the segments.
+    pub(crate) directions: Vec<Vec2>,
+    /// Arc weights w_k of the markers (length): of a polygon the lengths of the half chords `(X_{k+1} - X_{k-1}) / 2`,
+    /// with which the rate of its area is exactly `sum X_k' . n_k w_k`.
+    pub(crate) weights: Vec<f64>,
+    /// Unit tangents at the markers, along the half chords; the outward normal is (tau_y, -tau_x).
+    pub(crate) tangents: Vec<Vec2>,
+    /// |X_alpha| at the markers (length); only of smooth curves, see [`super::spectral::SpectralCurve`].
+    pub(crate) stretch: Vec<f64>,
+    /// Sum of the lengths of the segments (length).
+    pub(crate) perimeter: f64,
+}
+
+impl Geometry {
+    /// Makes all lists fit `count` markers.
+    pub(crate) fn resize(&mut self, count: usize) {
+        for list in [&mut self.directions, &mut self.tangents] {
+            list.resize(count, Vec2::ZERO);
+        }
+        self.lengths.resize(count, 0.0);
+        self.weights.resize(count, 0.0);
+    }
+
+    /// The geometry of the polygon through the markers.
+    pub(crate) fn update(&mut self, markers: &[Vec2]) {
+        let count = markers.len();
+        self.resize(count);
+        self.perimeter = 0.0;
+        for k in 0..count {
+            let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);
+            let after = markers[if k + 1 == count { 0 } else { k + 1 }];
+            let segment = after - here;
+            let length = segment.length();
+            self.perimeter += length;
+            self.lengths[k] = length;
+            self.directions[k] = segment / length;
+            let chord = 0.5 * (after - before);
+            let weight = chord.length();
+            self.weights[k] = weight;
+            self.tangents[k] = chord / weight;
+        }
+    }
+
+    /// Mean length of the segments (length).
+    pub(crate) fn mean_length(&self) -> f64 {
+        self.perimeter / self.lengths.len() as f64
+    }
+}
+
+/// Markers of a closed curve with the geometry of the curve through them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Shape {
+    /// Positions (length), counter-clockwise.
+    pub(crate) markers: Vec<Vec2>,
+    pub(crate) geometry: Geometry,
+    /// Count of computations of the geometry, for tests.
+    pub(crate) evaluations: usize,
+}
+
+impl Shape {
+    /// Tells whether the markers are at these positions (x and y of each), bit by bit.
+    pub(crate) fn is_at(&self, positions: &[f64]) -> bool {
+        let same = |marker: &Vec2, pair: &[f64]| {
+            [marker.x.to_bits(), marker.y.to_bits()] == [pair[0], pair[1]].map(f64::to_bits)
+        };
+        2 * self.markers.len() == positions.len()
+            && self.markers.iter().zip(positions.chunks_exact(2)).all(|(marker, pair)| same(marker, pair))
+    }
+
+    /// Moves the markers to these positions, unless they are there.
+    pub(crate) fn move_to(&mut self, positions: &[f64], spectral: Option<&mut SpectralCurve>) {
+        if !self.is_at(positions) {
+            self.markers.clear();
+            self.markers.extend(positions.chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
+            self.update(spectral);
+        }
+    }
+
+    /// Computes the geometry of the smooth curve where there is one for as many markers, else that of the polygon.
+    pub(crate) fn update(&mut self, spectral: Option<&mut SpectralCurve>) {
+        self.evaluations += 1;
+        match spectral.filter(|spectral| spectral.len() == self.markers.len()) {
+            Some(spectral) => spectral.update(&self.markers, &mut self.geometry),
+            None => self.geometry.update(&self.markers),
+        }
+    }
+}
+
+/// Outward unit normal of a counter-clockwise curve with this unit tangent.
+#[inline]
+pub(crate) fn outward(tangent: Vec2) -> Vec2 {
+    Vec2::new(tangent.y, -tangent.x)
+}
+
+/// Rate at which a flow moves markers around or away (1/time): the root mean square of their velocities over the
+/// radius of a circle of the same perimeter. Spacing becomes unequal by errors of that motion, a translation included.
+pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
+    let square = velocities.iter().map(|velocity| velocity.length_squared()).sum::<f64>() / velocities.len() as f64;
+    square.sqrt() * std::f64::consts::TAU / geometry.perimeter
+}
+
+/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the arc weights, so that the
+/// area enclosed stays.
+pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], motion: &mut [Vec2]) {
+    let (mut flux, mut total) = (0.0, 0.0);
+    for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(&geometry.weights) {
+        flux += u.dot(outward(*tau)) * w;
+        total += w;
+    }
+    let mean = flux / total;
+    for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion) {
+        let normal = outward(*tau);
+        *out = (u.dot(normal) - mean) * normal;
+    }
+}
+
+/// Adds the tangential velocities W of the markers, as `velocity(k, slip[k])`, to `motion`, and writes `V_t - W`, the
+/// fluid's velocity along the interface relative to the markers, to `slip` (length per time).
+pub(super) fn add_tangential_motion(
+    geometry: &Geometry,
+    velocities: &[Vec2],
+    motion: &mut [Vec2],
+    slip: &mut [f64],
+    velocity: impl Fn(usize, f64) -> f64,
+) {
+    for (k, (out, slip)) in motion.iter_mut().zip(slip).enumerate() {
+        let (tau, w) = (geometry.tangents[k], velocity(k, *slip));
+        *out += w * tau;
+        *slip = velocities[k].dot(tau) - w;
+    }
+}
+
+/// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):
+///
+/// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
+/// * tangential velocity W with `W_{k+1} - W_k = mean(q) - q_k + rho (mean(l) - l_k)`, where
+///   `q_k = ((V_n n)_{k+1} - (V_n n)_k) . t_k` is the stretching of segment k by the normal motion, rho the rate of
+///   relaxation (1/time), and `mean(W) = mean(V_t)`, so that markers turn with the fluid.
+///
+/// Writes the marker velocities to `motion` and `V_t - W` to `slip` (length per time).
+pub(crate) fn equidistribute(
+    geometry: &Geometry,
+    velocities: &[Vec2],
+    relaxation: f64,
+    motion: &mut [Vec2],
+    slip: &mut [f64],
+) {
+    let count = velocities.len();
+    write_normal_motion(geometry, velocities, motion);
+    let tangential: f64 = velocities.iter().zip(&geometry.tangents).map(|(u, tau)| u.dot(*tau)).sum();
+    let stretching = |motion: &[Vec2], k: usize| {
+        (motion[if k + 1 == count { 0 } else { k + 1 }] - motion[k]).dot(geometry.directions[k])
+    };
+    let mean_stretching = (0..count).map(|k| stretching(motion, k)).sum::<f64>() / count as f64;
+    let mean_length = geometry.mean_length();
+    // W up to a constant, kept in `slip` for now.
+    let mut w = 0.0;
+    let mut sum = 0.0;
+    for (k, position) in slip.iter_mut().enumerate() {
+        *position = w;
+        sum += w;
+        w += mean_stretching - stretching(motion, k) + relaxation * (mean_length - geometry.lengths[k]);
+    }
+    let shift = tangential / count as f64 - sum / count as f64;
+    add_tangential_motion(geometry, velocities, motion, slip, |_, w| w + shift);
+}

@@ -1,0 +1,95 @@
+//! Stable time steps and warnings of an interface.
+
+use std::f64::consts::TAU;
+
+use motile_scene::{FluidView, StepCause, StepLimit};
+
+use super::{ActiveInterface, Motion};
+use crate::concentration::cell_peclet;
+
+/// Cell Peclet number `ds max|V_t - W| / D` (no dimension) above which the edge of the concentration is not resolved,
+/// on however fine a grid: speeds may be off by a per cent (measured by the study `warnings`).
+pub(crate) const PECLET_LIMIT: f64 = 0.35;
+
+/// Grid spacing h (length) that the motion of an interface sees; `None` where the flow resolves the interface by modes,
+/// as boundary integrals and layers do, whether or not there is a grid for other bodies.
+pub(crate) fn grid_spacing(view: &FluidView) -> Option<f64> {
+    view.spacing.filter(|_| view.shape_modes.is_none())
+}
+
+/// Length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the
+/// largest resolved wave number q. The stiffness of the interface is q/4, the rate of a flat interface of unit tension
+/// and viscosity, which makes that length a half over the stiffness.
+pub(super) fn finest_response(view: &FluidView) -> f64 {
+    grid_spacing(view).unwrap_or(0.5 / view.interface_stiffness)
+}
+
+impl ActiveInterface {
+    /// Cell Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension), 0 without particles.
+    pub(crate) fn cell_peclet(&self) -> f64 {
+        if self.carries() { cell_peclet(&self.derived.slip, &self.geometry().lengths, self.law.diffusion) } else { 0.0 }
+    }
+
+    fn largest_tension(&self) -> f64 {
+        self.derived.tensions.iter().fold(0.0_f64, |a, &b| a.max(b))
+    }
+
+    /// Unit of the rate at which unequal spacing relaxes (1/time), see [`Motion::Equidistributed`].
+    pub(super) fn spacing_rate(&self, viscosity: f64) -> f64 {
+        let radius = self.geometry().perimeter / TAU;
+        if self.carries() {
+            return self.law.diffusion / (radius * radius);
+        }
+        0.2 * self.largest_tension() / (viscosity * radius)
+    }
+
+    /// Largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to 2/a.
+    pub(crate) fn step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
+        let stiffness = view.interface_stiffness * self.largest_tension();
+        limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
+        if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
+            // The rate of the next step, and that of the last one where the flow itself sets it.
+            let rate = self.derived.relaxation.max(relaxation * self.spacing_rate(viscosity));
+            limits(StepLimit::decay(2.0 / rate, "the relaxation of the marker spacing"));
+        }
+        if self.carries() {
+            // Crowded particles relax at the rate c |gamma'| q / (4 eta). Explicitly, the shortest waves q = pi/h set
+            // the limit 8 h eta / (pi c |gamma'|); with the stabiliser, waves of q = 1/h do.
+            let slope = |c: f64| c * self.law.tension.slope(c).abs();
+            let coupling = self.derived.concentrations.iter().map(|&c| slope(c)).fold(0.0_f64, f64::max);
+            let unit = finest_response(view) * viscosity / coupling;
+            let (factor, cause) = if self.law.stabilised {
+                (8.0, StepCause::Stabilised { bare: 2.5 * unit })
+            } else {
+                (2.5, StepCause::Decay)
+            };
+            let reason = "the coupling of concentration and tension";
+            limits(StepLimit { dt: factor * unit, reason, cause });
+            let slip = self.derived.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
+            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, is stable up to
+            // about two segments a step.
+            let dt = 1.8 * self.geometry().mean_length() / slip;
+            limits(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
+        }
+    }
+
+    /// Warnings of the present state, as cause, excess and message.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = (&'static str, f64, String)> {
+        let law = self.law.tension.warning().map(|message| ("tension without a plateau", f64::INFINITY, message));
+        let peclet = self.cell_peclet();
+        let edge = (peclet > PECLET_LIMIT).then(|| {
+            let spacing = self.geometry().mean_length() * PECLET_LIMIT / peclet;
+            let remedy = if spacing > 0.0 {
+                format!("use markers (cells) less than {spacing:.2e} apart")
+            } else {
+                "give the particles a diffusion constant".to_owned()
+            };
+            let message = format!("the cell Peclet number is {peclet:.2}, above {PECLET_LIMIT}: {remedy}");
+            ("edge of the concentration not resolved", peclet / PECLET_LIMIT, message)
+        });
+        law.into_iter().chain(edge)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,114 @@
+//! Geometry, forces and marker motion of a smooth closed curve by Fourier series in the marker number.
+
+use std::f64::consts::{PI, TAU};
+
+use motile_base::{InputError, PeriodicSeries, Vec2};
+use num_complex::Complex64;
+
+use super::geometry::{Geometry, add_tangential_motion, write_normal_motion};
+
+/// Fourier series along a closed curve of M markers, marker k at the parameter alpha = 2 pi k / M.
+///
+/// Where the flow itself is spectrally accurate, the chords of the polygon would be the largest error of a scene: their
+/// lengths, directions and normals are of second order in the spacing. Here all of them come from X_alpha.
+#[derive(Debug, Clone)]
+pub(crate) struct SpectralCurve {
+    vectors: PeriodicSeries,
+    numbers: PeriodicSeries,
+}
+
+fn vector(z: Complex64) -> Vec2 {
+    Vec2::new(z.re, z.im)
+}
+
+/// Computes the coefficients of as many samples as the series has, which cannot fail.
+fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = Complex64>) {
+    let _ = series.analyse(samples);
+}
+
+impl SpectralCurve {
+    pub(crate) fn new(count: usize) -> Result<Self, InputError> {
+        let series = PeriodicSeries::new(count)?;
+        Ok(Self { vectors: series.clone(), numbers: series })
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.vectors.len()
+    }
+
+    /// Computes the geometry of the smooth curve through the markers; directions are those at the middle of segments.
+    pub(crate) fn update(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+        geometry.resize(self.len());
+        geometry.stretch.resize(self.len(), 0.0);
+        let spacing = TAU / self.len() as f64;
+        // Relative to one marker, so that droplets that have travelled far lose no digits.
+        analyse(&mut self.vectors, markers.iter().map(|x| Complex64::new(x.x - markers[0].x, x.y - markers[0].y)));
+        self.vectors.differentiate();
+        for (k, &tangent) in self.vectors.values().iter().enumerate() {
+            let stretch = tangent.norm();
+            geometry.stretch[k] = stretch;
+            geometry.tangents[k] = vector(tangent / stretch);
+            geometry.weights[k] = stretch * spacing;
+        }
+        self.vectors.shift(0.5 * spacing);
+        for (direction, tangent) in geometry.directions.iter_mut().zip(self.vectors.values()) {
+            *direction = vector(tangent / tangent.norm());
+        }
+        // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
+        analyse(&mut self.numbers, geometry.stretch.iter().map(|&stretch| stretch.into()));
+        // The unpaired wave of an even number of markers, all minima and maxima at the markers, adds nothing.
+        let count = self.len();
+        self.numbers.scale(|m| if 2 * m < count { 1.0 } else { 0.0 });
+        self.numbers.multiply(|wave| {
+            if wave == 0.0 {
+                spacing.into()
+            } else {
+                (Complex64::cis(wave * spacing) - 1.0) / Complex64::new(0.0, wave)
+            }
+        });
+        geometry.perimeter = 0.0;
+        for (length, value) in geometry.lengths.iter_mut().zip(self.numbers.values()) {
+            *length = value.re;
+            geometry.perimeter += value.re;
+        }
+    }
+
+    /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density
+    /// at the marker times the spacing, a factor of `x / sin x`, x = pi m / M, for mode m; their sum stays zero.
+    pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
+        let _ = self.vectors.analyse_vectors(forces);
+        let half = PI / self.len() as f64;
+        self.vectors.multiply(|wave| {
+            let x = wave * half;
+            (if x == 0.0 { 1.0 } else { x / x.sin() }).into()
+        });
+        let _ = self.vectors.write_vectors(forces);
+    }
+
+    /// Velocities of equally spaced markers as in [`super::geometry::equidistribute`], with derivatives and integrals
+    /// along the smooth curve.
+    pub(crate) fn equidistribute(
+        &mut self,
+        geometry: &Geometry,
+        velocities: &[Vec2],
+        relaxation: f64,
+        motion: &mut [Vec2],
+        slip: &mut [f64],
+    ) {
+        let count = self.len() as f64;
+        write_normal_motion(geometry, velocities, motion);
+        let mean: f64 = velocities.iter().zip(&geometry.tangents).map(|(u, tau)| u.dot(*tau) / count).sum();
+        let _ = self.vectors.analyse_vectors(motion);
+        self.vectors.differentiate();
+        // dW/dalpha up to its mean, which the integration leaves out.
+        let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&geometry.stretch);
+        let slopes = slopes.map(|((derivative, tau), stretch)| -vector(*derivative).dot(*tau) - relaxation * stretch);
+        analyse(&mut self.numbers, slopes.map(Complex64::from));
+        self.numbers.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { 1.0 / Complex64::new(0.0, wave) });
+        let integral = self.numbers.values();
+        add_tangential_motion(geometry, velocities, motion, slip, |k, _| integral[k].re + mean);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+use super::*;
+use crate::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
+use motile_base::{FlowSample, SolveReport};
+use motile_scene::{Body, Domain, FlowError, FlowWork, Hydrodynamics, Markers, Scene};
+
+/// A converging flow, smooth (resolved by spectral accuracy) or on a grid.
+#[derive(Debug)]
+struct Converging {
+    smooth: bool,
+}
+
+/// The smooth one, with a grid for what else there may be.
+#[derive(Debug)]
+struct Layers;
+
+impl Hydrodynamics for Converging {
+    fn fluid_view(&self) -> FluidView {
+        FluidView {
+            domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: None },
+            viscosity: 1.0,
+            spacing: (!self.smooth).then_some(0.1),
+            interface_stiffness: 1.0,
+            shape_modes: self.smooth.then_some(41),
+        }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        let [positions, forces, velocities] = markers.lists_mut();
+        for ((u, x), f) in velocities.iter_mut().zip(positions.iter()).zip(forces.iter()) {
+            *u = Vec2::new(-0.2 * x.x, 0.2 * x.y + 0.05 * x.x * x.x) + 0.1 * f;
+        }
+        Ok(SolveReport::default())
+    }
+
+    fn sample(&mut self, _: &Markers, _: &[Vec2], _: &mut [FlowSample]) -> Result<(), FlowError> {
+        Ok(())
+    }
+
+    fn work(&self) -> FlowWork {
+        FlowWork::default()
+    }
+}
+
+impl Hydrodynamics for Layers {
+    fn fluid_view(&self) -> FluidView {
+        FluidView { spacing: Some(0.1), ..Converging { smooth: true }.fluid_view() }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        Converging { smooth: true }.velocities(markers)
+    }
+
+    fn sample(&mut self, _: &Markers, _: &[Vec2], _: &mut [FlowSample]) -> Result<(), FlowError> {
+        Ok(())
+    }
+
+    fn work(&self) -> FlowWork {
+        FlowWork::default()
+    }
+}
+
+fn droplet(motion: Motion) -> ActiveDroplet {
+    let markers = Curve::ellipse(1.2, 0.9).unwrap().rotated(0.4).markers(64).unwrap();
+    let numbers = InitialConcentration::polarised(1.0, 0.4).unwrap().particle_numbers(&markers).unwrap();
+    let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+    ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap().with_motion(motion)
+}
+
+const UNFILTERED: Motion = Motion::Equidistributed { relaxation: 5.0, filter: false };
+
+/// Geometry is computed for the stage, for the new state, and once more where the filter moves its markers.
+#[test]
+fn a_midpoint_step_computes_each_geometry_once() {
+    let cases = [(false, Motion::default(), 3), (false, UNFILTERED, 2), (true, Motion::default(), 2)];
+    for (smooth, motion, expected) in cases {
+        let passive = ActiveDroplet::passive(droplet(motion).markers(), 1.0).unwrap().with_motion(motion);
+        for droplet in [droplet(motion), passive] {
+            let mut scene = Scene::new(Converging { smooth });
+            let handle = scene.add(droplet);
+            // The first step also fits the geometry to the modes that the flow resolves.
+            scene.step(0.01).unwrap();
+            let evaluations = |scene: &Scene<Converging>| {
+                let droplet = scene.body(handle).unwrap();
+                droplet.interface.state.shape.evaluations + droplet.interface.scheme.other.evaluations
+            };
+            let before = evaluations(&scene);
+            for _ in 0..10 {
+                scene.step(0.01).unwrap();
+            }
+            assert_eq!(evaluations(&scene) - before, 10 * expected, "smooth {smooth}, {motion:?}");
+        }
+    }
+}
+
+/// They do not see the grid's spacing.
+#[test]
+fn layers_are_not_filtered() {
+    let after = |hydrodynamics: Box<dyn Hydrodynamics>| {
+        let mut scene = Scene::new(hydrodynamics);
+        let handle = scene.add(droplet(Motion::default()));
+        (0..5).for_each(|_| scene.step(0.02).unwrap());
+        bits(scene.body(handle).unwrap())
+    };
+    let layers = after(Box::new(Layers));
+    assert_eq!(layers, after(Box::new(Converging { smooth: true })));
+    assert_ne!(layers, after(Box::new(Converging { smooth: false })));
+}
+
+fn bits(droplet: &ActiveDroplet) -> Vec<u64> {
+    let saved = droplet.save();
+    saved.reals.iter().map(|value| value.to_bits()).chain(saved.counts).collect()
+}
+
+#[test]
+fn geometries_that_are_kept_are_those_of_their_markers() {
+    for (smooth, motion) in [(false, Motion::default()), (true, Motion::default()), (false, Motion::WithFluid)] {
+        let mut scene = Scene::new(Converging { smooth });
+        let handle = scene.add(droplet(motion));
+        for _ in 0..30 {
+            scene.step(0.02).unwrap();
+            let droplet = scene.body(handle).unwrap();
+            let ActiveInterface { state, scheme, .. } = &droplet.interface;
+            for kept in [&state.shape, &scheme.other] {
+                let mut fresh = Shape { markers: kept.markers.clone(), ..Shape::default() };
+                fresh.update(scheme.spectral.clone().as_mut());
+                assert_eq!(kept.geometry, fresh.geometry, "smooth {smooth}, {motion:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_clone_goes_on_bitwise_identically() {
+    for (smooth, motion) in [(false, Motion::default()), (true, Motion::default()), (false, Motion::WithFluid)] {
+        let mut scene = Scene::new(Converging { smooth });
+        let handle = scene.add(droplet(motion));
+        for _ in 0..20 {
+            scene.step(0.02).unwrap();
+        }
+        let clone = scene.body(handle).unwrap().clone();
+        assert_eq!(bits(&clone), bits(scene.body(handle).unwrap()));
+        let mut other = Scene::new(Converging { smooth });
+        let other_handle = other.add(clone);
+        for _ in 0..20 {
+            scene.step(0.02).unwrap();
+            other.step(0.02).unwrap();
+        }
+        assert_eq!(bits(other.body(other_handle).unwrap()), bits(scene.body(handle).unwrap()), "{smooth} {motion:?}");
+    }
+}
+
+#[test]
+fn laws_chosen_at_run_time_are_laws() {
+    let markers = Curve::circle(1.0).unwrap().markers(32).unwrap();
+    let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+    let tensions = |law: Box<dyn Tension>| {
+        let shared: Arc<dyn Tension> = law.into();
+        ActiveDroplet::new(&markers, vec![0.3; 32], shared, 0.1).unwrap().tensions().to_vec()
+    };
+    let direct = ActiveDroplet::new(&markers, vec![0.3; 32], law, 0.1).unwrap();
+    assert_eq!(tensions(Box::new(law)), direct.tensions());
+    let constant =
+        ActiveDroplet::new(&markers, vec![0.3; 32], Box::new(crate::ConstantTension::new(7.0).unwrap()), 0.1);
+    assert!(constant.unwrap().tensions().iter().all(|&tension| tension == 7.0));
+}
+
+/// h c max(-d gamma/dc, 0) / (4 eta): c = 4 is far above the step of B, of 2 at c_T = 2, so that d gamma/dc = 1/2 - 2
+/// there; at c = 1 the tension rises.
+#[test]
+fn the_stabiliser_by_hand() {
+    for (c, on, expected) in [(4.0, true, vec![0.15; 64]), (1.0, true, vec![0.0; 64]), (4.0, false, Vec::new())] {
+        let mut droplet = droplet(Motion::default());
+        let numbers = droplet.segment_lengths().iter().map(|length| c * length).collect();
+        let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+        droplet = ActiveDroplet::new(droplet.markers(), numbers, law, 0.05).unwrap();
+        let step = motile_scene::StepInfo { dt: 0.01, stabilised: on };
+        droplet.begin_step(&Converging { smooth: false }.fluid_view(), step).unwrap();
+        assert_eq!(droplet.interface.scheme.stabiliser.len(), expected.len());
+        for (found, expected) in droplet.interface.scheme.stabiliser.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{c}: {found} {expected}");
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! Measurements on a droplet at one time; every function works on plain slices of markers.
+
+mod active_region;
+mod channel_flow;
+mod curvature;
+mod ellipse_fit;
+mod fourier;
+mod frame;
+mod least_squares;
+mod moments;
+mod profile;
+mod squirmer;
+
+use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
+use motile_scene::{BodyFlow, FluidView, Handle, Hydrodynamics, SceneError, System};
+
+use crate::curve::polygon::{edges, raw_perimeter};
+use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments};
+use frame::{aspect_ratio_of, raw_centroid_velocity};
+
+pub use active_region::{ActiveRegion, active_curvature, active_region};
+pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
+pub use curvature::stress_curvature;
+pub use ellipse_fit::{EllipseFit, fit_ellipse};
+pub use fourier::{FourierModes, concentration_modes, shape_modes};
+pub use frame::{Frame, centroid_velocity};
+pub use moments::{Convention, ForceMoments, force_moments};
+pub use profile::{ConcentrationProfile, concentration_profile};
+pub use squirmer::{SquirmerFit, VelocityFrame, squirmer_coefficients};
+
+/// State of an interface from which its observables are computed: lists of M values, one a marker or one a segment.
+#[derive(Debug, Clone, Copy)]
+pub struct InterfaceState<'a> {
+    /// Markers in counter-clockwise order (length).
+    pub markers: &'a [Vec2],
+    /// Forces on the fluid at the markers (force).
+    pub forces: &'a [Vec2],
+    /// Velocities of the fluid at the markers (length per time), in the frame of the fluid far away or of the walls.
+    pub velocities: &'a [Vec2],
+    /// Particle numbers of the segments, segment k from marker k to the next; empty for an interface without particles.
+    pub numbers: &'a [f64],
+    /// Number of particles inside, and rate of binding less unbinding (1/time); `None` without exchange.
+    pub inside: Option<(f64, f64)>,
+    /// Viscosities inside and outside (stress times time).
+    pub viscosities: [f64; 2],
+    /// Flow with the forces of the bodies that fill the droplet; `None` where nothing fills it.
+    pub filled: Option<BodyFlow<'a>>,
+}
+
+impl<'a> InterfaceState<'a> {
+    /// State of a droplet with the flow at its markers.
+    pub(crate) fn new(droplet: &'a ActiveDroplet, view: &FluidView, flow: &BodyFlow<'a>) -> Self {
+        let outside = view.viscosity;
+        Self {
+            markers: droplet.markers(),
+            forces: flow.forces,
+            velocities: flow.velocities,
+            numbers: droplet.particle_numbers(),
+            inside: droplet.number_inside().zip(droplet.exchange_flux()),
+            filled: Some(*flow),
+            viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
+        }
+    }
+
+    /// Present state of a droplet of a scene, for [`observe`].
+    ///
+    /// # Errors
+    /// A handle of another scene; [`SceneError::NotEvaluated`] where the flow of the present state is not known.
+    pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
+        let view = system.fluid_around(droplet)?;
+        Ok(Self::new(system.body(droplet)?, &view, &system.flow_at(droplet)?))
+    }
+}
+
+/// Number of recorded modes of shape and concentration.
+const MODES: usize = 6;
+
+/// All observables of a droplet at one time, in axes along its motion where directions matter.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Observables {
+    /// Centroid of the area (length).
+    pub centroid: Vec2,
+    /// Velocity of the centroid (length per time), from the flux of area.
+    pub velocity: Vec2,
+    /// Area (length squared).
+    pub area: f64,
+    /// Perimeter (length).
+    pub perimeter: f64,
+    /// Number of particles on the interface.
+    pub particle_number: f64,
+    /// Number of particles inside, and rate of binding less unbinding (1/time); `None` without exchange.
+    pub inside: Option<(f64, f64)>,
+    /// Largest and smallest concentration (particles per length); `None` without particles.
+    pub concentration_range: Option<[f64; 2]>,
+    /// Aspect ratio from area moments, along the motion over across it.
+    pub aspect_ratio_moments: f64,
+    /// The fitted ellipse; `None` for shapes that are too far from one.
+    pub ellipse: Option<EllipseFit>,
+    /// The active region; `None` for a uniform concentration.
+    pub active_region: Option<ActiveRegion>,
+    /// Signed curvature of the active region (1/length); `None` without a region, or for one too short to have any.
+    pub active_curvature: Option<f64>,
+    /// Force moments in axes along the motion.
+    pub moments: ForceMoments,
+    /// Convention of the force moments.
+    pub convention: Convention,
+    /// Squirmer coefficients in the frame of the droplet.
+    pub squirmer: SquirmerFit,
+    /// Squirmer coefficients in the laboratory frame.
+    pub squirmer_laboratory: SquirmerFit,
+    /// Modes of r(theta) (length) about the centroid, theta from the direction of motion.
+    pub shape_modes: FourierModes,
+    /// Modes of the concentration (particles per length); zero without particles.
+    pub concentration_modes: FourierModes,
+}
+
+/// All observables of a droplet, in axes along its velocity. A droplet at rest has no direction: its axes are x and y
+/// where the velocity is exactly zero, and along the round-off where it is not.
+///
+/// # Errors
+/// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
+/// no area.
+pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, filled } = *state;
+    at_least("markers", markers.len(), 8)?;
+    same_length("velocities", markers.len(), velocities.len())?;
+    all_points_finite("the velocities", velocities)?;
+    let area = polygon_moments(markers)?;
+    let velocity = raw_centroid_velocity(markers, velocities, &area);
+    let frame = Frame::of_motion(area.centroid, velocity)?;
+
+    let mut moments = force_moments(markers, forces, velocities, viscosities, convention, &frame)?;
+    for [position, force] in filled.iter().flat_map(BodyFlow::inside) {
+        moments.add_force(frame.coordinates(position), frame.components(force));
+    }
+    let mut record = Observables {
+        centroid: area.centroid,
+        velocity,
+        area: area.area,
+        perimeter: raw_perimeter(markers),
+        particle_number: 0.0,
+        inside,
+        concentration_range: None,
+        aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
+        ellipse: fit_ellipse(markers, &frame).ok(),
+        active_region: None,
+        active_curvature: None,
+        moments,
+        convention,
+        squirmer: squirmer_coefficients(markers, velocities, VelocityFrame::CoMoving, &frame)?,
+        squirmer_laboratory: squirmer_coefficients(markers, velocities, VelocityFrame::Laboratory, &frame)?,
+        shape_modes: shape_modes(markers, &frame, MODES)?,
+        concentration_modes: FourierModes { mean: 0.0, cosines: vec![0.0; MODES], sines: vec![0.0; MODES] },
+    };
+    if !numbers.is_empty() {
+        same_length("numbers", markers.len(), numbers.len())?;
+        all_finite("the particle numbers", numbers)?;
+        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
+        record.concentration_modes = concentration_modes(markers, numbers, &frame, MODES)?;
+        record.particle_number = numbers.iter().sum();
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        record.concentration_range = Some(
+            numbers.iter().zip(&lengths).map(|(n, l)| n / l).fold(range, |[max, min], c| [c.max(max), c.min(min)]),
+        );
+        record.active_region = active_region(&lengths, numbers)?;
+        record.active_curvature = record.active_region.and_then(|region| active_curvature(markers, &region).ok());
+    }
+    Ok(record)
+}
+
+impl Observables {
+    /// Speed of the centroid (length per time).
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.velocity.length()
+    }
+
+    /// Direction of motion (radians from x, from -pi to pi; 0 at rest).
+    #[must_use]
+    pub fn heading(&self) -> f64 {
+        self.velocity.y.atan2(self.velocity.x)
+    }
+
+    /// Names and values of all entries, in the order of the columns of a table. Values that do not exist, such as the
+    /// active fraction of a uniform concentration, are `None`.
+    ///
+    /// Units of length, time and force are those of the state. `s_ijk` and `n_ijk` are the symmetric and the mixed part
+    /// of the quadrupole, `b1`, `b2`, `beta` the squirmer coefficients in the droplet's frame, `shape_mode_k` and
+    /// `concentration_mode_k` the amplitudes of mode k over the mean.
+    #[must_use]
+    pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
+        let stresslet = self.moments.stresslet();
+        let f3 = self.moments.quadrupole;
+        let [maximum, minimum] = [0, 1].map(|i| self.concentration_range.map(|range| range[i]));
+        let region = self.active_region;
+        let known = Some;
+        let mut entries = vec![
+            ("x", known(self.centroid.x)),
+            ("y", known(self.centroid.y)),
+            ("velocity_x", known(self.velocity.x)),
+            ("velocity_y", known(self.velocity.y)),
+            ("speed", known(self.speed())),
+            ("heading_degrees", known(self.heading().to_degrees())),
+            ("area", known(self.area)),
+            ("perimeter", known(self.perimeter)),
+            ("particle_number", known(self.particle_number)),
+            ("concentration_max", maximum),
+            ("concentration_min", minimum),
+            ("aspect_ratio_moments", known(self.aspect_ratio_moments)),
+            ("aspect_ratio_ellipse", self.ellipse.map(|ellipse| ellipse.aspect_ratio())),
+            ("active_length", region.map(|region| region.length)),
+            ("active_fraction", region.map(|region| region.fraction)),
+            ("active_curvature", self.active_curvature),
+            ("b1", known(self.squirmer.b1)),
+            ("b2", known(self.squirmer.b2)),
+            ("beta", self.squirmer.beta()),
+            ("b1_laboratory", known(self.squirmer_laboratory.b1)),
+            ("b2_laboratory", known(self.squirmer_laboratory.b2)),
+            ("beta_laboratory", self.squirmer_laboratory.beta()),
+        ];
+        let mut list = |names: &[&'static str], values: &[f64]| {
+            entries.extend(names.iter().copied().zip(values.iter().copied().map(Some)));
+        };
+        list(&["force_x", "force_y"], &self.moments.force);
+        list(&["f_xx", "f_xy", "f_yx", "f_yy"], self.moments.dipole.as_flattened());
+        list(&["stresslet_xx", "stresslet_xy"], &stresslet[0]);
+        list(&["f_xxx", "f_xyy", "f_yxy", "f_yyx"], &[f3[0][0][0], f3[0][1][1], f3[1][0][1], f3[1][1][0]]);
+        let [[[sxxx, sxxy], [_, sxyy]], [_, [_, syyy]]] = self.moments.symmetric_quadrupole();
+        list(&["s_xxx", "s_xxy", "s_xyy", "s_yyy"], &[sxxx, sxxy, sxyy, syyy]);
+        let mixed = self.moments.mixed_quadrupole();
+        list(&["n_xyy", "n_yxy", "n_yyx"], &[mixed[0][1][1], mixed[1][0][1], mixed[1][1][0]]);
+        let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
+        if let Some((number, flux)) = self.inside {
+            entries.extend([("number_inside", known(number)), ("exchange_flux", known(flux))]);
+        }
+        entries.extend((2..).zip(SHAPE_MODES).map(|(k, name)| (name, relative(&self.shape_modes, k))));
+        entries.extend((1..).zip(CONCENTRATION_MODES).map(|(k, name)| (name, relative(&self.concentration_modes, k))));
+        entries
+    }
+
+    /// Value of the entry `name`; `None` for unknown names and values that do not exist.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.entries().into_iter().find(|entry| entry.0 == name).and_then(|entry| entry.1)
+    }
+}
+
+/// Names of the modes that are entries; of the shape from k = 2 on, of the concentration from k = 1 on.
+const SHAPE_MODES: [&str; 5] = ["shape_mode_2", "shape_mode_3", "shape_mode_4", "shape_mode_5", "shape_mode_6"];
+const CONCENTRATION_MODES: [&str; 6] = [
+    "concentration_mode_1",
+    "concentration_mode_2",
+    "concentration_mode_3",
+    "concentration_mode_4",
+    "concentration_mode_5",
+    "concentration_mode_6",
+];
+
+#[cfg(test)]
+mod tests;

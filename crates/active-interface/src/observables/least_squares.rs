@@ -1,0 +1,82 @@
+//! Normal equations of small nonlinear least squares.
+
+/// Normal equations `M s = g` of a Gauss-Newton step for N unknowns, with `M = sum of w r r^T` and `g = sum of w d r`
+/// over measurements of the deviation d with derivatives r and weight w.
+#[derive(Debug)]
+pub(super) struct NormalEquations<const N: usize> {
+    matrix: [[f64; N]; N],
+    gradient: [f64; N],
+}
+
+impl<const N: usize> NormalEquations<N> {
+    pub(super) fn new() -> Self {
+        Self { matrix: [[0.0; N]; N], gradient: [0.0; N] }
+    }
+
+    /// Adds a measurement: the derivatives `row` of its deviation by the unknowns, its weight, and the deviation.
+    pub(super) fn add(&mut self, row: [f64; N], weight: f64, deviation: f64) {
+        for i in 0..N {
+            self.gradient[i] += row[i] * (weight * deviation);
+            for j in 0..N {
+                self.matrix[i][j] += row[i] * row[j] * weight;
+            }
+        }
+    }
+
+    /// The step s with the diagonal of M raised by the part `damping`, by elimination with partial pivoting; `None`
+    /// for a singular matrix or a step that is not finite.
+    pub(super) fn step(&self, damping: f64) -> Option<[f64; N]> {
+        let (mut a, mut x) = (self.matrix, self.gradient);
+        for (i, row) in a.iter_mut().enumerate() {
+            row[i] *= 1.0 + damping;
+        }
+        for i in 0..N {
+            let pivot = (i..N).max_by(|&k, &l| a[k][i].abs().total_cmp(&a[l][i].abs()))?;
+            a.swap(i, pivot);
+            x.swap(i, pivot);
+            if a[i][i] == 0.0 {
+                return None;
+            }
+            let (above, below) = a.split_at_mut(i + 1);
+            for (row, k) in below.iter_mut().zip(i + 1..) {
+                let factor = row[i] / above[i][i];
+                row.iter_mut().zip(above[i]).for_each(|(entry, pivot)| *entry -= factor * pivot);
+                x[k] -= factor * x[i];
+            }
+        }
+        for i in (0..N).rev() {
+            let known: f64 = (i + 1..N).map(|j| a[i][j] * x[j]).sum();
+            x[i] = (x[i] - known) / a[i][i];
+        }
+        x.iter().all(|value| value.is_finite()).then_some(x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_solves_the_normal_equations() {
+        let rows = [[1.0, 2.0, 0.5], [0.0, 0.0, 3.0], [-1.0, 4.0, 0.0], [2.0, -0.5, 1.0]];
+        let exact = [0.7, -1.3, 2.1];
+        let mut equations = NormalEquations::new();
+        for (k, row) in rows.into_iter().enumerate() {
+            let deviation = (0..3).map(|i| row[i] * exact[i]).sum();
+            equations.add(row, 1.0 + k as f64, deviation);
+        }
+        let found = equations.step(0.0).unwrap();
+        assert!((0..3).all(|i| (found[i] - exact[i]).abs() < 1e-14), "{found:?}");
+        // Damping makes it shorter.
+        assert!(equations.step(10.0).unwrap().iter().zip(found).all(|(short, long)| short.abs() < long.abs()));
+    }
+
+    #[test]
+    fn too_few_measurements_give_no_step() {
+        let mut equations = NormalEquations::new();
+        equations.add([1.0, 0.0], 1.0, 1.0);
+        assert_eq!(equations.step(0.0), None);
+        equations.add([f64::NAN, 1.0], 1.0, 1.0);
+        assert_eq!(equations.step(0.0), None);
+    }
+}

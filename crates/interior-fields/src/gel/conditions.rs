@@ -1,0 +1,81 @@
+//! Conditions on the director: anchoring at the interface, angles at the start.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use active_interface::SplitMix64;
+use motile_base::{Vec2, finite, not_negative};
+
+use crate::InteriorError;
+
+/// Anchoring: the angle at which the director meets the interface of its droplet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Anchoring {
+    /// Along the outward normal.
+    Homeotropic,
+    /// Along the tangent, counter-clockwise.
+    Planar,
+    /// At any angle: the interface exerts no couple on the director.
+    #[default]
+    Free,
+}
+
+impl Anchoring {
+    /// Angle from the counter-clockwise tangent to the director (radians); `None` where it is free.
+    pub(super) fn angle_from_tangent(self) -> Option<f64> {
+        match self {
+            Self::Homeotropic => Some(-FRAC_PI_2),
+            Self::Planar => Some(0.0),
+            Self::Free => None,
+        }
+    }
+}
+
+/// Initial director.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[non_exhaustive]
+pub enum DirectorStart {
+    /// Uniform direction, with each node turned by a random angle of up to `noise` to either side.
+    Uniform {
+        /// Angle to x (radians).
+        angle: f64,
+        /// Largest random angle (radians).
+        #[serde(default)]
+        noise: f64,
+        /// Seed of the random angles.
+        #[serde(default)]
+        seed: u64,
+    },
+    /// Outwards from the centre.
+    Aster,
+    /// Counter-clockwise around the centre.
+    Vortex,
+    /// Random direction at each node, all equally likely.
+    Random {
+        /// Seed of the random angles.
+        seed: u64,
+    },
+}
+
+impl DirectorStart {
+    /// Angles of the director (radians) at nodes (length) around a centre; refuses angles that are not finite and a
+    /// negative noise.
+    pub(super) fn angles(&self, nodes: &[Vec2], centre: Vec2) -> Result<Vec<f64>, InteriorError> {
+        let around = |turn: f64| nodes.iter().map(|node| (*node - centre).to_angle() + turn).collect();
+        let random = |angle: f64, noise: f64, seed: u64| {
+            let mut random = SplitMix64::new(seed);
+            nodes.iter().map(|_| angle + noise * (2.0 * random.uniform() - 1.0)).collect()
+        };
+        Ok(match *self {
+            Self::Uniform { angle, noise, seed } => {
+                finite("the angle of the director", angle)?;
+                random(angle, not_negative("the noise of the director", noise)?, seed)
+            }
+            Self::Aster => around(0.0),
+            Self::Vortex => around(FRAC_PI_2),
+            Self::Random { seed } => random(0.0, PI, seed),
+        })
+    }
+}

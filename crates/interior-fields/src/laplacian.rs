@@ -1,0 +1,128 @@
+//! Laplace operator on a triangulation, by linear elements with lumped masses.
+
+use std::collections::HashMap;
+
+/// Iterations before the conjugate gradients end; they take the root of the condition number, below a hundred.
+const MOST_ITERATIONS: usize = 3000;
+
+/// Sides of a triangle, from the first corner to the second and so on: number of the edge, and 1 where the side runs
+/// from its lower node to its higher, else -1.
+pub(crate) type Sides = [(usize, f64); 3];
+
+/// Edges of a triangulation as pairs of nodes, the lower first, and the sides of each triangle.
+pub(crate) fn edges(triangles: &[[usize; 3]]) -> (Vec<[usize; 2]>, Vec<Sides>) {
+    let (mut edges, mut numbers) = (Vec::new(), HashMap::new());
+    let mut side = |from: usize, to: usize| {
+        let pair = [from.min(to), from.max(to)];
+        let number = *numbers.entry(pair).or_insert_with(|| {
+            edges.push(pair);
+            edges.len() - 1
+        });
+        (number, if from < to { 1.0 } else { -1.0 })
+    };
+    let sides = triangles.iter().map(|&[a, b, c]| [side(a, b), side(b, c), side(c, a)]).collect();
+    (edges, sides)
+}
+
+/// Laplace operator for values at the nodes of a triangulation: `(lap c)_i = -(K c)_i/M_i`, `(K c)_i = SUM_j w_ij (c_i
+/// - c_j)` over the edges at a node.
+///
+/// Values at the first nodes may be held at zero; lists of values are then those of the others.
+#[derive(Debug, Clone)]
+pub(crate) struct Laplacian {
+    edges: Vec<[usize; 2]>,
+    /// Weight w of each edge: half the sum of the cotangents of the angles opposite to it (no dimension).
+    pub(crate) weights: Vec<f64>,
+    /// Mass M of each node: a third of the areas around it (length squared).
+    pub(crate) masses: Vec<f64>,
+    /// Number of nodes, the first ones, at which values are zero.
+    held: usize,
+    /// Residual of linear equations, relative to the right-hand side.
+    tolerance: f64,
+    diagonal: Vec<f64>,
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl Laplacian {
+    /// Operator with weights and masses of zero.
+    pub(crate) fn new(edges: Vec<[usize; 2]>, nodes: usize, held: usize, tolerance: f64) -> Self {
+        let [diagonal, residual, direction, image] = [(); 4].map(|()| vec![0.0; nodes - held]);
+        let (weights, masses) = (vec![0.0; edges.len()], vec![0.0; nodes]);
+        Self { edges, weights, masses, held, tolerance, diagonal, residual, direction, image }
+    }
+
+    /// Takes over weights and masses.
+    pub(crate) fn set(&mut self, weights: &[f64], masses: &[f64]) {
+        self.weights.copy_from_slice(weights);
+        self.masses.copy_from_slice(masses);
+    }
+
+    /// Writes K c to `image`.
+    fn multiply(&self, values: &[f64], image: &mut [f64]) {
+        image.fill(0.0);
+        for (&[i, j], weight) in self.edges.iter().zip(&self.weights) {
+            match (i.checked_sub(self.held), j.checked_sub(self.held)) {
+                (Some(i), Some(j)) => {
+                    let flux = weight * (values[i] - values[j]);
+                    image[i] += flux;
+                    image[j] -= flux;
+                }
+                (None, Some(node)) | (Some(node), None) => image[node] += weight * values[node],
+                (None, None) => {}
+            }
+        }
+    }
+
+    /// K c, and the masses of its nodes.
+    pub(crate) fn stiffness(&mut self, values: &[f64]) -> (&[f64], &[f64]) {
+        let mut image = std::mem::take(&mut self.image);
+        self.multiply(values, &mut image);
+        self.image = image;
+        (&self.image, &self.masses[self.held..])
+    }
+
+    /// Replaces values c by the solution y of `y - strength lap y = c`, by conjugate gradients from c, scaled by the
+    /// diagonal.
+    pub(crate) fn solve(&mut self, strength: f64, values: &mut [f64]) {
+        if strength == 0.0 {
+            return;
+        }
+        let [mut diagonal, mut residual, mut direction, mut image] =
+            [&mut self.diagonal, &mut self.residual, &mut self.direction, &mut self.image].map(std::mem::take);
+        let masses = &self.masses[self.held..];
+        diagonal.copy_from_slice(masses);
+        for (edge, weight) in self.edges.iter().zip(&self.weights) {
+            for node in edge.iter().filter_map(|node| node.checked_sub(self.held)) {
+                diagonal[node] += strength * weight;
+            }
+        }
+        let scaled = |r: &[f64]| r.iter().zip(&diagonal).map(|(r, d)| r * r / d).sum::<f64>();
+        let right = values.iter().zip(masses).zip(&diagonal).map(|((c, m), d)| (m * c) * (m * c) / d).sum::<f64>();
+        let goal = self.tolerance * self.tolerance * right;
+        // From c itself the residual is that of the second term alone.
+        self.multiply(values, &mut image);
+        residual.iter_mut().zip(&image).for_each(|(r, image)| *r = -strength * image);
+        direction.iter_mut().zip(&residual).zip(&diagonal).for_each(|((p, r), d)| *p = r / d);
+        let mut norm = scaled(&residual);
+        for _ in 0..MOST_ITERATIONS {
+            if norm <= goal {
+                break;
+            }
+            self.multiply(&direction, &mut image);
+            let mut power = 0.0;
+            for ((image, p), mass) in image.iter_mut().zip(&direction).zip(masses) {
+                *image = mass * p + strength * *image;
+                power += *image * p;
+            }
+            let (length, before) = (norm / power, norm);
+            values.iter_mut().zip(&direction).for_each(|(c, p)| *c += length * p);
+            residual.iter_mut().zip(&image).for_each(|(r, image)| *r -= length * image);
+            norm = scaled(&residual);
+            let kept = norm / before;
+            direction.iter_mut().zip(&residual).zip(&diagonal).for_each(|((p, r), d)| *p = r / d + kept * *p);
+        }
+        (self.diagonal, self.residual, self.direction, self.image) = (diagonal, residual, direction, image);
+    }
+}

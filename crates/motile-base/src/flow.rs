@@ -1,0 +1,27 @@
+//! Results of flow computations.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec2;
+
+/// Velocity, pressure and velocity gradient of the flow at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FlowSample {
+    /// Velocity (length per time).
+    pub velocity: Vec2,
+    /// Pressure (force per length in 2D) without the mean pressure gradient of a channel.
+    pub pressure: f64,
+    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
+    pub gradient: [[f64; 2]; 2],
+}
+
+/// Iterations, residual and mean pressure gradient of one solution of the Stokes equations.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct SolveReport {
+    /// Iterations; 0 for a direct solver.
+    pub iterations: usize,
+    /// Relative residual; 0 for a direct solver, which is exact to round-off.
+    pub residual: f64,
+    /// Mean pressure gradient (force per volume), the uniform part of grad p; in a periodic box the mean force density.
+    pub mean_pressure_gradient: [f64; 2],
+}

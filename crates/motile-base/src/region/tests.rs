@@ -1,0 +1,40 @@
+use super::*;
+
+#[test]
+fn lengths_and_periods_are_those_of_the_fluid() {
+    let channel = Region::Channel { length: 8.0, width: 3.0, drive: Drive::Flux(0.5) };
+    assert_eq!((channel.lengths(), channel.periods()), ([8.0, 3.0], [Some(8.0), None]));
+    assert_eq!((channel.drive(), channel.drive().and_then(Drive::flux)), (Some(Drive::Flux(0.5)), Some(0.5)));
+    let square = Region::Box { lengths: [6.0, 5.0] };
+    assert_eq!((square.lengths(), square.periods(), square.drive()), ([6.0, 5.0], [Some(6.0), Some(5.0)], None));
+    assert_eq!((Region::Plane.lengths(), Region::Plane.periods()), ([f64::INFINITY; 2], [None; 2]));
+}
+
+#[test]
+fn one_of_gradient_and_flux_is_held_fixed() {
+    for (drive, gradient, flux) in [
+        (Drive::ZeroGradient, 0.0, None),
+        (Drive::Gradient(-2.0), -2.0, None),
+        (Drive::ZeroFlux, 0.0, Some(0.0)),
+        (Drive::Flux(3.0), 0.0, Some(3.0)),
+    ] {
+        assert_eq!((drive.gradient(), drive.flux()), (gradient, flux), "{drive:?}");
+    }
+}
+
+#[test]
+fn bad_numbers_are_refused_by_name() {
+    let channel = |length, width, drive| Region::Channel { length, width, drive };
+    for (region, name) in [
+        (Region::Box { lengths: [0.0, 1.0] }, "the period in x"),
+        (Region::Box { lengths: [1.0, f64::NAN] }, "the period in y"),
+        (channel(-1.0, 1.0, Drive::ZeroFlux), "the period of the channel"),
+        (channel(1.0, f64::INFINITY, Drive::ZeroFlux), "the width of the channel"),
+        (channel(1.0, 1.0, Drive::Flux(f64::NAN)), "the imposed flux"),
+        (channel(1.0, 1.0, Drive::Gradient(f64::INFINITY)), "the imposed pressure gradient"),
+    ] {
+        let error = region.check().unwrap_err().to_string();
+        assert!(error.starts_with(name), "{error}");
+    }
+    assert!(Region::Plane.check().is_ok() && channel(1.0, 1.0, Drive::ZeroGradient).check().is_ok());
+}

@@ -1,4 +1,0 @@
-//! Sampled fields and their streamlines.
-
-pub(crate) mod raster;
-pub(crate) mod streamlines;

@@ -1,0 +1,120 @@
+//! Meshes of gels, of particles inside droplets and of solids as files of triangles.
+
+use std::collections::HashMap;
+
+use motile::elastic_solids::Solid;
+use motile::interior_fields::{GelInDroplet, ParticlesInDroplet};
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Hydrodynamics, System};
+
+use crate::VtkFile;
+use crate::solids::{solids as solids_of, stress_deviators};
+
+/// Triangles of several bodies.
+#[derive(Debug, Default)]
+struct Triangles {
+    points: Vec<Vec2>,
+    triangles: Vec<[usize; 3]>,
+    /// Number of the body of each triangle, in the order of addition.
+    numbers: Vec<f64>,
+}
+
+impl Triangles {
+    /// Adds the triangles of the next body.
+    fn add(&mut self, points: &[Vec2], triangles: &[[usize; 3]]) {
+        let (start, number) = (self.points.len(), self.numbers.last().map_or(0.0, |last| last + 1.0));
+        self.points.extend(points);
+        self.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| start + corner)));
+        self.numbers.resize(self.triangles.len(), number);
+    }
+
+    /// File of the triangles; `None` if there are none.
+    fn file(&self) -> Option<VtkFile> {
+        (!self.points.is_empty()).then(|| VtkFile::triangles(&self.points, &self.triangles))
+    }
+}
+
+/// File of all gels of a system; `None` if there are none.
+pub(crate) fn gels<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
+    let (mut mesh, mut directors) = (Triangles::default(), Vec::new());
+    for (_, gel) in system.bodies::<GelInDroplet>() {
+        mesh.add(gel.nodes(), gel.triangles());
+        directors.extend(gel.directors().iter().copied());
+    }
+    Some(mesh.file()?.point_vectors("director", directors).cell_scalars("gel", mesh.numbers))
+}
+
+/// File of the particles that diffuse inside all droplets of a system; `None` if there are none.
+pub(crate) fn particles<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
+    let (mut mesh, mut densities) = (Triangles::default(), Vec::new());
+    for (_, inside) in system.bodies::<ParticlesInDroplet>() {
+        mesh.add(inside.nodes(), inside.triangles());
+        densities.extend(inside.densities());
+    }
+    Some(mesh.file()?.point_scalars("density", densities))
+}
+
+/// File of all solids of a system; `None` if there are none.
+pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
+    let mut pieces = Pieces::default();
+    solids_of(system).for_each(|solid| pieces.add(solid));
+    let component = |k: usize| pieces.stress.iter().map(move |s| s[k]);
+    Some(
+        pieces
+            .mesh
+            .file()?
+            .point_vectors("displacement", pieces.displacement)
+            .cell_scalars("J", pieces.jacobian)
+            .cell_scalars("stress_xx", component(0))
+            .cell_scalars("stress_xy", component(1))
+            .cell_scalars("stress_yy", component(2))
+            .cell_scalars("stress_deviator", pieces.deviator)
+            .cell_scalars("solid", pieces.mesh.numbers),
+    )
+}
+
+/// Triangles of solids with their values; triangles across the seam of a period have points of their own.
+#[derive(Debug, Default)]
+struct Pieces {
+    mesh: Triangles,
+    displacement: Vec<Vec2>,
+    jacobian: Vec<f64>,
+    stress: Vec<[f64; 3]>,
+    deviator: Vec<f64>,
+}
+
+impl Pieces {
+    fn add(&mut self, solid: &Solid) {
+        let mesh = solid.mesh();
+        let mut points = solid.positions().to_vec();
+        let mut displacement: Vec<Vec2> = solid.displacements().collect();
+        let mut triangles = Vec::with_capacity(mesh.triangles().len());
+        let mut images: HashMap<(usize, bool), usize> = HashMap::new();
+        for (triangle, home) in mesh.triangles().iter().enumerate() {
+            let Some(at) = mesh.corners(triangle, solid.positions()) else { continue };
+            triangles.push([0, 1, 2].map(|k| {
+                let ahead = at[k].x - solid.positions()[home[k]].x;
+                if ahead == 0.0 {
+                    return home[k];
+                }
+                *images.entry((home[k], ahead > 0.0)).or_insert_with(|| {
+                    points.push(at[k]);
+                    displacement.push(displacement[home[k]]);
+                    points.len() - 1
+                })
+            }));
+        }
+        self.mesh.add(&points, &triangles);
+        self.displacement.extend(displacement);
+        self.jacobian.extend(solid.jacobians());
+        self.deviator.extend(stress_deviators(solid));
+        match solid.stresses() {
+            Ok(stresses) => self.stress.extend(stresses.iter().map(|s| [s.x_axis.x, s.y_axis.x, s.y_axis.y])),
+            // An inverted triangle has none.
+            Err(_) => self.stress.resize(self.jacobian.len(), [f64::NAN; 3]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

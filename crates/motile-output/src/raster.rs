@@ -1,0 +1,135 @@
+//! Fields sampled at the centres of the cells of a rectangle.
+
+use std::ops::{Add, Mul};
+
+use motile::motile_scene::{Hydrodynamics, System};
+
+use crate::OutputError;
+use motile::motile_base::Vec2;
+
+/// Largest number of cells in a direction.
+const MOST_CELLS: usize = 4096;
+/// Largest number of cells in a direction of a raster that is made to fit a scene.
+const MOST_OF_SCENE: f64 = 512.0;
+
+/// Rectangle cut into `nx` x `ny` cells, at whose centres fields are sampled.
+///
+/// Entry (i, j) is number `j * nx + i` and lies at `origin + ((i + 1/2) dx, (j + 1/2) dy)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Raster {
+    pub(crate) origin: [f64; 2],
+    pub(crate) size: [f64; 2],
+    pub(crate) cells: [usize; 2],
+    pub(crate) periodic: [bool; 2],
+}
+
+impl Raster {
+    /// Raster of `cells` = `[nx, ny]` cells over the rectangle of a lower left corner and a size (length), periodic in
+    /// the directions marked.
+    ///
+    /// # Errors
+    /// [`OutputError::Size`] with no cells or more than 4096 in a direction, [`OutputError::Rectangle`] with one that
+    /// is empty or not finite.
+    pub fn new(origin: [f64; 2], size: [f64; 2], cells: [usize; 2], periodic: [bool; 2]) -> Result<Self, OutputError> {
+        for count in cells {
+            OutputError::check_size("a raster with a side (cells)", count as f64, 1.0, MOST_CELLS as f64)?;
+        }
+        let finite = origin.iter().all(|v| v.is_finite()) && size.iter().all(|v| v.is_finite() && *v > 0.0);
+        if finite {
+            Ok(Self { origin, size, cells, periodic })
+        } else {
+            Err(OutputError::Rectangle { corner: origin, size })
+        }
+    }
+
+    /// Raster over a scene that is bounded by walls or periodic, with cells of width `spacing` (length), or wider so
+    /// that there are at most 512 in a direction.
+    ///
+    /// # Errors
+    /// [`OutputError::Unbounded`]; a spacing that is not positive, as [`Raster::new`].
+    pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, OutputError> {
+        let domain = system.hydrodynamics().fluid_view().domain;
+        let [x, y] = domain.origin;
+        let walls = domain.walls.map(|[below, above]| above - below);
+        let (Some(width), Some(height)) = (domain.periods[0], domain.periods[1].or(walls)) else {
+            return Err(OutputError::Unbounded);
+        };
+        let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
+        let coarsening = (width.max(height) / spacing / MOST_OF_SCENE).max(1.0);
+        let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
+        Self::new(origin, [width, height], cells, domain.periods.map(|period| period.is_some()))
+    }
+
+    /// Raster over the same rectangle with at most `most` cells in a direction.
+    pub(crate) fn coarsened(self, most: usize) -> Self {
+        let longest = self.cells[0].max(self.cells[1]);
+        Self { cells: self.cells.map(|n| (n * most.min(longest) / longest).max(1)), ..self }
+    }
+
+    /// Numbers of cells in x and y.
+    #[must_use]
+    pub fn cells(&self) -> [usize; 2] {
+        self.cells
+    }
+
+    /// Sample points (length), in the order of the samples.
+    #[must_use]
+    pub fn points(&self) -> Vec<Vec2> {
+        let at =
+            |k: usize, axis: usize| self.origin[axis] + (k as f64 + 0.5) * self.size[axis] / self.cells[axis] as f64;
+        let row = |j: usize| (0..self.cells[0]).map(move |i| Vec2::new(at(i, 0), at(j, 1)));
+        (0..self.cells[1]).flat_map(row).collect()
+    }
+
+    /// True where fields are known: within the rectangle, in periodic directions everywhere.
+    #[must_use]
+    pub fn covers(&self, point: Vec2) -> bool {
+        (0..2).all(|k| {
+            let t = (point[k] - self.origin[k]) / self.size[k];
+            t.is_finite() && (self.periodic[k] || (0.0..=1.0).contains(&t))
+        })
+    }
+
+    /// Entries of bilinear interpolation along an axis: the two neighbours, and the weight of the second.
+    fn neighbours(&self, coordinate: f64, axis: usize) -> (usize, usize, f64) {
+        let n = self.cells[axis];
+        let t = (coordinate - self.origin[axis]) / self.size[axis] * n as f64 - 0.5;
+        let t = if self.periodic[axis] { t.rem_euclid(n as f64) } else { t.clamp(0.0, (n - 1) as f64) };
+        let first = (t as usize).min(n - 1);
+        let second = if self.periodic[axis] { (first + 1) % n } else { (first + 1).min(n - 1) };
+        (first, second, t - first as f64)
+    }
+}
+
+/// Scalar (`f64`) or vector ([`Vec2`]) field sampled on a raster.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples<T> {
+    pub(crate) raster: Raster,
+    pub(crate) values: Vec<T>,
+}
+
+impl<T: Copy + Mul<f64, Output = T> + Add<Output = T>> Samples<T> {
+    /// Field from samples in the order of [`Raster::points`].
+    ///
+    /// # Errors
+    /// [`OutputError::Count`].
+    pub fn new(raster: Raster, values: Vec<T>) -> Result<Self, OutputError> {
+        OutputError::check_count("samples on a raster", values.len(), raster.cells[0] * raster.cells[1])?;
+        Ok(Self { raster, values })
+    }
+
+    /// Value at a point (length) by bilinear interpolation; beyond a border that is not periodic, at the nearest point.
+    #[must_use]
+    pub fn at(&self, point: Vec2) -> T {
+        let (i0, i1, s) = self.raster.neighbours(point.x, 0);
+        let (j0, j1, t) = self.raster.neighbours(point.y, 1);
+        let row = |j: usize| {
+            let value = |i: usize| self.values[j * self.raster.cells[0] + i];
+            value(i0) * (1.0 - s) + value(i1) * s
+        };
+        row(j0) * (1.0 - t) + row(j1) * t
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,190 @@
+//! Output and checkpoints of a run, as flags of a command line.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use motile::motile_scene::{Run, Scene, SceneError, checkpoint::Checkpoint};
+use motile::setup::{AnyFlow, Setup};
+
+use super::make_directory;
+use super::places::{Places, are_one};
+
+/// Steps between checkpoints unless something else is said.
+const EVERY: usize = 500;
+
+/// Files that examples leave in their directory.
+const RESULTS: [&str; 9] = [
+    "summary.json",
+    "summary.json.part",
+    "trajectory.csv",
+    "final.png",
+    "swim.gif",
+    "time_series.svg",
+    "time_series.png",
+    "concentration_profile.svg",
+    "concentration_profile.png",
+];
+/// A run of a scene that a description made.
+type FlowRun<'a> = Run<'a, AnyFlow>;
+
+/// Whether the user has asked the run to stop.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Checkpoints.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct CheckpointFlags {
+    /// File to save checkpoints to; Ctrl-C, SIGTERM and SIGHUP then save one and end the run
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Steps between checkpoints [default: 500]
+    #[arg(long, value_name = "STEPS", value_parser = steps, requires = "checkpoint", allow_hyphen_values = true)]
+    pub checkpoint_every: Option<usize>,
+    /// Checkpoint to go on from; give the flags of the run that saved it. Results are those of the whole run, the
+    /// animation shows what follows
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+}
+
+impl CheckpointFlags {
+    /// Brings the scene to the state to go on from, if there is one. A checkpoint whose description is another one was
+    /// saved with other flags: the run goes on with those that are given now, and says so.
+    ///
+    /// # Errors
+    /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`; a file to save to that
+    /// cannot be written.
+    pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
+        self.try_file()?;
+        let Some(path) = &self.resume else { return Ok(()) };
+        let flag = || format!("--resume {}", path.display());
+        let checkpoint = Checkpoint::read(path).with_context(flag)?;
+        let time = checkpoint.time();
+        ensure!(time < end, "{}: the checkpoint is of t = {time}, give a --time after that", flag());
+        scene.resume(&checkpoint).with_context(flag)?;
+        if checkpoint.description() != description {
+            eprintln!(
+                "note: the checkpoint was saved with other settings ({}), the run goes on with those given now",
+                checkpoint.description()
+            );
+        }
+        Ok(())
+    }
+
+    /// Makes sure that checkpoints can be saved where they are wanted.
+    fn try_file(&self) -> Result<()> {
+        let Some(path) = &self.checkpoint else { return Ok(()) };
+        let flag = || format!("--checkpoint {}", path.display());
+        let special = path.metadata().is_ok_and(|data| !data.is_file());
+        ensure!(!special, "{}: there is something that is not a file, give another name", flag());
+        // Under a name that is nobody else's.
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let trial = path.with_file_name(format!(".{name}.{}.trial", std::process::id()));
+        std::fs::write(&trial, "trial").and_then(|()| std::fs::remove_file(&trial)).with_context(flag)
+    }
+
+    /// The run with checkpoints and Ctrl-C as the flags say; SIGTERM and SIGHUP end it like Ctrl-C.
+    ///
+    /// # Errors
+    /// Ctrl-C that cannot be listened to.
+    pub(crate) fn watch<'a>(&'a self, run: FlowRun<'a>, description: &'a str) -> Result<FlowRun<'a>> {
+        let Some(path) = &self.checkpoint else { return Ok(run) };
+        let every = self.checkpoint_every.unwrap_or(EVERY);
+        match ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed)) {
+            // A second run of the same program is listened to already.
+            Ok(()) | Err(ctrlc::Error::MultipleHandlers) => {}
+            Err(error) => return Err(error).context("Ctrl-C cannot be listened to"),
+        }
+        Ok(run.save(every, path, description).stop_on(&STOP))
+    }
+
+    /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with
+    /// `.last` added to the name, where it failed, so that the last periodic checkpoint stays.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save(&self, scene: &Scene<AnyFlow>, description: &str, outcome: &Result<(), SceneError>) -> Result<()> {
+        let Some(path) = &self.checkpoint else { return Ok(()) };
+        let mut path = path.clone().into_os_string();
+        if !matches!(outcome, Ok(()) | Err(SceneError::Stopped { .. })) {
+            path.push(".last");
+        }
+        Ok(scene.checkpoint(description).write(Path::new(&path))?)
+    }
+}
+
+/// What is written where.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct OutputFlags {
+    /// Draw no pictures, plots and animations
+    #[arg(long)]
+    pub no_pictures: bool,
+    /// Show no progress
+    #[arg(long)]
+    pub quiet: bool,
+    /// Directory of the results; without it that of the example in out/
+    #[arg(long, value_name = "DIRECTORY")]
+    pub out: Option<PathBuf>,
+    /// Write the scene to this TOML file, for `swimming_droplet --scene`
+    #[arg(long, value_name = "FILE")]
+    pub write_scene: Option<PathBuf>,
+    /// Checkpoints
+    #[command(flatten)]
+    pub checkpoints: CheckpointFlags,
+}
+
+impl OutputFlags {
+    /// Refuses files of example `name` that are one, by whatever paths and links; `scene` is the scene file that it
+    /// reads. A checkpoint may take the place of the one that the run goes on from.
+    ///
+    /// # Errors
+    /// Two flags, or a flag and a result, that are one file.
+    pub fn check(&self, name: &str, scene: Option<&Path>) -> Result<()> {
+        let (directory, mut places) = (self.place(name), Places::default());
+        let CheckpointFlags { checkpoint, resume, .. } = &self.checkpoints;
+        let saved = checkpoint.as_deref();
+        let resume = resume.as_deref().filter(|resume| !saved.is_some_and(|saved| are_one(resume, saved)));
+        let files = [("--scene", scene), ("--write-scene", self.write_scene.as_deref())];
+        for (flag, path) in files.into_iter().chain([("--checkpoint", saved), ("--resume", resume)]) {
+            if let Some(path) = path {
+                places.add(format!("{flag} {}", path.display()), path)?;
+            }
+        }
+        places.check_directory(&format!("--out {}", directory.display()), &directory)?;
+        places.add(format!("the files for ParaView in --out {}", directory.display()), &directory.join("vtk"))?;
+        RESULTS.iter().try_for_each(|file| {
+            places.add(format!("the result {file} in --out {}", directory.display()), &directory.join(file))
+        })
+    }
+
+    /// Writes the scene file, if one is asked for.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_scene(&self, setup: &Setup) -> Result<()> {
+        let Some(path) = &self.write_scene else { return Ok(()) };
+        std::fs::write(path, setup.to_toml()?).with_context(|| format!("--write-scene {}", path.display()))
+    }
+
+    /// The directory of the results of example `name`, made if it is not there.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    pub fn directory(&self, name: &str) -> Result<PathBuf> {
+        let directory = self.place(name);
+        make_directory(&directory)?;
+        Ok(directory)
+    }
+
+    fn place(&self, name: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(name))
+    }
+}
+
+fn steps(text: &str) -> Result<usize, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=1_000_000_000).contains(number));
+    number.ok_or_else(|| "must be a whole number from 1 to 1000000000".to_owned())
+}
+
+#[cfg(test)]
+mod tests;

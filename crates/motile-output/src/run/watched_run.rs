@@ -1,0 +1,218 @@
+//! A run of a scene with a droplet, from the first check to the last file.
+
+mod results;
+
+use anyhow::{Context, Result, bail};
+use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
+use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
+use motile::motile_base::Region;
+use motile::motile_base::Vec2;
+use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
+use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Particles, Setup};
+
+use super::{Job, OutputFlags, Summary, Watch};
+use crate::plot::{concentration_plot, time_series};
+use crate::{CsvTable, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
+
+/// Rows of the trajectory and files for ParaView in a run.
+const ROWS: f64 = 1000.0;
+const FILES: f64 = 20.0;
+/// Time between frames of the animation, of which there are some number in this range.
+const FRAME_INTERVAL: f64 = 1.2;
+const FRAMES: [f64; 2] = [50.0, 150.0];
+/// Most cells in a direction of the fields in pictures and files.
+const MOST_CELLS: usize = 512;
+/// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
+const COARSER: f64 = 2.0;
+/// How deep a droplet may come into an elastic solid, in grid spacings, before its run ends with an error.
+const SOLID_OVERLAP: f64 = 0.25;
+/// Side of what is shown of unbounded fluid (R0).
+const VIEW: f64 = 12.0;
+/// Distance of streamlines (R0).
+const STREAMLINES: f64 = 0.24;
+
+/// Resolution and caption of the pictures of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Spacing of the fields in pictures (length); that of the grid where there is one.
+    pub spacing: f64,
+    /// Text about the region above a picture, empty where the picture shows it.
+    pub region: String,
+}
+
+impl View {
+    /// The spacing of a scene's grid, or 0.05 where it has none; no text.
+    #[must_use]
+    pub fn of(setup: &Setup) -> Self {
+        Self { spacing: setup.method.spacing().unwrap_or(GridMethod::default().spacing), region: String::new() }
+    }
+}
+
+/// A run of a scene with one droplet, and all that watches it.
+#[derive(Debug)]
+pub struct WatchedRun {
+    /// The scene.
+    pub scene: Scene<AnyFlow>,
+    job: Job,
+    droplet: Handle<ActiveDroplet>,
+    particles: Particles,
+    method: MethodKind,
+    /// Area of the droplet at the start.
+    area: f64,
+    raster: Raster,
+    start: ConcentrationProfile,
+    recorder: TrajectoryCsv,
+    pictures: Option<(Look, Film, ParaView)>,
+    gap: SolidGap,
+}
+
+impl WatchedRun {
+    /// A run to the time `end` of the scene that was made from `setup`, watching its first droplet. Its results go
+    /// where `output` says, by default to `out/<name>/`.
+    ///
+    /// # Errors
+    /// Those of [`Job::new`]; a first droplet without particles.
+    pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, view: &View) -> Result<Self> {
+        let Built { mut scene, droplets, .. } = built;
+        let (Some(&droplet), Some(&DropletSetup { centre: [x, y], angle, particles: Some(particles), .. })) =
+            (droplets.first(), setup.droplets.first())
+        else {
+            bail!("the first droplet of the scene is the one that is watched: give one with particles");
+        };
+        let (body, frame) = (scene.body(droplet)?, Frame::new(Vec2::new(x, y), angle)?);
+        let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+        let area = body.initial_area();
+        let job = Job::new(&mut scene, setup, end, output, name)?;
+        let raster = |spacing: f64| match setup.region {
+            Region::Plane => {
+                let cells = (VIEW / spacing).round() as usize;
+                Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
+            }
+            _ => Raster::of(scene.system(), spacing),
+        };
+        let (method, spacing) = (setup.method.kind(), view.spacing);
+        let watched = raster(if method != MethodKind::Integral { spacing } else { COARSER * spacing })?;
+        let still = raster(spacing)?;
+        let recorder = TrajectoryCsv::create(job.directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let gap = SolidGap::new(SOLID_OVERLAP * spacing);
+        let mut pictures = None;
+        if job.draws() {
+            let caption = caption(setup, &particles, &view.region);
+            let concentration = Some(particles.concentration);
+            let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
+            let look = Look { caption, concentration, streamline_spacing, solids };
+            let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
+            pictures = Some((look.clone(), Film::new(look, watched), vtk));
+        }
+        Ok(Self { scene, job, droplet, particles, method, area, raster: still, start, recorder, pictures, gap })
+    }
+
+    /// Runs to the end, or until the observer `end`, which looks at every step, ends it by the error
+    /// [`super::Decided`]. What the scene has come to is recorded even where it breaks off.
+    ///
+    /// # Errors
+    /// Files that cannot be written. Why a run broke off is kept for [`WatchedRun::finish`].
+    pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
+        let time = self.job.end;
+        let mut observers: Vec<Watch<'_>> =
+            vec![(Every::StepAfter(time / ROWS), &mut self.recorder), (Every::Steps(1), &mut self.gap)];
+        if let Some(end) = end {
+            observers.push((Every::Steps(1), end));
+        }
+        if let Some((_, film, vtk)) = &mut self.pictures {
+            let frames = (time / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
+            observers.push((Every::StepAfter(time / frames), film));
+            observers.push((Every::StepAfter(time / FILES), vtk));
+        }
+        self.job.go(&mut self.scene, observers)?;
+        if self.job.is_stopped() {
+            // The rows are to be those of a run that was not stopped.
+            return Ok(());
+        }
+        Ok(self.recorder.finish(self.scene.system_mut())?)
+    }
+
+    /// Ends without files and pictures but those of the run itself.
+    ///
+    /// # Errors
+    /// What made the run break off.
+    pub fn outcome(self) -> Result<(), SceneError> {
+        self.job.outcome()
+    }
+
+    /// Times and positions of the droplet.
+    #[must_use]
+    pub fn track(&self) -> Track {
+        self.recorder.track()
+    }
+
+    /// What was measured of the droplet in the order of time, also before the checkpoint that the run goes on from.
+    #[must_use]
+    pub fn table(&self) -> &CsvTable {
+        self.recorder.table()
+    }
+
+    /// The number of particles at the start, on the interface and inside.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn totals(&self) -> Result<f64> {
+        let table = self.recorder.table();
+        let first =
+            |column| -> Result<f64> { Ok(table.curve("time", column)?.first().context("nothing was measured")?.1) };
+        Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
+    }
+
+    /// The last value in a column of the trajectory; `None` if it has no such column.
+    #[must_use]
+    pub fn last_of(&self, column: &str) -> Option<f64> {
+        Some(self.recorder.table().curve("time", column).ok()?.last()?.1)
+    }
+
+    /// The last of what was measured of the droplet.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn last(&self) -> Result<&TrajectoryRecord> {
+        self.recorder.last().context("nothing was measured")
+    }
+
+    /// Writes and prints the results; draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless
+    /// pictures are not wanted.
+    ///
+    /// # Errors
+    /// What made the run break off; files that cannot be written.
+    pub fn finish(self, summary: &Summary) -> Result<()> {
+        let Self { mut scene, job, droplet, particles, raster, start, recorder, pictures, .. } = self;
+        let directory = job.directory.clone();
+        job.finish(summary, || {
+            let (Some((look, film, _)), Some(last)) = (pictures, recorder.last()) else {
+                return Ok(());
+            };
+            time_series(recorder.table())?.write(&directory, "time_series")?;
+            let body = scene.body(droplet)?;
+            let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
+            let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+            concentration_plot(&start, &profile, scene.time(), particles.concentration)
+                .write(&directory, "concentration_profile")?;
+            let tracks = [recorder.track()];
+            let seen = Snapshot::take(scene.system_mut(), raster)?;
+            look.write_picture(&seen, &tracks, directory.join("final.png"))?;
+            Ok(film.write(&tracks, directory.join("swim.gif"))?)
+        })
+    }
+}
+
+/// The parameters of a scene with these particles on its first droplet as they stand above a picture.
+fn caption(setup: &Setup, particles: &Particles, region: &str) -> String {
+    let inside = setup.droplets[0].viscosity.map_or(String::new(), |inside| format!("{inside} in "));
+    let strength = match particles.excluded_volume {
+        Exclusion::Step(strength) => format!("A = {strength},  "),
+        _ => String::new(),
+    };
+    let text = format!("ζΔμ = {},  {strength}η = {inside}{}", particles.activity, setup.viscosity).replace('-', "−");
+    if region.is_empty() { text } else { format!("{text},  {region}") }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,162 @@
+//! What is said of a run with a droplet.
+
+use anyhow::{Context, Result};
+use motile::active_interface::observables::InterfaceState;
+use motile::active_interface::observables::{Convention, Observables, observe};
+use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+
+use super::WatchedRun;
+use crate::SolidMeter;
+use crate::run::{Steadiness, Summary};
+
+/// What the values of a [`SolidMeter`] are.
+const SOLIDS: [&str; 8] = [
+    "in the end (R0)",
+    "in the end (R0)",
+    "between droplet and walls, in the end (R0)",
+    "of the walls, in any direction (R0)",
+    "across their surface (R0)",
+    "mean displacement of a wall along the channel (R0)",
+    "of the walls",
+    "deformed over reference area of a triangle",
+];
+
+/// Observables that depend on the convention.
+const CONVENTIONAL: [&str; 8] = ["stresslet_xx", "s_xxx", "s_xyy", "n_xyy", "n_yxy", "n_yyx", "f_yxy", "f_yyx"];
+
+impl WatchedRun {
+    /// The results that all scenes with a droplet have: its state in the end compared with the start, and what the run
+    /// took.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn summary(&self) -> Result<Summary> {
+        let mut summary = Summary::default();
+        self.put_droplet(&mut summary, &self.last()?.observables)?;
+        self.put_cost(&mut summary);
+        summary.put("method", self.method.name(), "for the flow");
+        if let Some(values) = self.recorder.last_solids() {
+            for ((name, value), about) in SolidMeter::NAMES.iter().zip(values).zip(SOLIDS) {
+                summary.put(name, *value, about);
+            }
+            let least = self.gap.smallest().map(|(gap, _)| gap);
+            summary.put("minimum_gap", least, "between droplet and walls, over the run (R0)");
+        }
+        Ok(summary)
+    }
+
+    /// The same with all observables, in the convention of Cowley's print too (`..._printed`), the growth rate of the
+    /// speed over the last quarter, and what the droplet does across its channel: what plans may ask for.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn measured(&self) -> Result<Summary> {
+        let mut summary = self.summary()?;
+        let table = self.recorder.table();
+        let speeds = table.curve("time", "speed")?;
+        let end = self.scene.time();
+        if let Some((time, speed)) = speeds.iter().find(|(time, _)| *time >= 0.75 * end) {
+            let (_, last) = speeds[speeds.len() - 1];
+            summary.put("speed_rate", (last / speed).ln() / (end - time), "growth rate of the speed, late");
+        }
+        for (name, value) in self.last()?.observables.entries() {
+            if !summary.values().contains_key(name) {
+                summary.put(name, value, "");
+            }
+        }
+        let printed = InterfaceState::of(self.scene.system(), self.droplet)
+            .ok()
+            .and_then(|state| observe(&state, Convention::AsPrinted).ok());
+        let entries = printed.map(|printed| printed.entries()).unwrap_or_default();
+        for (name, value) in entries.into_iter().filter(|(name, _)| CONVENTIONAL.contains(name)) {
+            summary.put(&format!("{name}_printed"), value, "");
+        }
+        let late = table.curve("time", "stresslet_xx")?.into_iter().filter(|(time, _)| *time >= 0.5 * end);
+        let (count, sum) = late.fold((0.0, 0.0), |(count, sum), (_, value)| (count + 1.0, sum + value));
+        summary.put("stresslet_xx_mean", sum / count, "over the second half");
+        let furthest = table.curve("time", "x")?.iter().map(|(_, x)| *x).fold(f64::NAN, f64::max);
+        summary.put("furthest_x", furthest, "largest x of the centroid over the run (R0)");
+        summary.put("pressure_gradient", self.last()?.pressure_gradient, "mean along the channel");
+        if let Ok(evidence) = self.put_regime(&mut summary) {
+            summary.put("period", evidence.period.map(|period| period.value), "");
+        }
+        Ok(summary)
+    }
+
+    /// Puts in what the droplet does across its channel.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn put_regime(&self, summary: &mut Summary) -> Result<Evidence> {
+        let report = self.recorder.trajectory()?.regime(&RegimeCriteria::default())?;
+        summary.put("regime", report.regime.to_string(), "across the channel");
+        summary.put("amplitude", report.evidence.amplitude, "largest distance from the centre line, in the end (R0)");
+        Ok(report.evidence)
+    }
+
+    fn put_droplet(&self, summary: &mut Summary, last: &Observables) -> Result<()> {
+        let value = |name: &str| last.get(name).unwrap_or(f64::NAN);
+        for (name, about) in [
+            ("speed", "of the centroid (R0 per time)"),
+            ("heading_degrees", "direction of motion, from x"),
+            ("aspect_ratio_moments", "along over across the motion, from area moments"),
+            ("aspect_ratio_ellipse", "the same of a fitted ellipse"),
+            ("stresslet_xx", "axes along the motion; below 0 a puller"),
+            ("beta", "B2/|B1| in the droplet's frame"),
+            ("b1", "squirmer coefficient (R0 per time)"),
+            ("b2", "squirmer coefficient (R0 per time)"),
+            ("active_fraction", "of the perimeter"),
+            ("active_curvature", "signed, of the active region (1/R0)"),
+        ] {
+            summary.put(name, value(name), about);
+        }
+        for name in ["concentration_max", "concentration_min"] {
+            summary.put(name, value(name) / self.particles.concentration, "in c0");
+        }
+        summary.put("perimeter", last.perimeter, "(R0)");
+        let table = self.recorder.table();
+        for (name, column, value) in [
+            ("area_relative_change", "area", last.area),
+            ("particle_relative_change", "particle_number", last.particle_number),
+        ] {
+            // The start of a run that was resumed is in its table alone.
+            let (_, start) = *table.curve("time", column)?.first().context("nothing was measured")?;
+            summary.put(name, value / start - 1.0, "since the start");
+        }
+        let speeds = table.curve("time", "speed")?;
+        let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
+        summary.put("steady", steady.json(), steady.criterion());
+        Ok(())
+    }
+
+    fn put_cost(&self, summary: &mut Summary) {
+        let scene = &self.scene;
+        summary.put("time", scene.time(), "simulated");
+        summary.put("steps", scene.steps(), "");
+        summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
+        let report = scene.step_report();
+        summary.put("dt_shortest", report.shortest, "");
+        summary.put("dt_longest", report.longest, "");
+        let limiting = report.most_limiting().map(|limiting| match limiting.body.as_str() {
+            "" => limiting.reason.clone(),
+            body => format!("{} of {body}", limiting.reason),
+        });
+        summary.put("dt_set_by", limiting, "for most steps");
+        summary.put("steps_rejected", report.rejections, "for their error");
+        summary.put("steps_failed", report.failures, "and retried");
+        summary.put("stages", scene.integrator_work().stages, "of all steps");
+        let work = scene.system().work();
+        summary.put("evaluations", work.evaluations, "of the flow");
+        summary.put("stokes_solves", work.stokes_solves, "on the grid");
+        let mean = work.iterations as f64 / work.evaluations.max(1) as f64;
+        summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
+        summary.put("solver_iterations_max", work.most_iterations, "");
+        summary.put("seconds", self.job.seconds, "of computation");
+        summary.put("warnings", self.job.warnings.clone(), "");
+        let failure = self.job.failure();
+        summary.put("finished", failure.is_none(), "");
+        if let Some(failure) = failure {
+            summary.put("failure", failure, "");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+use std::path::{Path, PathBuf};
+
+use super::*;
+use motile::motile_base::Drive;
+use motile::motile_base::Region;
+use motile::motile_scene::StepSize;
+use motile::setup::{GridMethod, Method, Setup};
+
+fn directory(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
+}
+
+fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
+    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()), ..OutputFlags::default() }
+}
+
+fn watch(setup: &Setup, end: f64, output: &OutputFlags) -> Result<WatchedRun> {
+    WatchedRun::new(setup.build().unwrap(), setup, end, output, "", &View::of(setup))
+}
+
+#[test]
+fn a_run_in_a_channel_leaves_all_its_files() {
+    let directory = directory("channel-run");
+    let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
+    let setup = Setup { region, ..Setup::default() };
+    let mut output = output(&directory, false);
+    std::fs::create_dir_all(&directory).unwrap();
+    output.write_scene = Some(directory.join("scene.toml"));
+    let mut run = watch(&setup, 1.0, &output).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    run.finish(&summary).unwrap();
+
+    let files = ["final.png", "swim.gif", "time_series.svg", "concentration_profile.png", "trajectory.csv"];
+    let files = files.into_iter().chain(["vtk/fields.pvd", "summary.json"]);
+    for file in files {
+        assert!(directory.join(file).metadata().is_ok_and(|data| data.len() > 200), "{file}");
+    }
+    let written = std::fs::read_to_string(directory.join("scene.toml")).unwrap();
+    assert_eq!(Setup::from_toml(&written).unwrap(), setup);
+    let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
+    assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
+    assert_eq!(summary.number("time"), 1.0);
+    assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn a_run_that_breaks_off_keeps_what_it_has() {
+    // A step that is stable at the start, but not when the particles have gathered.
+    let directory = directory("broken-run");
+    let setup = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        step: StepSize::Fixed(0.1),
+        ..Setup::default()
+    };
+    let mut run = watch(&setup, 100.0, &output(&directory, true)).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    let time = summary.number("time");
+    assert!(time > 0.0 && time < 100.0);
+    assert_eq!(run.recorder.table().rows().last().map(|row| row[0]), Some(time));
+    let files = std::fs::read_dir(&directory).unwrap().count();
+    assert_eq!(files, 1, "without pictures there is the trajectory alone");
+    let error = run.finish(&summary).unwrap_err();
+    assert_eq!(summary.values()["failure"], error.to_string());
+    assert_eq!(summary.values()["finished"], false);
+    assert!(directory.join("summary.json").exists());
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn an_unstable_step_is_refused_before_anything_is_written() {
+    let directory = directory("refused-run");
+    let setup = Setup { step: StepSize::Fixed(5.0), ..Setup::default() };
+    let refused = watch(&setup, 10.0, &output(&directory, true));
+    assert!(refused.unwrap_err().to_string().contains("time step 5"));
+    assert!(!directory.exists());
+}

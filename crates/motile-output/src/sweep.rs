@@ -1,0 +1,210 @@
+//! Parameter sweeps: many runs of one scene, on all cores of a machine or on many machines.
+//!
+//! The program `motile-sweep` (`cargo install motile-output --features sweep`; in a clone of the repository `cargo run
+//! --release -p motile-output --features sweep -- plan.toml`) makes the runs of a [`Plan`]: a scene, a time, ranges of
+//! the scene's entries. Each has a folder of its own with scene file, trajectory, checkpoint and summary. What is
+//! finished is not run again (but for other scenes, settings and times, whose results do not count), what was cut goes
+//! on from its checkpoint, what fails is listed and does not keep the others from running. Any number of processes may
+//! work on one sweep: a run belongs to the first that takes it.
+//! `--shard 2/4` takes the second of four shares. `motile-sweep plan.toml collect` makes one table of the results, the
+//! same bytes whoever made the runs in whatever order; `motile-sweep plan.toml status` tells what is left.
+//!
+//! In a program, [`Plan::trials`] are the runs, [`Trial::run`] makes one, and a [`RunPool`] makes many.
+
+mod plan;
+mod run_pool;
+mod trial;
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::{Args, ValueEnum};
+use motile::motile_scene::SceneError;
+
+pub use plan::Plan;
+pub use run_pool::RunPool;
+pub use trial::{State, Trial};
+
+use crate::run::{Summary, Taken, explained, say, write_results};
+
+/// Makes the runs of a plan, or tells of them.
+#[derive(Debug, Args)]
+pub struct SweepFlags {
+    /// The plan: a scene, a time, and ranges of the scene's entries (TOML)
+    #[arg(value_name = "FILE")]
+    plan: PathBuf,
+    /// What to do
+    #[arg(value_enum, default_value_t = Action::Run)]
+    action: Action,
+    /// The share of the runs to make, such as 2/4 for the second of four
+    #[arg(long, value_parser = shard, default_value = "1/1")]
+    shard: Shard,
+    /// Runs at a time; without it as many as there are processors
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Make runs again that failed before
+    #[arg(long)]
+    retry: bool,
+    /// Show no progress
+    #[arg(long)]
+    quiet: bool,
+    /// Directory of the sweep; without it out/sweep/ and the name of the plan
+    #[arg(long, value_name = "DIRECTORY")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Action {
+    /// Make the runs
+    Run,
+    /// Write the results of all finished runs to results.csv
+    Collect,
+    /// Tell what is finished, cut, failed and left
+    Status,
+}
+
+/// One of several shares, counted from 0.
+#[derive(Debug, Clone, Copy)]
+struct Shard {
+    number: usize,
+    of: usize,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+    match parts {
+        Some((number, of)) if (1..=of).contains(&number) => Ok(Shard { number: number - 1, of }),
+        _ => Err("must be a number and how many there are, such as 2/4".to_owned()),
+    }
+}
+
+/// Makes the runs of the plan, collects their results, or tells of them, as the flags say.
+///
+/// # Errors
+/// A plan that cannot be read or is none; files that cannot be written; runs that failed, or were stopped.
+pub fn sweep(flags: &SweepFlags) -> Result<()> {
+    let plan = Plan::read(&flags.plan)?;
+    let name = flags.plan.file_stem().context("a plan is a file")?;
+    let directory = flags.out.clone().unwrap_or_else(|| PathBuf::from("out/sweep").join(name));
+    let trials = plan.trials(&directory.join("runs"))?;
+    // Before any work: a table of two scenes would be of none.
+    trials.iter().try_for_each(|trial| trial.check_scene().map(drop))?;
+    match flags.action {
+        Action::Run => {
+            let Shard { number, of } = flags.shard;
+            make(trials.into_iter().skip(number).step_by(of).collect(), flags)
+        }
+        Action::Collect => collect(&trials, &directory),
+        Action::Status => status(&trials),
+    }
+}
+
+fn make(mut trials: Vec<Trial>, flags: &SweepFlags) -> Result<()> {
+    let total = trials.len();
+    if !flags.retry {
+        for trial in &trials {
+            if let State::Failed(failure) = trial.state() {
+                say(format_args!("{}: failed before (--retry makes it again): {failure}", trial.label));
+            }
+        }
+        trials.retain(|trial| !matches!(trial.state(), State::Failed(_)));
+    }
+    let failed_before = total - trials.len();
+    let stopped = AtomicBool::new(false);
+    let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = flags.threads.map_or_else(processors, usize::from);
+    let Some(runs) = trials.first().and_then(|trial| trial.folder.parent().map(PathBuf::from)) else {
+        bail!("no run is left in this share: {failed_before} of {total} failed before");
+    };
+    trials.iter().try_for_each(Trial::discard_others)?;
+    let pool = RunPool::new(&runs, threads, flags.quiet)?;
+    let (done, failures) = pool.study(
+        trials,
+        |trial| format!("{}/summary", trial.label),
+        |trial| {
+            ensure!(!stopped.load(Ordering::Relaxed), "not begun");
+            let outcome = trial.run();
+            if outcome.as_ref().is_err_and(is_stop) {
+                stopped.store(true, Ordering::Relaxed);
+            }
+            outcome
+        },
+    );
+    ensure!(!stopped.into_inner(), "stopped with {} of {total} runs finished; the same command goes on", done.len());
+    let (taken, failures): (Vec<_>, Vec<_>) = failures.into_iter().partition(anyhow::Error::is::<Taken>);
+    for failure in &failures {
+        say(format_args!("failed: {}", explained(failure)));
+    }
+    say(format_args!("{} of {total} runs are finished in {}", done.len(), runs.display()));
+    if !taken.is_empty() {
+        say(format_args!("{} runs are being made by another process", taken.len()));
+    }
+    let failed = failures.len() + failed_before;
+    ensure!(failed == 0, "{failed} of {total} runs failed");
+    Ok(())
+}
+
+fn is_stop(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<SceneError>().is_some_and(|error| matches!(error, SceneError::Stopped { .. }))
+}
+
+/// What a run is told by, and what it took, which is not the same on every machine.
+const COST: [&str; 12] = [
+    "run",
+    trial::FINGERPRINT,
+    "seconds",
+    "evaluations",
+    "stokes_solves",
+    "solver_iterations_mean",
+    "solver_iterations_max",
+    "stages",
+    "steps_rejected",
+    "steps_failed",
+    "dt_shortest",
+    "dt_longest",
+];
+
+fn collect(trials: &[Trial], directory: &std::path::Path) -> Result<()> {
+    let mut rows = Vec::new();
+    for trial in trials {
+        let State::Finished(found) = trial.state() else { continue };
+        let mut row = Summary::default();
+        row.put("label", trial.label.clone(), "");
+        for (path, value) in &trial.values {
+            row.put(path, value.clone(), "");
+        }
+        for (name, value) in found.values().iter().filter(|(name, _)| !COST.contains(&name.as_str())) {
+            row.put(name, value.clone(), "");
+        }
+        rows.push(row);
+    }
+    ensure!(!rows.is_empty(), "none of the {} runs is finished", trials.len());
+    let (path, partial) = (directory.join("results.csv"), directory.join("results.csv.part"));
+    write_results(&partial, &rows)?;
+    std::fs::rename(&partial, &path).with_context(|| format!("writing {}", path.display()))?;
+    say(format_args!("{} of {} runs in {}", rows.len(), trials.len(), path.display()));
+    Ok(())
+}
+
+fn status(trials: &[Trial]) -> Result<()> {
+    let mut counts = [0; 4];
+    for trial in trials {
+        let kind = match trial.state() {
+            State::Finished(_) => 0,
+            State::Failed(failure) => {
+                say(format_args!("failed: {}: {failure}", trial.label));
+                1
+            }
+            State::Cut => 2,
+            State::Left => 3,
+        };
+        counts[kind] += 1;
+    }
+    let [finished, failed, cut, left] = counts;
+    say(format_args!("{finished} finished, {failed} failed, {cut} begun, {left} not begun, of {}", trials.len()));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

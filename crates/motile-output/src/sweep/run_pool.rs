@@ -1,0 +1,110 @@
+//! Many runs in parallel, of which those that were finished before are not run again.
+
+use std::{
+    path::Path,
+    sync::{
+        atomic::{AtomicUsize, Ordering},
+        mpsc,
+    },
+    thread,
+};
+
+use anyhow::{Context, Result, anyhow};
+use serde_json::Value;
+
+use crate::Progress;
+use crate::run::{Summary, make_directory};
+
+/// The entry by which a file says which run it is of.
+const NAME: &str = "run";
+
+/// Runs to be made by a number of threads, each leaving its results in a file of a directory.
+#[derive(Debug)]
+pub struct RunPool<'a> {
+    directory: &'a Path,
+    threads: usize,
+    hidden: bool,
+}
+
+impl<'a> RunPool<'a> {
+    /// A pool that keeps its files in `directory`, which is made if it is not there; `hidden` shows no progress.
+    ///
+    /// # Errors
+    /// A directory that cannot be made.
+    pub fn new(directory: &'a Path, threads: usize, hidden: bool) -> Result<Self> {
+        make_directory(directory)?;
+        Ok(Self { directory, threads: threads.max(1), hidden })
+    }
+
+    /// The results of all jobs, in their order, which is also the order in which they are begun. A job whose results
+    /// are in its file, `<name>.json`, is not run; one whose file does not hold them is run again. A job that fails
+    /// does not keep the others from running.
+    pub fn run<J: Sync>(
+        &self,
+        jobs: &[J],
+        name: impl Fn(&J) -> String + Sync,
+        run: impl Fn(&J) -> Result<Summary> + Sync,
+    ) -> Vec<Result<Summary>> {
+        let mut results: Vec<Option<Result<Summary>>> = jobs.iter().map(|_| None).collect();
+        let mut progress = Progress::new(self.hidden);
+        let next = AtomicUsize::new(0);
+        let (next, name, run) = (&next, &name, &run);
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel();
+            for _ in 0..self.threads.min(jobs.len()) {
+                let sender = sender.clone();
+                scope.spawn(move || {
+                    loop {
+                        let k = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(job) = jobs.get(k) else { break };
+                        // The receiver lives as long as there are senders.
+                        let _ = sender.send((k, self.one(&name(job), || run(job))));
+                    }
+                });
+            }
+            drop(sender);
+            for (done, (k, result)) in receiver.into_iter().enumerate() {
+                let (done, all) = (done + 1, jobs.len());
+                progress.update(done as f64 / all as f64, || format!("{done} of {all} runs, last {}", name(&jobs[k])));
+                results[k] = Some(result);
+            }
+        });
+        progress.finish();
+        results.into_iter().map(|result| result.unwrap_or_else(|| Err(anyhow!("a run was lost")))).collect()
+    }
+
+    /// The same for a study: the jobs that finished with their results, and the errors of the others.
+    pub fn study<J: Sync>(
+        &self,
+        jobs: Vec<J>,
+        name: impl Fn(&J) -> String + Sync,
+        run: impl Fn(&J) -> Result<Summary> + Sync,
+    ) -> (Vec<(J, Summary)>, Vec<anyhow::Error>) {
+        let results = self.run(&jobs, name, run);
+        let (mut points, mut failures) = (Vec::new(), Vec::new());
+        for (job, result) in jobs.into_iter().zip(results) {
+            match result {
+                Ok(summary) => points.push((job, summary)),
+                Err(error) => failures.push(error),
+            }
+        }
+        (points, failures)
+    }
+
+    fn one(&self, name: &str, run: impl FnOnce() -> Result<Summary>) -> Result<Summary> {
+        let path = self.directory.join(format!("{name}.json"));
+        // A file that cannot be read or is of something else is no result.
+        if let Ok(Some(summary)) = Summary::read(&path)
+            && summary.values().get(NAME).and_then(Value::as_str) == Some(name)
+        {
+            return Ok(summary);
+        }
+        let mut summary = run().with_context(|| name.trim_end_matches("/summary").to_owned())?;
+        summary.put(NAME, name, "");
+        summary.write(&path)?;
+        Ok(summary)
+    }
+}
+
+#[cfg(test)]
+mod tests;

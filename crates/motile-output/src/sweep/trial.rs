@@ -1,0 +1,186 @@
+//! A run of a sweep and its folder.
+
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
+use motile::motile_scene::{SceneError, checkpoint::Checkpoint};
+use motile::setup::Setup;
+use serde_json::Value;
+
+use crate::run::{CheckpointFlags, OutputFlags, Summary, Taken, View, WatchedRun, explained, make_directory};
+
+/// Entry of a summary that says of which scene, settings and time it is.
+pub(super) const FINGERPRINT: &str = "fingerprint";
+
+/// A run by the values of the entries that are swept.
+#[derive(Debug)]
+pub struct Trial {
+    /// The values in short, and the name of the folder.
+    pub label: String,
+    /// Where its files are.
+    pub folder: PathBuf,
+    /// Paths of entries of the scene file and their values.
+    pub values: Vec<(String, Value)>,
+    /// Its scene, with these values.
+    pub setup: Setup,
+    /// Time of its end.
+    pub time: f64,
+}
+
+/// How far a run is.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum State {
+    /// To its end, with these results.
+    Finished(Summary),
+    /// Why it broke off.
+    Failed(String),
+    /// There is a checkpoint of it.
+    Cut,
+    /// Not at all.
+    Left,
+}
+
+impl Trial {
+    fn checkpoint(&self) -> PathBuf {
+        self.folder.join("checkpoint")
+    }
+
+    fn failure(&self) -> PathBuf {
+        self.folder.join("failure.txt")
+    }
+
+    fn summary(&self) -> PathBuf {
+        self.folder.join("summary.json")
+    }
+
+    /// Scene, settings and time: what has another one is no result of this run.
+    #[must_use]
+    pub fn fingerprint(&self) -> String {
+        format!("{}, steps {:?}, to {}", self.setup.fingerprint(), self.setup.step, self.time)
+    }
+
+    /// What its folder says. Files that cannot be read are none, nor are those of another scene or time.
+    pub fn state(&self) -> State {
+        if let Some(summary) = self.results() {
+            State::Finished(summary)
+        } else if let Some(failure) = fs::read_to_string(self.failure()).ok().and_then(|text| self.why(&text)) {
+            State::Failed(failure)
+        } else if self.useful_checkpoint().is_some() {
+            State::Cut
+        } else {
+            State::Left
+        }
+    }
+
+    /// The results, if they are of this run.
+    fn results(&self) -> Option<Summary> {
+        let summary = Summary::read(&self.summary()).ok().flatten()?;
+        let own = summary.values().get(FINGERPRINT).and_then(Value::as_str) == Some(&self.fingerprint());
+        own.then_some(summary)
+    }
+
+    /// Takes away results that are not of this run, as of a plan to another time.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn discard_others(&self) -> Result<()> {
+        let path = self.summary();
+        if path.exists() && self.results().is_none() {
+            fs::remove_file(&path).with_context(|| format!("removing {}, of another run", path.display()))?;
+        }
+        Ok(())
+    }
+
+    /// The failure that a file tells of, if it is one of this run. A file without a word could not be written to.
+    fn why(&self, text: &str) -> Option<String> {
+        match text.trim().split_once('\n') {
+            Some((failure, own)) => (own == self.fingerprint()).then(|| failure.to_owned()),
+            None => Some("why could not be written down".to_owned()),
+        }
+    }
+
+    /// What the run is called in its checkpoints.
+    fn name(&self) -> String {
+        format!("sweep, {}", self.fingerprint())
+    }
+
+    /// A checkpoint of this run to go on from: one that is at the end, broken or of another run is of no use.
+    fn useful_checkpoint(&self) -> Option<PathBuf> {
+        let saved = Checkpoint::read(&self.checkpoint()).ok()?;
+        let own = saved.time() < self.time && saved.description().starts_with(&format!("{}:", self.name()));
+        own.then(|| self.checkpoint())
+    }
+
+    /// Makes the run, from its checkpoint on where there is one.
+    ///
+    /// # Errors
+    /// [`Taken`]; what made the run break off, which is kept in the folder; a folder that has another scene.
+    pub fn run(&self) -> Result<Summary> {
+        self.keep(Self::watched)
+    }
+
+    /// What comes of `make`; what makes it fail is kept in the folder.
+    ///
+    /// # Errors
+    /// Those of `make`.
+    pub fn keep(&self, make: impl FnOnce(&Self) -> Result<Summary>) -> Result<Summary> {
+        make_directory(&self.folder)?;
+        let outcome = make(self);
+        if let Err(error) = &outcome {
+            let stopped = matches!(error.downcast_ref(), Some(SceneError::Stopped { .. }));
+            if !stopped && !error.is::<Taken>() {
+                // What cannot be kept here is told all the same.
+                let _ = fs::write(self.failure(), format!("{}\n{}\n", explained(error), self.fingerprint()));
+            }
+        }
+        outcome.map(|mut summary| {
+            summary.put(FINGERPRINT, self.fingerprint(), "scene, settings and time");
+            summary
+        })
+    }
+
+    fn watched(&self) -> Result<Summary> {
+        self.keep_scene()?;
+        let (checkpoint, resume) = (Some(self.checkpoint()), self.useful_checkpoint());
+        let checkpoints = CheckpointFlags { checkpoint, resume, ..CheckpointFlags::default() };
+        let out = Some(self.folder.clone());
+        let output = OutputFlags { no_pictures: true, quiet: true, out, checkpoints, ..OutputFlags::default() };
+        let view = View::of(&self.setup);
+        let mut run = WatchedRun::new(self.setup.build()?, &self.setup, self.time, &output, &self.name(), &view)?;
+        run.go(None)?;
+        let summary = run.measured()?;
+        run.outcome()?;
+        // It may have failed before.
+        let _ = fs::remove_file(self.failure());
+        Ok(summary)
+    }
+
+    /// Whether the folder has the scene file of this run.
+    ///
+    /// # Errors
+    /// A folder that has another scene.
+    pub fn check_scene(&self) -> Result<bool> {
+        let path = self.folder.join("scene.toml");
+        let text = fs::read_to_string(&path).map_err(anyhow::Error::from);
+        let Ok(found) = text.and_then(|text| Ok(Setup::from_toml(&text)?)) else { return Ok(false) };
+        ensure!(found == self.setup, "{} is of another plan: give another --out, or remove the folder", path.display());
+        Ok(true)
+    }
+
+    /// Writes the scene file, or makes sure that it is there.
+    ///
+    /// # Errors
+    /// A folder that has another scene; a file that cannot be written.
+    pub fn keep_scene(&self) -> Result<()> {
+        if self.check_scene()? {
+            return Ok(());
+        }
+        let (path, text) = (self.folder.join("scene.toml"), self.setup.to_toml()?);
+        // It appears only when it is complete.
+        let partial = path.with_extension("toml.part");
+        let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, &path));
+        written.with_context(|| format!("writing {}", path.display()))
+    }
+}

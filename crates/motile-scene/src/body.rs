@@ -1,0 +1,246 @@
+//! What a body is: markers that put forces on the fluid and move with it.
+
+mod marker_body;
+mod step_limit;
+
+pub use marker_body::MarkerBody;
+pub use step_limit::{StepCause, StepLimit};
+
+use std::any::Any;
+use std::borrow::Cow;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{BodyError, BodyFlow, FluidView, Handle, MarkerKind, gap::SurfaceCurve, saved_state::SavedState};
+use motile_base::Vec2;
+
+/// What can be seen of a body beyond its markers: the speed of a droplet, say.
+pub trait Observe: Body {
+    /// All that is seen of it at one time.
+    type Observables;
+
+    /// What is seen of it in its present state, from the flow at its markers in that state.
+    ///
+    /// # Errors
+    /// A state in which it cannot be computed.
+    fn observables(&self, view: &FluidView, flow: &BodyFlow<'_>) -> Result<Self::Observables, BodyError>;
+}
+
+/// A step that is about to be taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepInfo {
+    /// Its length (time).
+    pub dt: f64,
+    /// Whether the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it
+    /// off the explicit one.
+    pub stabilised: bool,
+}
+
+/// A body of a scene.
+///
+/// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate
+/// explicit, the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a
+/// body may keep what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`],
+/// [`Body::write_forces`], [`Body::rate`].
+pub trait Body: Any + fmt::Debug + Send {
+    /// A name for messages.
+    fn name(&self) -> &str;
+
+    /// What its markers are.
+    fn kind(&self) -> MarkerKind;
+
+    /// Number of markers; may change in [`Body::end_step`] only.
+    fn marker_count(&self) -> usize;
+
+    /// Writes the marker positions (length).
+    fn write_markers(&self, positions: &mut [Vec2]);
+
+    /// Writes the forces on the fluid at the markers (force).
+    ///
+    /// # Errors
+    /// A state in which the forces are not defined.
+    fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError>;
+
+    /// Number of entries of the state, in units that only the body knows.
+    fn state_len(&self) -> usize;
+
+    /// Copies the state to `state`, which has [`Body::state_len`] entries.
+    fn write_state(&self, state: &mut [f64]);
+
+    /// Takes a state over.
+    ///
+    /// # Errors
+    /// A state that is not finite or not possible.
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError>;
+
+    /// Writes the explicit part of the state's rate of change (unit of the state per time) to `rate`, from the
+    /// velocities of the fluid at the markers (length per time).
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]);
+
+    /// Called before the first evaluation of a step.
+    ///
+    /// # Errors
+    /// A state from which no step can start.
+    fn begin_step(&mut self, _view: &FluidView, _step: StepInfo) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    /// Adds `factor * L(state) state` to `out`, where the implicit operator L may depend on the explicit part of
+    /// `state` (the geometry).
+    fn add_implicit(&mut self, _state: &[f64], _factor: f64, _out: &mut [f64]) {}
+
+    /// Replaces `state` by the solution y of `y - factor L(state) y = state`.
+    fn solve_implicit(&mut self, _factor: f64, _state: &mut [f64]) {}
+
+    /// Called after the last evaluation of a step, when the new state has been read: filters, constraints,
+    /// redistribution of markers, checks.
+    ///
+    /// # Errors
+    /// A state that cannot be.
+    fn end_step(&mut self, _view: &FluidView, _dt: f64) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are
+    /// rejected do not come here.
+    fn keep_step(&mut self) {}
+
+    /// Tells `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for each
+    /// reason there is.
+    fn step_limits(&self, _view: &FluidView, _limits: &mut dyn FnMut(StepLimit)) {}
+
+    /// What a user should know of the present state though a run can go on from it, from the flow of the last
+    /// evaluation; by default nothing.
+    fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    /// The body's surface, to which gaps are measured, on which a repulsion acts, and whose curves carry layers where
+    /// markers trace all of them: by default the closed curve through the markers of one, and nothing of other bodies.
+    /// It is asked for when the body joins a scene, has been changed by hand, or has another number of markers.
+    fn surfaces(&self) -> Vec<SurfaceCurve> {
+        self.kind().surface(self.marker_count())
+    }
+
+    /// The body as one that fills another body of the scene; by default it does not.
+    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        None
+    }
+
+    /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):
+    /// the radius of a droplet for positions, say. By default all are one.
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(1.0);
+    }
+
+    /// Writes the state of the mirror image of the body in y = 0 to `image`, given a state of its own and the number
+    /// `markers[k]` among the markers of the image that the image of marker k has; linear in the state. `false` where
+    /// there is no such operation, as by default.
+    fn mirror(&self, _markers: &[usize], _state: &[f64], _image: &mut [f64]) -> bool {
+        false
+    }
+
+    /// What the body is made of, besides its state: named numbers that stay what they are over a run, such as its
+    /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
+    /// out if it may change.
+    fn properties(&self) -> Vec<(String, f64)> {
+        vec![("the number of markers".to_owned(), self.marker_count() as f64)]
+    }
+
+    /// Everything from which [`Body::load`] makes the present state again, bitwise: by default what
+    /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
+    fn save(&self) -> SavedState {
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        SavedState { reals, counts: Vec::new() }
+    }
+
+    /// Takes back what [`Body::save`] of a body made in the same way wrote.
+    ///
+    /// # Errors
+    /// The state of another body, or a state that cannot be.
+    fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
+        self.read_state(saved.reals_of(self.state_len())?)
+    }
+}
+
+/// A body whatever its type.
+impl<B: Body> From<Handle<B>> for Handle<dyn Body> {
+    fn from(handle: Handle<B>) -> Self {
+        handle.cast()
+    }
+}
+
+/// A body that fills another one, its host, up to the host's markers: a gel inside a droplet, say.
+///
+/// It is a body of its own with a state and markers, its inner points. Besides it follows its host, and puts forces on
+/// the host's markers too. Whatever the viscosity inside its host, it lies in that fluid.
+pub trait Guest {
+    /// The body that it fills, which was added to the scene before it.
+    fn host(&self) -> Handle<dyn Body>;
+
+    /// Takes over the host in a new state, before anything that depends on it is asked: markers, forces; and at the end
+    /// of a step, before and after the host's own [`Body::end_step`], then its own.
+    fn update_host(&mut self, host: &dyn Body);
+
+    /// Adds its forces on the fluid at the host's markers (force) to those of the host, after its own
+    /// [`Body::write_forces`].
+    fn add_host_forces(&self, forces: &mut [Vec2]);
+
+    /// Takes over the velocities of the fluid at the host's markers (length per time), and the host, which has computed
+    /// from them how its markers move, before [`Body::rate`].
+    fn host_moved(&mut self, host: &dyn Body, velocities: &[Vec2]);
+
+    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the guest, after its
+    /// own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
+    fn add_host_rate(&self, _rate: &mut [f64]) {}
+}
+
+/// What a user should know of a state though a run can go on from it: results may be off by more than a per cent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Warning {
+    /// Name of the body that it is about.
+    pub body: String,
+    /// What is amiss, in a few words: the same for all warnings of one kind.
+    pub cause: Cow<'static, str>,
+    /// How far beyond its limit the quantity is that it is about: 1 at the limit, more beyond.
+    pub excess: f64,
+    /// The value, the limit and the remedy.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.body, self.cause, self.message)
+    }
+}
+
+/// Writes points to a state, or velocities to a rate, as x and y of the first, of the second, and so on: a list of
+/// twice as many entries.
+pub fn write_points(points: &[Vec2], state: &mut [f64]) {
+    for (pair, point) in state.chunks_exact_mut(2).zip(points) {
+        pair.copy_from_slice(&point.to_array());
+    }
+}
+
+/// Writes the mirror images in y = 0 of the points of a state, point k as number `markers[k]`.
+pub fn mirror_points(markers: &[usize], state: &[f64], image: &mut [f64]) {
+    for (pair, &marker) in state.chunks_exact(2).zip(markers) {
+        image[2 * marker..2 * marker + 2].copy_from_slice(&[pair[0], -pair[1]]);
+    }
+}
+
+/// Reads marker positions (length) from a state that [`write_points`] wrote.
+///
+/// # Errors
+/// A coordinate that is not finite; the points are then as before.
+pub fn read_points(state: &[f64], points: &mut [Vec2]) -> Result<(), BodyError> {
+    if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+        return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });
+    }
+    for (point, pair) in points.iter_mut().zip(state.chunks_exact(2)) {
+        *point = Vec2::new(pair[0], pair[1]);
+    }
+    Ok(())
+}

@@ -1,0 +1,234 @@
+//! Scenes on disk.
+
+mod error;
+mod file;
+
+pub use crate::saved_state::{Record, SavedState};
+pub use error::CheckpointError;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError,
+    scene::{Findings, StepReport},
+};
+use motile_base::{SolveReport, Vec2};
+
+/// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
+///
+/// It holds what observers have found so far as well ([`crate::System::record_mut`], [`crate::Warnings`]).
+///
+/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must
+/// be the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
+/// ([`crate::Body::properties`], with the numbers of markers and points that they started with), the number of nodes of
+/// boundary integrals. How it is computed may be another then: time step, integrator and observers, grid spacing (with
+/// markers and meshes as before), kernel, corrections, transport of particles. The flow of the state is then
+/// recomputed.
+///
+/// ```
+/// use motile_scene::{Scene, Substrate, checkpoint::Checkpoint};
+///
+/// # let directory = std::env::temp_dir().join(format!("motile-{}", std::process::id()));
+/// # std::fs::create_dir_all(&directory)?;
+/// # let path = directory.join("scene.checkpoint");
+/// let make = || Substrate::new(1.0).map(Scene::new);
+/// let mut scene = make()?;
+/// scene.run(2.0).go()?;
+/// scene.checkpoint("an empty box").write(&path)?;
+///
+/// let mut again = make()?;
+/// again.resume(&Checkpoint::read(&path)?)?;
+/// assert_eq!(again.time(), 2.0);
+/// # std::fs::remove_dir_all(&directory)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    description: String,
+    time: f64,
+    steps: u64,
+    minimum_wall_gap: Option<f64>,
+    minimum_gap: Option<f64>,
+    domain: Domain,
+    /// Of the grid, if there was one (length).
+    spacing: Option<f64>,
+    properties: Vec<(String, f64)>,
+    bodies: Vec<Part>,
+    flow: SavedState,
+    /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
+    known: Option<(Vec<[f64; 2]>, SolveReport)>,
+    /// Its name and what it keeps.
+    integrator: String,
+    kept: SavedState,
+    control: SavedState,
+    report: StepReport,
+    findings: Findings,
+}
+
+/// A named state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Part {
+    name: String,
+    kind: u8,
+    properties: Vec<(String, f64)>,
+    saved: SavedState,
+}
+
+impl Part {
+    fn of(body: &dyn Body) -> Self {
+        let (name, properties) = (body.name().to_owned(), body.properties());
+        Self { name, kind: kind(body.kind()), properties, saved: body.save() }
+    }
+}
+
+/// Numbers that were computed in the same way differ by less than this part of them on any machine.
+const ROUND_OFF: f64 = 1e-9;
+
+/// The first property that is not the same here and in a checkpoint.
+fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)]) -> Result<(), SceneError> {
+    let value = |list: &[(String, f64)], name: &str| list.iter().find(|entry| entry.0 == name).map(|entry| entry.1);
+    let same =
+        |a: f64, b: f64| a == b || (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs()) || (a.is_nan() && b.is_nan());
+    for (name, _) in here.iter().chain(saved) {
+        let [present, saved] = [value(here, name), value(saved, name)];
+        if !present.zip(saved).is_some_and(|(a, b)| same(a, b)) {
+            let (of, property) = (of.to_owned(), name.clone());
+            return Err(SceneError::OtherProperty { of, property, saved, present });
+        }
+    }
+    Ok(())
+}
+
+/// What kind of markers a body has, as it stands in a file.
+fn kind(kind: MarkerKind) -> u8 {
+    match kind {
+        MarkerKind::Interface { viscosity_inside: None } => 0,
+        MarkerKind::Interface { .. } => 1,
+        MarkerKind::UnevenInterface { viscosity_inside: None } => 2,
+        MarkerKind::UnevenInterface { .. } => 3,
+        MarkerKind::Points => 4,
+        MarkerKind::Rigid => 5,
+    }
+}
+
+impl Checkpoint {
+    /// What the one who saved it said it is.
+    #[must_use]
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Time of the state (time).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps up to it.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+}
+
+impl<H: Hydrodynamics> Scene<H> {
+    /// The present state, with a description to tell checkpoints apart by.
+    #[must_use]
+    pub fn checkpoint(&self, description: impl Into<String>) -> Checkpoint {
+        let (system, integrator) = (self.system(), self.integrator());
+        let mut kept = SavedState::default();
+        integrator.save(&mut kept);
+        let mut control = SavedState::default();
+        self.control.save(&mut control);
+        let velocities = system.markers().velocities.iter().copied().map(Vec2::to_array);
+        Checkpoint {
+            description: description.into(),
+            time: system.time(),
+            steps: system.steps() as u64,
+            minimum_wall_gap: system.minimum_wall_gap(),
+            minimum_gap: system.narrowest_so_far(),
+            domain: system.hydrodynamics().fluid_view().domain,
+            spacing: system.hydrodynamics().fluid_view().spacing,
+            properties: system.properties(),
+            bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
+            flow: system.hydrodynamics().save(),
+            known: system.is_evaluated().then(|| (velocities.collect(), *system.report())),
+            integrator: integrator.name().to_owned(),
+            kept,
+            control,
+            report: self.step_report().clone(),
+            findings: system.findings(),
+        }
+    }
+
+    /// Goes on from a checkpoint of this scene: the steps that follow are, bitwise, those that would have followed
+    /// there. With another integrator that starts afresh. After an error the scene is as it was.
+    ///
+    /// # Errors
+    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses;
+    /// [`SceneError::OtherProperty`] where bodies or fluid are of something else.
+    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        self.compare(checkpoint)?;
+        let before = self.checkpoint("");
+        self.take(checkpoint).inspect_err(|_| {
+            // It was the state a moment ago.
+            let restored = self.take(&before);
+            debug_assert!(restored.is_ok());
+        })
+    }
+
+    fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        let system = self.system();
+        let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
+        let domain = system.hydrodynamics().fluid_view().domain;
+        if domain != checkpoint.domain {
+            let describe = |Domain { origin, periods, walls }: Domain| {
+                format!("origin {origin:?}, periods {periods:?}, walls {walls:?}")
+            };
+            return foreign(format!("its domain has {}, this one {}", describe(checkpoint.domain), describe(domain)));
+        }
+        compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
+        let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
+        if expected != found {
+            return foreign(format!("it has {found} bodies, this scene {expected}"));
+        }
+        for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
+            let (here, there) = (body.name(), &part.name);
+            if here != there {
+                return foreign(format!("its body {index} is {there:?} where this scene has {here:?}"));
+            }
+            compare_properties(here, &body.properties(), &part.properties)?;
+            if kind(body.kind()) != part.kind {
+                return foreign(format!("the markers of {here} are of another kind"));
+            }
+        }
+        if !(checkpoint.time.is_finite() && usize::try_from(checkpoint.steps).is_ok()) {
+            return foreign(format!("its time is {} after {} steps", checkpoint.time, checkpoint.steps));
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        let records = checkpoint.bodies.iter().map(|part| &part.saved);
+        let gaps = [checkpoint.minimum_wall_gap, checkpoint.minimum_gap];
+        self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize, gaps)?;
+        if checkpoint.integrator == self.integrator().name() {
+            self.load_integrator(&checkpoint.kept)?;
+            self.control = crate::scene::StepControl::load(&checkpoint.control).ok_or_else(|| {
+                SceneError::ForeignCheckpoint { problem: "it has no state of its time steps".to_owned() }
+            })?;
+        }
+        self.report = checkpoint.report.clone();
+        let same = self.system().hydrodynamics().fluid_view().spacing == checkpoint.spacing;
+        if let Some((velocities, report)) = checkpoint.known.as_ref().filter(|_| same) {
+            let velocities = velocities.iter().copied().map(Vec2::from);
+            self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;
+        }
+        // The flow that was computed here is no work of the run.
+        self.system_mut().take_findings(&checkpoint.findings);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,28 @@
+use super::*;
+use crate::hydrodynamics::drag_box::DragBox;
+
+/// What is wrong here comes to light only after the flow has taken its state over.
+#[test]
+fn a_refusal_leaves_the_flow_as_it_was() {
+    let mut scene = Scene::new(DragBox::new(4.0, 1.0, 0.25));
+    let before = scene.checkpoint("");
+    let found = SolveReport { iterations: 0, residual: 0.0, mean_pressure_gradient: [0.0; 2] };
+    let other = Checkpoint {
+        flow: SavedState { reals: vec![1.0; 6], counts: vec![0, 0, 0, 6] },
+        known: Some((vec![[0.0; 2]], found)),
+        time: 1.0,
+        ..before.clone()
+    };
+    assert!(matches!(scene.resume(&other), Err(SceneError::ForeignCheckpoint { .. })));
+    assert_eq!(scene.checkpoint(""), before);
+}
+
+#[test]
+fn what_keeps_a_file_from_being_read_is_told() {
+    use std::io::ErrorKind;
+    let told = |kind: ErrorKind| CheckpointError::reading(std::path::Path::new("a/b"), kind.into()).to_string();
+    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b");
+    assert_eq!(told(ErrorKind::PermissionDenied), "there is no permission to read the checkpoint a/b");
+    assert!(told(ErrorKind::IsADirectory).starts_with("a/b is a directory"));
+    assert!(told(ErrorKind::Other).starts_with("could not read the checkpoint a/b"));
+}

@@ -1,0 +1,396 @@
+//! What can go wrong in a scene.
+
+use motile_base::InputError;
+use stokes_grid::StokesError;
+use stokes_layers::LayerError;
+
+use crate::checkpoint::CheckpointError;
+
+/// The flow could not be computed.
+#[derive(Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlowError {
+    /// The grid solver refused.
+    #[error(transparent)]
+    Stokes(#[from] StokesError),
+    /// A number or list that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The layer potentials refused.
+    #[error(transparent)]
+    Layers(LayerError),
+    /// A marker position or force is not a finite number.
+    #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
+    NonFinite {
+        /// Position or force.
+        what: &'static str,
+        /// Number of the body, in the order of addition.
+        body: usize,
+        /// Number of the marker in the body.
+        marker: usize,
+        /// x component.
+        x: f64,
+        /// y component.
+        y: f64,
+    },
+    /// A marker lies beyond a wall.
+    #[error(
+        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {depth:.3e} beyond the wall, more than {allowed:.3e}: \
+         move it, or use a smaller time step or a finer grid"
+    )]
+    BeyondWall {
+        /// Number of the body.
+        body: usize,
+        /// Number of the marker in the body.
+        marker: usize,
+        /// Its x coordinate.
+        x: f64,
+        /// Its y coordinate.
+        y: f64,
+        /// How far beyond (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// An iteration did not converge.
+    #[error(
+        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}: \
+         where a film between different viscosities has become too thin, use more nodes, a finer grid or a repulsion \
+         over a wider range"
+    )]
+    NoConvergence {
+        /// The iteration.
+        what: &'static str,
+        /// Iterations done.
+        iterations: usize,
+        /// Residual reached.
+        residual: f64,
+        /// Residual asked for.
+        tolerance: f64,
+    },
+    /// The method cannot do what the scene asks.
+    #[error("{what} is not possible here: {remedy}")]
+    Unsupported {
+        /// What was asked for.
+        what: &'static str,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+}
+
+motile_base::debug_as_explanation!(FlowError);
+
+impl From<LayerError> for FlowError {
+    fn from(error: LayerError) -> Self {
+        match error {
+            LayerError::NonFinite { what, curve, point, x, y } => {
+                Self::NonFinite { what, body: curve, marker: point, x, y }
+            }
+            LayerError::BeyondWall { curve, node, x, y, depth, allowed } => {
+                Self::BeyondWall { body: curve, marker: node, x, y, depth, allowed }
+            }
+            LayerError::NoConvergence { iterations, residual, tolerance } => {
+                Self::NoConvergence { what: "the solution for a viscosity contrast", iterations, residual, tolerance }
+            }
+            LayerError::Input(error) => Self::Input(error),
+            LayerError::Clockwise { .. } => Self::Unsupported {
+                what: "an interface whose markers run clockwise or that crosses itself",
+                remedy: "give its markers in counter-clockwise order",
+            },
+            other => Self::Layers(other),
+        }
+    }
+}
+
+/// A body is in a state that it cannot be in.
+#[derive(thiserror::Error)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// A state that is not finite.
+    #[error("{what} number {index} is {value}: use a smaller time step")]
+    NonFinite {
+        /// The quantity.
+        what: &'static str,
+        /// Which one.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// An interface crosses itself.
+    #[error(
+        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time \
+         step or activity, or a finer grid"
+    )]
+    SelfCrossing {
+        /// x coordinate of the first marker (length).
+        x: f64,
+        /// y coordinate of the first marker (length).
+        y: f64,
+        /// A segment by its first marker.
+        first: usize,
+        /// The other segment.
+        second: usize,
+    },
+    /// A bound on a conserved quantity was exceeded.
+    #[error("{what} has changed by {change:.1e} of its value, more than {bound:e}: use a smaller time step or spacing")]
+    NotConserved {
+        /// The quantity.
+        what: &'static str,
+        /// Relative change.
+        change: f64,
+        /// What is allowed.
+        bound: f64,
+    },
+    /// A number or list that cannot be used, or a saved state of something else.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// An error of the body's own.
+    #[error(transparent)]
+    Other(Box<dyn std::error::Error + Send + Sync>),
+}
+
+motile_base::debug_as_explanation!(BodyError);
+
+/// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
+///
+/// Causes are in the chain of sources and not repeated in the text; [`SceneError::explanation`] tells all.
+#[derive(thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The flow could not be computed.
+    #[error("at time {time} the flow could not be computed")]
+    Flow {
+        /// Time at the start of the step.
+        time: f64,
+        /// Why.
+        source: FlowError,
+    },
+    /// A body went wrong.
+    #[error("at time {time} {body} went wrong")]
+    Body {
+        /// Time at the start of the step.
+        time: f64,
+        /// The body's name.
+        body: String,
+        /// Why.
+        source: BodyError,
+    },
+    /// Bodies that overlap before anything is computed for them.
+    #[error(
+        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the \
+         bodies apart"
+    )]
+    Overlap {
+        /// Time of the state.
+        time: f64,
+        /// The body whose marker or corner is in the other one.
+        body: String,
+        /// x coordinate of where it is deepest (length).
+        x: f64,
+        /// The same, y coordinate (length).
+        y: f64,
+        /// The body that it is in, or its own image; or the interface that it is in and has crossed.
+        other: String,
+        /// How deep (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// A body has come into an interface or out of it in a step.
+    #[error("at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step")]
+    Containment {
+        /// Time at the start of the step.
+        time: f64,
+        /// The body.
+        body: String,
+        /// What it was inside of.
+        before: String,
+        /// What it is inside of.
+        now: String,
+    },
+    /// An interface and another body, or its own image in a periodic domain, have come to overlap.
+    #[error(
+        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a \
+         smaller time step, a finer grid or a repulsion between the interfaces"
+    )]
+    Crossing {
+        /// Time at the start of the step.
+        time: f64,
+        /// The body whose marker or corner it is.
+        body: String,
+        /// Its x coordinate (length).
+        x: f64,
+        /// Its y coordinate (length).
+        y: f64,
+        /// The body that it is in.
+        other: String,
+        /// How deep (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// A gap is narrower than the bound that was set.
+    #[error(
+        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer \
+         grid, no grid or a repulsion, or a lower bound if the film between them does not matter"
+    )]
+    Gap {
+        /// Time at the start of the step.
+        time: f64,
+        /// One side of the gap.
+        body: String,
+        /// Its other side.
+        other: String,
+        /// The gap (length).
+        gap: f64,
+        /// The bound (length).
+        bound: f64,
+    },
+    /// A scene that is to be held symmetric ([`crate::Scene::held_symmetric`]) is not.
+    #[error("at time {time} the scene is not its own mirror image in y = 0, as it is to be held: {body} {problem}")]
+    NotSymmetric {
+        /// Time of the state.
+        time: f64,
+        /// The body.
+        body: String,
+        /// How it differs from a mirror image.
+        problem: String,
+    },
+    /// A time step above the stable one.
+    #[error("time step {dt} is above the stable {limit:.3e} set by {reason} of {body}: use a smaller one")]
+    TimeStepTooLarge {
+        /// The step asked for (time).
+        dt: f64,
+        /// The largest stable one (time).
+        limit: f64,
+        /// What limits it.
+        reason: &'static str,
+        /// Which body.
+        body: String,
+    },
+    /// A stability limit so short that a run would never end.
+    #[error(
+        "the time step at the start of the run would be {dt:.3e}, set by {reason} of {body}, below {least:.3e}, with \
+         which it takes 1e10 steps: give {body} less activity, tension or stiffness, or run for less time"
+    )]
+    StepTooShort {
+        /// The step that is stable (time).
+        dt: f64,
+        /// The shortest that the run takes (time).
+        least: f64,
+        /// What limits it.
+        reason: &'static str,
+        /// Which body.
+        body: String,
+    },
+    /// A step size that is a part of the stability limit, where no body states a finite one.
+    #[error(
+        "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
+         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
+    )]
+    NoStepLimit {
+        /// When (time).
+        time: f64,
+    },
+    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    #[error("the error of a step of {integrator} cannot be estimated: use another step size than `StepSize::Adaptive`")]
+    NoErrorEstimate {
+        /// The integrator's name.
+        integrator: &'static str,
+    },
+    /// Adaptive steps have become shorter than the bound that was set.
+    #[error(
+        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot \
+         be followed any further with this tolerance and resolution; refine the grid and the markers, or look at the \
+         last state for what goes wrong"
+    )]
+    Stagnation {
+        /// When (time).
+        time: f64,
+        /// The step that would be needed (time).
+        dt: f64,
+        /// The bound (time).
+        least: f64,
+        /// What made the last step fail, unless it was its error alone.
+        source: Option<Box<SceneError>>,
+    },
+    /// A run has taken all the steps it was allowed.
+    #[error("at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones")]
+    TooManySteps {
+        /// When (time).
+        time: f64,
+        /// The number allowed.
+        most: usize,
+    },
+    /// The run was told to stop.
+    #[error("stopped at time {time}: the state is that of the last complete step, from which the run can go on")]
+    Stopped {
+        /// When (time).
+        time: f64,
+    },
+    /// A checkpoint could not be saved.
+    #[error("at time {time} no checkpoint could be saved")]
+    Checkpoint {
+        /// When (time).
+        time: f64,
+        /// Why.
+        source: Box<CheckpointError>,
+    },
+    /// A time, time step or other number that makes no sense, or a saved state of something else.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A checkpoint that is not of this scene.
+    #[error("the checkpoint is of another scene: {problem}")]
+    ForeignCheckpoint {
+        /// How it differs.
+        problem: String,
+    },
+    /// A handle of another scene.
+    #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
+    ForeignHandle,
+    /// The flow of the present state is asked for before it has been computed.
+    #[error("the flow at {body} is not known in the present state: call `evaluate` first, or `observe`, which does")]
+    NotEvaluated {
+        /// The body's name.
+        body: String,
+    },
+    /// A checkpoint of a scene whose fluid or bodies are made of something else.
+    #[error(
+        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was \
+         saved with",
+        shown(*saved),
+        shown(*present)
+    )]
+    OtherProperty {
+        /// The body, or the scene.
+        of: String,
+        /// What differs.
+        property: String,
+        /// Its value in the checkpoint, if it has one there.
+        saved: Option<f64>,
+        /// Its value in the present scene.
+        present: Option<f64>,
+    },
+    /// An observer failed.
+    #[error("an observer failed at time {time}")]
+    Observer {
+        /// When.
+        time: f64,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
+motile_base::debug_as_explanation!(SceneError);
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
+}
+
+impl SceneError {
+    /// The error and its causes in one sentence.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        motile_base::explanation(self)
+    }
+}

@@ -1,0 +1,236 @@
+//! Gaps between bodies, between bodies and walls, and what keeps them open.
+
+mod boundary;
+mod films;
+mod overlap;
+mod repulsion;
+mod solid_gap;
+mod surface_curve;
+
+pub use boundary::Boundary;
+pub(crate) use films::{Films, Surroundings};
+pub use overlap::Overlap;
+pub use repulsion::Repulsion;
+pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
+pub use surface_curve::{SurfaceCurve, SurfacePoint};
+
+use crate::{Body, Domain, FluidView, MarkerKind, Markers};
+use boundary::shifts;
+use motile_base::Vec2;
+
+/// How far boundaries are looked for during steps, in units of what a contact is measured in.
+pub(crate) const REACH: f64 = 4.0;
+
+/// The narrowest gap between an interface and another body, or between an interface and its own image in a periodic
+/// domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    /// Number of the body whose corner it is measured from.
+    pub(crate) body: usize,
+    /// Where that corner is (length).
+    pub(crate) place: Vec2,
+    /// Number of the other body.
+    pub(crate) other: usize,
+    /// The gap (length); negative where the corner is inside the other body, or outside of the interface that its body
+    /// lies in.
+    pub(crate) width: f64,
+}
+
+/// The surfaces of all bodies at one state, and what the bodies are; keeps its memory.
+#[derive(Debug, Clone, Default)]
+pub struct Surfaces {
+    kinds: Vec<MarkerKind>,
+    boundaries: Vec<Boundary>,
+    /// The first corner of each body.
+    firsts: Vec<usize>,
+    /// The corners of all bodies, in the order of the sides that start there; none for bodies without markers.
+    corners: Vec<Corner>,
+}
+
+/// A corner of a surface.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    /// The marker that it is; `None` for a fixed place.
+    marker: Option<usize>,
+    /// The corner at the other end of the side that starts here.
+    next: usize,
+}
+
+impl Surfaces {
+    /// The surfaces of bodies that are no part of a scene yet.
+    #[must_use]
+    pub fn of(bodies: impl IntoIterator<Item = (Boundary, MarkerKind)>) -> Self {
+        let (mut boundaries, kinds): (Vec<Boundary>, _) = bodies.into_iter().unzip();
+        boundaries.iter_mut().for_each(Boundary::sort);
+        Self { boundaries, kinds, ..Self::default() }
+    }
+
+    /// Lays out the surfaces of bodies with their markers where they are now, and the period in x (length; 0 where
+    /// there is none).
+    pub(crate) fn update(&mut self, markers: &Markers, period: f64) {
+        let Self { kinds, boundaries, firsts, corners } = self;
+        boundaries.resize_with(markers.groups().len(), Boundary::default);
+        kinds.clear();
+        firsts.clear();
+        corners.clear();
+        for (group, boundary) in markers.groups().iter().zip(boundaries) {
+            kinds.push(group.kind);
+            firsts.push(corners.len());
+            boundary.clear();
+            for curve in &group.surfaces {
+                let (first, count) = (corners.len(), curve.points.len());
+                curve.add_to(boundary, &markers.positions[group.range.clone()], period);
+                corners.extend(curve.points.iter().enumerate().map(|(k, (point, _))| Corner {
+                    marker: point.marker().map(|marker| group.range.start + marker),
+                    next: first + (k + 1) % count,
+                }));
+            }
+            boundary.sort();
+        }
+    }
+
+    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
+    /// (length).
+    #[must_use]
+    pub fn contact(&self, view: &FluidView) -> Option<(usize, usize, Vec2)> {
+        let interfaces = |gap: &Gap| self.kinds[gap.body].is_closed_curve() && self.kinds[gap.other].is_closed_curve();
+        let narrowest = self.narrowest_near(view, 0.0).filter(interfaces);
+        narrowest.filter(|gap| gap.width <= 0.0).map(|gap| (gap.body, gap.other, gap.place))
+    }
+
+    /// The smallest signed distance of a corner of an interface from solids (length), the interface, the number of the
+    /// corner in it, and where that is (length).
+    pub(crate) fn nearest_solid(&self, periods: [Option<f64>; 2]) -> Option<(f64, usize, usize, Vec2)> {
+        let of_kind = |closed: bool| {
+            let bodies = self.boundaries.iter().zip(&self.kinds).enumerate();
+            bodies.filter_map(move |(body, (surface, kind))| {
+                (kind.is_closed_curve() == closed).then_some((body, surface))
+            })
+        };
+        let distance = |place: Vec2| {
+            let distances = of_kind(false).filter(|(_, solid)| !solid.is_empty());
+            let distances = distances.map(|(_, solid)| solid.distance(place, periods));
+            distances.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        };
+        let corners = of_kind(true).flat_map(|(body, surface)| surface.corners().zip(0..).map(move |c| (body, c)));
+        let gaps = corners.filter_map(|(body, (place, corner))| Some((distance(place)?, body, corner, place)));
+        gaps.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Whether a body lies inside an interface, or inside one of its images.
+    fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
+        let around = inner != outer && self.kinds[outer].holds_fluid();
+        around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
+    }
+
+    /// The narrowest gap of those that are looked at during steps, below `bound` (length) or four times what contacts
+    /// are measured in.
+    pub(crate) fn narrowest_near(&self, view: &FluidView, bound: f64) -> Option<Gap> {
+        self.narrowest(&view.domain, bound.max(REACH * self.contact_scale(view)))
+    }
+
+    /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and
+    /// from the corners of other bodies to interfaces.
+    pub(crate) fn narrowest(&self, domain: &Domain, reach: f64) -> Option<Gap> {
+        let mut narrowest: Option<Gap> = None;
+        for (body, from) in self.boundaries.iter().enumerate() {
+            let Some(frame) = from.frame() else { continue };
+            for (other, boundary) in self.boundaries.iter().enumerate() {
+                let Some(large) = boundary.frame() else { continue };
+                if !(self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve()) {
+                    continue;
+                }
+                let periods = if other == body { [None; 2] } else { domain.periods };
+                for shift in shifts(domain.periods, other == body).into_iter().flatten() {
+                    if !frame.moved(shift).is_near(&large, periods, reach) {
+                        continue;
+                    }
+                    let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
+                    for place in from.corners() {
+                        let distance = boundary.distance_within(place + shift, periods, reach);
+                        if let Some(width) = distance.map(|distance| sign * distance)
+                            && narrowest.is_none_or(|least| width < least.width)
+                        {
+                            narrowest = Some(Gap { body, place, other, width });
+                        }
+                    }
+                }
+            }
+        }
+        narrowest
+    }
+}
+
+impl Boundary {
+    /// The boundary of a body where it is now, sorted, in a domain of these periods (length, in x and y).
+    #[must_use]
+    pub fn of(body: &dyn Body, periods: [Option<f64>; 2]) -> Self {
+        let mut markers = vec![Vec2::ZERO; body.marker_count()];
+        body.write_markers(&mut markers);
+        let mut boundary = Self::default();
+        let period = periods[0].unwrap_or(0.0);
+        body.surfaces().iter().for_each(|curve| curve.add_to(&mut boundary, &markers, period));
+        boundary.sort();
+        boundary
+    }
+}
+
+/// What is measured of a body: corners of its boundary, or markers where it has none.
+#[derive(Debug)]
+pub(crate) struct Outline {
+    boundary: Boundary,
+    points: Vec<Vec2>,
+    holds_fluid: bool,
+}
+
+impl Outline {
+    pub(crate) fn of(body: &dyn Body, periods: [Option<f64>; 2]) -> Self {
+        let boundary = Boundary::of(body, periods);
+        let mut points: Vec<Vec2> = boundary.corners().collect();
+        if boundary.is_empty() {
+            points.resize(body.marker_count(), Vec2::ZERO);
+            body.write_markers(&mut points);
+        }
+        Self { boundary, points, holds_fluid: body.kind().holds_fluid() }
+    }
+
+    /// The smallest signed distance of the points of another body from the boundary (length), positive for most of
+    /// those inside an interface: what lies in it is measured from within.
+    fn smallest(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
+        let distances = || other.points.iter().map(|&point| self.boundary.distance(point, periods));
+        let within = self.holds_fluid && 2 * distances().filter(|d| *d < 0.0).count() > other.points.len();
+        let smallest = distances().map(|distance| if within { -distance } else { distance }).reduce(f64::min);
+        smallest.filter(|_| !self.boundary.is_empty())
+    }
+
+    /// The gap to another body; see [`crate::System::gap`].
+    pub(crate) fn gap(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
+        [self.smallest(other, periods), other.smallest(self, periods)].into_iter().flatten().reduce(f64::min)
+    }
+}
+
+/// The smallest distance of the points to the nearer of two walls at the heights `walls` (below, above): the gap that
+/// is left between an interface and the walls (length).
+///
+/// Negative where a point lies beyond a wall, infinite without points, not a number where a height or the y coordinate
+/// of a point is not one. For a polygon this is the exact distance, since the nearest point of a polygon to a straight
+/// wall is a corner.
+///
+/// ```
+/// use motile_base::Vec2;
+/// use motile_scene::gap::wall_gap;
+/// let markers = [Vec2::new(0.0, -1.0), Vec2::new(5.0, 0.5)];
+/// assert_eq!(wall_gap(&markers, [-1.5, 1.25]), 0.5);
+/// ```
+#[must_use]
+pub fn wall_gap(positions: &[Vec2], walls: [f64; 2]) -> f64 {
+    let [bottom, top] = walls;
+    positions.iter().fold(f64::INFINITY, |least, position| {
+        let [below, above] = [position.y - bottom, top - position.y];
+        // Unlike `f64::min`, this keeps what is not a number.
+        [below, above].into_iter().fold(least, |least, gap| if gap < least || gap.is_nan() { gap } else { least })
+    })
+}
+
+#[cfg(test)]
+mod tests;

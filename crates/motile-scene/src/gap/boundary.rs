@@ -1,0 +1,292 @@
+//! The boundary of a body, and distances to it.
+
+use motile_base::Vec2;
+
+/// The boundary of a body: straight sides in any order, each with the inside of the body to its left.
+///
+/// Signed distances are exact, at corners too, and found by looking at few of the sides: [`Boundary::sort`] puts boxes
+/// around them, and boxes around those.
+///
+/// ```
+/// use motile_base::Vec2;
+/// use motile_scene::gap::Boundary;
+///
+/// let mut square = Boundary::default();
+/// square.push_loop(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| Vec2::new(x, y)));
+/// square.sort();
+/// let plane = [None, None];
+/// assert_eq!(square.distance(Vec2::new(5.0, 6.0), plane), 5.0);
+/// assert_eq!(square.distance(Vec2::new(1.5, 1.0), plane), -0.5);
+/// // in a box of period 5, by way of the next image
+/// assert_eq!(square.distance(Vec2::new(4.0, 1.0), [Some(5.0), None]), 1.0);
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Boundary {
+    sides: Vec<[Vec2; 2]>,
+    /// Boxes around [`GROUP`] sides each, then around as many of these boxes, and so on to the one around all.
+    levels: Vec<Vec<Frame>>,
+}
+
+/// Sides in a box, and boxes in a box.
+const GROUP: usize = 8;
+/// Squared distances that differ by less than this part are equal.
+const TIE: f64 = 1e-12;
+
+/// A box with sides along the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Frame {
+    centre: Vec2,
+    half: Vec2,
+}
+
+impl Frame {
+    fn around(points: impl Iterator<Item = Vec2>) -> Self {
+        let far = Vec2::splat(f64::INFINITY);
+        let (low, high) = points.fold((far, -far), |(low, high), point| (low.min(point), high.max(point)));
+        Self { centre: 0.5 * (low + high), half: 0.5 * (high - low) }
+    }
+
+    fn corners(&self) -> [Vec2; 2] {
+        [self.centre - self.half, self.centre + self.half]
+    }
+
+    /// The square of the distance of a point from the nearest image of the box; zero inside.
+    fn squared_distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
+        let away = nearest(point - self.centre, periods).abs() - self.half;
+        away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
+    }
+
+    /// Whether the box comes within `reach` of an image of another one.
+    pub(crate) fn is_near(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
+        let grown = Self { centre: other.centre, half: self.half + other.half };
+        grown.squared_distance(self.centre, periods) <= reach * reach
+    }
+
+    /// Whether the box lies in an image of another one that is `reach` larger on all sides.
+    pub(crate) fn is_inside(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
+        let between = nearest(self.centre - other.centre, periods).abs();
+        (0..2).all(|k| between[k] + self.half[k] <= other.half[k] + reach)
+    }
+
+    /// The longer of its sides (length).
+    pub(crate) fn size(&self) -> f64 {
+        2.0 * self.half.max_element()
+    }
+
+    /// The same box elsewhere.
+    pub(crate) fn moved(&self, by: Vec2) -> Self {
+        Self { centre: self.centre + by, half: self.half }
+    }
+}
+
+/// The difference that is shortest over the periods.
+pub(super) fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
+    for (axis, period) in periods.into_iter().enumerate() {
+        if let Some(period) = period
+            && difference[axis].abs() > 0.5 * period
+        {
+            difference[axis] -= period * (difference[axis] / period).round();
+        }
+    }
+    difference
+}
+
+/// The nearest place of a boundary so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest {
+    squared: f64,
+    /// Distance from the line through the side, positive outside.
+    height: f64,
+    /// Number of the side.
+    pub(super) side: usize,
+    /// How far along it the place is, from 0 at its start to 1 at its end.
+    pub(super) part: f64,
+    /// From there to the point (length).
+    pub(super) away: Vec2,
+}
+
+impl Nearest {
+    /// Looks at a side, and where it is so long that another image of it may be nearer, at that too.
+    fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
+        let along = side[1] - side[0];
+        let from_middle = nearest(point - 0.5 * (side[0] + side[1]), periods);
+        let other = |k: usize| {
+            let period = periods[k]?;
+            (from_middle[k].abs() + 0.5 * along[k].abs() > 0.5 * period).then(|| -period.copysign(from_middle[k]))
+        };
+        let [x, y] = [other(0), other(1)];
+        for dx in [Some(0.0), x].into_iter().flatten() {
+            for dy in [Some(0.0), y].into_iter().flatten() {
+                self.look_at(number, along, from_middle + Vec2::new(dx, dy));
+            }
+        }
+    }
+
+    /// Looks at a straight side along `along`, from whose middle the point is `from_middle` away.
+    fn look_at(&mut self, side: usize, along: Vec2, from_middle: Vec2) {
+        let length = along.length_squared();
+        if length == 0.0 {
+            return;
+        }
+        let part = (from_middle.dot(along) / length).clamp(-0.5, 0.5);
+        let away = from_middle - part * along;
+        let squared = away.length_squared();
+        let height = from_middle.perp_dot(along) / length.sqrt();
+        // At a corner both sides are equally far; the one that the point stands more upright on says whether it is
+        // inside.
+        let tie = self.squared.is_finite() && (squared - self.squared).abs() <= TIE * (squared + self.squared);
+        if (tie && height.abs() > self.height.abs()) || (!tie && squared < self.squared) {
+            *self = Self { squared, height, side, part: part + 0.5, away };
+        }
+    }
+
+    /// The signed distance (length). What is on a side has no height and is at no distance.
+    pub(super) fn distance(&self) -> f64 {
+        self.squared.sqrt().copysign(self.height)
+    }
+}
+
+impl Boundary {
+    /// Adds a side from `start` to `end` (length), the inside to its left.
+    pub fn push(&mut self, start: Vec2, end: Vec2) {
+        self.sides.push([start, end]);
+    }
+
+    /// Adds the closed polygon through `points`, counter-clockwise around the inside.
+    pub fn push_loop(&mut self, points: &[Vec2]) {
+        let next = points.iter().cycle().skip(1);
+        self.sides.extend(points.iter().zip(next).map(|(&start, &end)| [start, end]));
+    }
+
+    /// Removes all sides, keeping the memory.
+    pub fn clear(&mut self) {
+        self.sides.clear();
+        self.levels.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Whether there are no sides.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.sides.is_empty()
+    }
+
+    /// Prepares for questions after sides have been added.
+    pub fn sort(&mut self) {
+        let Self { sides, levels } = self;
+        let frames = sides.chunks(GROUP).map(|group| Frame::around(group.iter().flatten().copied()));
+        if levels.is_empty() {
+            levels.push(Vec::new());
+        }
+        levels[0].clear();
+        levels[0].extend(frames);
+        let mut level = 0;
+        while levels[level].len() > 1 {
+            if levels.len() == level + 1 {
+                levels.push(Vec::new());
+            }
+            let (below, above) = levels.split_at_mut(level + 1);
+            above[0].clear();
+            let groups = below[level].chunks(GROUP);
+            above[0].extend(groups.map(|group| Frame::around(group.iter().flat_map(Frame::corners))));
+            level += 1;
+        }
+        levels.truncate(level + 1);
+    }
+
+    /// The box around all of it; `None` without sides.
+    pub(crate) fn frame(&self) -> Option<Frame> {
+        self.levels.last()?.first().copied()
+    }
+
+    /// The sides, each with its start and end.
+    #[must_use]
+    pub fn sides(&self) -> &[[Vec2; 2]] {
+        &self.sides
+    }
+
+    /// The longest side (length).
+    pub(super) fn longest_side(&self) -> f64 {
+        self.sides.iter().map(|[start, end]| (end - start).length()).fold(0.0, f64::max)
+    }
+
+    /// Where the sides start (length): the corners of closed polygons.
+    pub fn corners(&self) -> impl Iterator<Item = Vec2> {
+        self.sides.iter().map(|[start, _]| *start)
+    }
+
+    /// The signed distance of `point` from the boundary (length), over all images where there are `periods` (length, in
+    /// x and y): negative inside the body, infinite without sides, not a number for a point that is not finite.
+    #[must_use]
+    pub fn distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
+        if !(point.x.is_finite() && point.y.is_finite()) {
+            return f64::NAN;
+        }
+        self.distance_within(point, periods, f64::INFINITY).unwrap_or(f64::INFINITY)
+    }
+
+    /// The same if it is below `reach` (length).
+    pub(crate) fn distance_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+        self.nearest_within(point, periods, reach).map(|found| found.distance())
+    }
+
+    /// The nearest place to `point` below `reach` (length).
+    pub(super) fn nearest_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<Nearest> {
+        if self.frame()?.squared_distance(point, periods) > reach * reach {
+            return None;
+        }
+        let mut found = Nearest { squared: reach * reach, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
+        self.search(self.levels.len().checked_sub(1)?, 0, point, periods, &mut found);
+        (found.squared < reach * reach).then_some(found)
+    }
+
+    /// Looks at what is in a box of a level, nearest boxes first.
+    fn search(&self, level: usize, frame: usize, point: Vec2, periods: [Option<f64>; 2], found: &mut Nearest) {
+        let start = frame * GROUP;
+        let Some(below) = level.checked_sub(1) else {
+            let end = (start + GROUP).min(self.sides.len());
+            return (start..end).for_each(|side| found.look(side, &self.sides[side], point, periods));
+        };
+        let frames = &self.levels[below];
+        let end = (start + GROUP).min(frames.len());
+        let mut away = [f64::INFINITY; GROUP];
+        for (away, frame) in away.iter_mut().zip(&frames[start..end]) {
+            *away = frame.squared_distance(point, periods);
+        }
+        for _ in start..end {
+            let (next, &squared) =
+                away.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).unwrap_or((0, &f64::INFINITY));
+            // Sides that are equally far may say more of the sign.
+            if squared > found.squared * (1.0 + 4.0 * TIE) {
+                return;
+            }
+            away[next] = f64::INFINITY;
+            self.search(below, start + next, point, periods, found);
+        }
+    }
+
+    /// The smallest signed distance of points, such as the markers of an interface, and the number of that point;
+    /// `None` without points or sides.
+    #[must_use]
+    pub fn smallest(&self, points: &[Vec2], periods: [Option<f64>; 2]) -> Option<(f64, usize)> {
+        let distances = points.iter().map(|&point| self.distance(point, periods)).zip(0..);
+        distances.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| !self.is_empty())
+    }
+}
+
+/// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that
+/// body's nearest image is looked for), for its own those of its images.
+pub(super) fn shifts([x, y]: [Option<f64>; 2], own: bool) -> [Option<Vec2>; 4] {
+    if !own {
+        return [Some(Vec2::ZERO), None, None, None];
+    }
+    let both = x.zip(y);
+    [
+        x.map(|x| Vec2::new(x, 0.0)),
+        y.map(|y| Vec2::new(0.0, y)),
+        both.map(|(x, y)| Vec2::new(x, y)),
+        both.map(|(x, y)| Vec2::new(x, -y)),
+    ]
+}
+
+#[cfg(test)]
+mod tests;

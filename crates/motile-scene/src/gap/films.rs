@@ -1,0 +1,202 @@
+//! The films between interfaces and what is close to them: forces that keep them open, and how fast they close.
+
+use super::boundary::{Boundary, Nearest, shifts};
+use super::{Repulsion, Surfaces};
+use crate::Domain;
+use motile_base::Vec2;
+
+/// A corner of a surface close to a side of another one.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    corner: usize,
+    /// The corners at the ends of that side; `None` for a rigid wall.
+    ends: Option<[usize; 2]>,
+    /// How far along the side the nearest place is, from 0 to 1.
+    part: f64,
+    /// The gradient of the gap by the place of the corner.
+    normal: Vec2,
+    /// The gap (length), negative where they overlap.
+    gap: f64,
+}
+
+/// Where the surfaces of bodies are close to one another or to walls; keeps its memory.
+///
+/// Gaps are those of corners from sides, measured both ways, of which each counts a half; at walls that of the corners
+/// alone, which is the whole. Of what is fixed no force moves anything.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Films {
+    /// Half of the lengths of the two sides of each corner (length).
+    weights: Vec<f64>,
+    contacts: Vec<Contact>,
+    /// Energy per length at the corners (force).
+    energies: Vec<f64>,
+}
+
+/// What is close in a scene: its region, its rigid walls of other shapes, and the interface that each body lies in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surroundings<'a> {
+    pub(crate) domain: Domain,
+    pub(crate) walls: Option<&'a Boundary>,
+    pub(crate) around: &'a [Option<usize>],
+}
+
+impl Films {
+    /// Finds where interfaces are closer than `reach` (length) to other surfaces.
+    pub(crate) fn find(&mut self, surfaces: &Surfaces, surroundings: Surroundings<'_>, reach: f64) {
+        self.weights.clear();
+        self.weights.resize(surfaces.corners.len(), 0.0);
+        for ((corner, next), [start, end]) in surfaces.sides() {
+            [corner, next].into_iter().for_each(|corner| self.weights[corner] += 0.5 * start.distance(end));
+        }
+        self.contacts.clear();
+        for (body, kind) in surfaces.kinds.iter().enumerate() {
+            for (other, other_kind) in surfaces.kinds.iter().enumerate() {
+                if kind.is_closed_curve() || other_kind.is_closed_curve() {
+                    self.find_between(surfaces, [body, other], surroundings, reach);
+                }
+            }
+            if kind.is_closed_curve() {
+                self.find_walls(surfaces, body, surroundings, reach);
+            }
+        }
+    }
+
+    fn find_between(
+        &mut self,
+        surfaces: &Surfaces,
+        [body, other]: [usize; 2],
+        Surroundings { domain, around, .. }: Surroundings<'_>,
+        reach: f64,
+    ) {
+        let [from, to] = [body, other].map(|index| &surfaces.boundaries[index]);
+        let [Some(frame), Some(large)] = [from, to].map(Boundary::frame) else { return };
+        let periods = if other == body { [None; 2] } else { domain.periods };
+        let mut outer = std::iter::successors(around.get(body).copied().flatten(), |&outer| around[outer]);
+        let sign = if outer.any(|outer| outer == other) { -1.0 } else { 1.0 };
+        for shift in shifts(domain.periods, other == body).into_iter().flatten().flat_map(|shift| [shift, -shift]) {
+            if !frame.moved(shift).is_near(&large, periods, reach) {
+                continue;
+            }
+            for (place, corner) in from.corners().zip(surfaces.firsts[body]..) {
+                let Some(found) = to.nearest_within(place + shift, periods, reach) else { continue };
+                let start = surfaces.firsts[other] + found.side;
+                let ends = Some([start, surfaces.corners[start].next]);
+                self.contacts.push(contact(corner, ends, &found, to.sides()[found.side], sign));
+            }
+            if shift == Vec2::ZERO {
+                // There is one such place.
+                return;
+            }
+        }
+    }
+
+    fn find_walls(
+        &mut self,
+        surfaces: &Surfaces,
+        body: usize,
+        Surroundings { domain, walls, .. }: Surroundings<'_>,
+        reach: f64,
+    ) {
+        for (place, corner) in surfaces.boundaries[body].corners().zip(surfaces.firsts[body]..) {
+            if let Some([below, above]) = domain.walls {
+                for (gap, normal) in [(place.y - below, Vec2::Y), (above - place.y, -Vec2::Y)] {
+                    if gap < reach {
+                        self.contacts.push(Contact { corner, ends: None, part: 0.0, normal, gap });
+                    }
+                }
+            }
+            if let Some(walls) = walls
+                && let Some(found) = walls.nearest_within(place, domain.periods, reach)
+            {
+                self.contacts.push(contact(corner, None, &found, walls.sides()[found.side], 1.0));
+            }
+        }
+    }
+
+    /// Adds the forces of a repulsion to `forces`, those of the markers (force).
+    pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
+        let Self { weights, contacts, energies } = self;
+        energies.clear();
+        energies.resize(weights.len(), 0.0);
+        let mut push = |corner: usize, force: Vec2| {
+            if let Some(marker) = surfaces.corners[corner].marker {
+                forces[marker] += force;
+            }
+        };
+        for contact in contacts.iter() {
+            energies[contact.corner] += contact.share() * repulsion.energy(contact.gap);
+            let force = contact.share() * weights[contact.corner] * repulsion.pressure(contact.gap) * contact.normal;
+            push(contact.corner, force);
+            if let Some([start, end]) = contact.ends {
+                push(start, -(1.0 - contact.part) * force);
+                push(end, -contact.part * force);
+            }
+        }
+        // Sides that grow take energy: a tension.
+        for ((start, end), [from, to]) in surfaces.sides() {
+            let tension = 0.5 * (energies[start] + energies[end]);
+            if tension != 0.0 {
+                let force = tension * (to - from).try_normalize().unwrap_or_default();
+                push(start, force);
+                push(end, -force);
+            }
+        }
+    }
+
+    /// The energy of a repulsion (force times length).
+    #[cfg(test)]
+    pub(crate) fn energy(&self, repulsion: &Repulsion) -> f64 {
+        let each = |c: &Contact| c.share() * self.weights[c.corner] * repulsion.energy(c.gap);
+        self.contacts.iter().map(each).sum()
+    }
+
+    /// The fastest relaxation of films under a repulsion (1/time), in fluid of viscosity eta: that of the gap, and, as
+    /// `stiffness` (1/length) says, that of what it adds to the tension.
+    pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, stiffness: f64) -> f64 {
+        let rate = |contact: &Contact| {
+            let tension = contact.share() * repulsion.energy(contact.gap);
+            repulsion.rate(contact.gap, viscosity) + stiffness * tension / viscosity
+        };
+        self.contacts.iter().map(rate).fold(0.0, f64::max)
+    }
+
+    /// The time in which the film that closes fastest would be gone at the velocities of the markers (length per
+    /// time), and the body whose corner it is measured from; gaps below `least` (length) count as that.
+    pub(crate) fn closing(&self, surfaces: &Surfaces, velocities: &[Vec2], least: f64) -> Option<(f64, usize)> {
+        let velocity = |corner: usize| surfaces.corners[corner].marker.map_or(Vec2::ZERO, |marker| velocities[marker]);
+        let times = self.contacts.iter().filter_map(|contact| {
+            let other =
+                contact.ends.map_or(Vec2::ZERO, |[start, end]| velocity(start).lerp(velocity(end), contact.part));
+            let rate = (velocity(contact.corner) - other).dot(contact.normal);
+            (rate < 0.0).then(|| (contact.gap.max(least) / -rate, contact.corner))
+        });
+        let (time, corner) = times.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((time, surfaces.firsts.partition_point(|&first| first <= corner).checked_sub(1)?))
+    }
+}
+
+impl Surfaces {
+    /// The sides of all bodies that have corners: the corners at their ends, and where these are (length).
+    fn sides(&self) -> impl Iterator<Item = ((usize, usize), [Vec2; 2])> {
+        let corners = self.corners.iter().enumerate().map(|(start, corner)| (start, corner.next));
+        corners.zip(self.boundaries.iter().flat_map(|boundary| boundary.sides().iter().copied()))
+    }
+}
+
+impl Contact {
+    /// What it counts for.
+    fn share(&self) -> f64 {
+        if self.ends.is_some() { 0.5 } else { 1.0 }
+    }
+}
+
+/// A corner at a place found on a side; `sign` is -1 for what lies inside.
+fn contact(corner: usize, ends: Option<[usize; 2]>, found: &Nearest, [from, to]: [Vec2; 2], sign: f64) -> Contact {
+    let distance = found.distance();
+    let outwards = Vec2::new(to.y - from.y, from.x - to.x).try_normalize().unwrap_or_default();
+    let normal = if distance == 0.0 { outwards } else { found.away / distance };
+    Contact { corner, ends, part: found.part, normal: sign * normal, gap: sign * distance }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,98 @@
+//! A short-range repulsion between surfaces.
+
+use motile_base::{InputError, positive};
+
+/// A repulsion between surfaces that come closer than its range, an option for films that are not resolved or that
+/// would drain for ever; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
+/// Cowley's model.
+///
+/// It acts between different interfaces, between an interface and its own images, solids, and rigid walls of any shape,
+/// and has an energy: per length of an interface at the gap d from another surface
+/// ```text
+/// phi(d) = strength range^2 (1/x + 2 ln x - x),    x = d/range < 1,      and nothing beyond,
+/// ```
+/// so that surfaces are pushed apart by the pressure `-phi' = strength range (1/x - 1)^2`, which is `strength range` at
+/// half the range, without bound as the gap closes, and continuous with its derivative where it begins. All forces are
+/// minus the gradient of that energy by the places of the markers, so that those of different bodies have no resultant
+/// and no torque together; rigid walls take up what they are pushed by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Repulsion {
+    strength: f64,
+    range: f64,
+}
+
+/// Part of the range below which the pressure grows in proportion to the gap: steps that are tried may overlap.
+const LEAST: f64 = 0.02;
+
+impl Repulsion {
+    /// A repulsion of that strength (force per length squared) and range (length).
+    ///
+    /// # Errors
+    /// Values that are not positive and finite.
+    pub fn new(strength: f64, range: f64) -> Result<Self, InputError> {
+        Ok(Self {
+            strength: positive("the strength of the repulsion", strength)?,
+            range: positive("the range of the repulsion", range)?,
+        })
+    }
+
+    /// Its strength (force per length squared).
+    #[must_use]
+    pub fn strength(&self) -> f64 {
+        self.strength
+    }
+
+    /// Its range (length).
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// Energy per length of an interface (force) at a gap (length).
+    #[must_use]
+    pub fn energy(&self, gap: f64) -> f64 {
+        let (x, unit) = (gap / self.range, self.strength * self.range * self.range);
+        let inner = |x: f64| unit * (1.0 / x + 2.0 * x.ln() - x);
+        if x >= 1.0 {
+            return 0.0;
+        }
+        if x >= LEAST {
+            return inner(x);
+        }
+        let below = LEAST - x;
+        let pressure = (1.0 / LEAST - 1.0).powi(2);
+        inner(LEAST) + unit * below * (pressure + 0.5 * below * slope(LEAST))
+    }
+
+    /// The pressure (force per length) at a gap (length).
+    #[must_use]
+    pub fn pressure(&self, gap: f64) -> f64 {
+        let (x, unit) = (gap / self.range, self.strength * self.range);
+        if x >= 1.0 {
+            return 0.0;
+        }
+        let nearest = x.max(LEAST);
+        unit * ((1.0 / nearest - 1.0).powi(2) + (nearest - x) * slope(nearest))
+    }
+
+    /// The fastest rate (1/time) at which a film of this thickness (length) opens in fluid of viscosity eta: a pressure
+    /// between two surfaces at the distance d moves them apart by at most d/(4 eta) of it, which is a film's with
+    /// surfaces that slip.
+    pub(crate) fn rate(&self, gap: f64, viscosity: f64) -> f64 {
+        let x = (gap / self.range).clamp(LEAST, 1.0);
+        0.25 * self.strength * self.range * x * slope(x) / viscosity
+    }
+
+    /// The same of films as they are where a moderate pressure is held.
+    pub(crate) fn usual_rate(&self, viscosity: f64) -> f64 {
+        self.rate(0.7 * self.range, viscosity)
+    }
+}
+
+/// Minus the derivative of (1/x - 1)^2.
+fn slope(x: f64) -> f64 {
+    2.0 * (1.0 / x - 1.0) / (x * x)
+}
+
+#[cfg(test)]
+mod tests;

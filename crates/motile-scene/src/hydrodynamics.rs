@@ -1,0 +1,179 @@
+//! From forces at markers to velocities at markers.
+
+#[cfg(test)]
+pub(crate) mod drag_box;
+mod interface_groups;
+mod markers;
+mod substrate;
+
+pub use interface_groups::InterfaceGroups;
+pub use markers::{BodyFlow, MarkerGroup, MarkerKind, Markers};
+pub use substrate::Substrate;
+
+use std::borrow::Cow;
+
+use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};
+use serde::{Deserialize, Serialize};
+
+use crate::{FlowError, gap::Boundary, saved_state::SavedState};
+
+/// Extents, periods and straight walls of the region that the fluid fills.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Domain {
+    /// Lower left corner (length).
+    pub origin: [f64; 2],
+    /// Periods in x and y (length); `None` where the fluid is unbounded or ends at a wall.
+    pub periods: [Option<f64>; 2],
+    /// Heights of the no-slip walls below and above (length).
+    pub walls: Option<[f64; 2]>,
+}
+
+/// Extents, periods and walls of a region about the origin.
+impl From<Region> for Domain {
+    fn from(region: Region) -> Self {
+        let [_, height] = region.lengths();
+        let walls = region.drive().map(|_| [-0.5 * height, 0.5 * height]);
+        let origin = region.lengths().map(|length| if length.is_finite() { -0.5 * length } else { 0.0 });
+        Self { origin, periods: region.periods(), walls }
+    }
+}
+
+/// The fluid as a body sees it: its region, the viscosity around the body, and its resolution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FluidView {
+    /// The region.
+    pub domain: Domain,
+    /// Viscosity of the exterior fluid, or, for a body inside an interface, that of the fluid around it (stress times
+    /// time).
+    pub viscosity: f64,
+    /// Grid spacing (length); `None` where there is no grid.
+    pub spacing: Option<f64>,
+    /// Fourier modes along an interface that the flow resolves; `None` where the markers themselves are the resolution.
+    pub shape_modes: Option<usize>,
+    /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
+    /// displacement normal to an interface of tension gamma decays at most at the rate
+    /// `stiffness * gamma / viscosity`.
+    pub interface_stiffness: f64,
+}
+
+impl FluidView {
+    /// The same for a body that lies in fluid of that viscosity (stress times time), if it is not the exterior fluid.
+    pub(crate) fn in_fluid(&self, viscosity: Option<f64>) -> Cow<'_, Self> {
+        match viscosity {
+            Some(viscosity) => Cow::Owned(Self { viscosity, ..self.clone() }),
+            None => Cow::Borrowed(self),
+        }
+    }
+}
+
+/// Work done since the start, for reports and for tests that pin it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct FlowWork {
+    /// Evaluations of marker velocities.
+    pub evaluations: usize,
+    /// Stokes solves on a grid.
+    pub stokes_solves: usize,
+    /// Forward and inverse two-dimensional transforms on a grid.
+    pub transforms: usize,
+    /// Markers spread to a grid.
+    pub markers_spread: usize,
+    /// Mobility corrections of an interface.
+    pub corrections: usize,
+    /// Iterations of iterative solvers.
+    pub iterations: usize,
+    /// The most iterations that one evaluation took.
+    pub most_iterations: usize,
+}
+
+impl FlowWork {
+    /// Adds one evaluation, during which the work of a flow went from `before` to `after`.
+    pub(crate) fn add(&mut self, before: Self, after: Self) {
+        self.evaluations += after.evaluations - before.evaluations;
+        self.stokes_solves += after.stokes_solves - before.stokes_solves;
+        self.transforms += after.transforms - before.transforms;
+        self.markers_spread += after.markers_spread - before.markers_spread;
+        self.corrections += after.corrections - before.corrections;
+        let iterations = after.iterations - before.iterations;
+        self.iterations += iterations;
+        self.most_iterations = self.most_iterations.max(iterations);
+    }
+}
+
+/// Velocities at the markers of all bodies from the forces they put on the fluid, without inertia.
+///
+/// An implementation owns its scratch and allocates nothing per call while the numbers of markers stay the same.
+pub trait Hydrodynamics: std::fmt::Debug + Send {
+    /// The fluid as bodies see it.
+    fn fluid_view(&self) -> FluidView;
+
+    /// What drives the flow along a channel; by default nothing is said of it.
+    fn drive(&self) -> Option<Drive> {
+        None
+    }
+
+    /// The rigid walls and obstacles at rest that there are besides the straight walls of the domain, sorted, with what
+    /// is rigid to the left of their sides; by default none.
+    fn walls(&self) -> Option<&Boundary> {
+        None
+    }
+
+    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`.
+    ///
+    /// # Errors
+    /// Positions or forces that are not finite, markers beyond a wall, no convergence.
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError>;
+
+    /// The flow at `points` for the positions and forces in `markers` (whose velocities must be those of
+    /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. For pictures and files, not for stepping.
+    ///
+    /// # Errors
+    /// As [`Hydrodynamics::velocities`], and slices of different length.
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
+
+    /// Work done since the start.
+    fn work(&self) -> FlowWork;
+
+    /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration
+    /// starts; by default nothing.
+    fn save(&self) -> SavedState {
+        SavedState::default()
+    }
+
+    /// Takes back what [`Hydrodynamics::save`] wrote. What another flow wrote is of no use and ignored.
+    fn load(&mut self, _saved: &SavedState) {}
+}
+
+/// Hydrodynamics that were chosen at run time.
+impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
+    fn fluid_view(&self) -> FluidView {
+        self.as_ref().fluid_view()
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.as_ref().drive()
+    }
+
+    fn walls(&self) -> Option<&Boundary> {
+        self.as_ref().walls()
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        self.as_mut().velocities(markers)
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        self.as_mut().sample(markers, points, out)
+    }
+
+    fn work(&self) -> FlowWork {
+        self.as_ref().work()
+    }
+
+    fn save(&self) -> SavedState {
+        self.as_ref().save()
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        self.as_mut().load(saved);
+    }
+}

@@ -1,0 +1,144 @@
+//! The flow of the groups of markers that are interfaces, by boundary integrals.
+
+use motile_base::{FlowSample, Vec2, all_points_finite};
+use stokes_layers::{InterfaceFlow, Solution, WarmStart};
+
+use super::{FlowWork, MarkerGroup, MarkerKind, Markers, SolveReport};
+use crate::{FlowError, saved_state::SavedState};
+
+/// Boundary integrals ([`InterfaceFlow`]) for the markers of bodies: every group that is an interface is a curve, and
+/// points on which nothing pulls are carried along.
+#[derive(Debug, Clone)]
+pub struct InterfaceGroups {
+    /// The flow of the interfaces.
+    pub flow: InterfaceFlow,
+    stiffness: f64,
+    samples: Vec<FlowSample>,
+}
+
+impl InterfaceGroups {
+    /// Groups that move with a flow. Until interfaces are known the stiffness is that of one of perimeter 2 pi without
+    /// a contrast.
+    #[must_use]
+    pub fn new(flow: InterfaceFlow) -> Self {
+        let stiffness = stiffness(flow.settings().nodes, std::f64::consts::TAU);
+        Self { flow, stiffness, samples: Vec::new() }
+    }
+
+    /// Fastest relaxation of the interfaces ([`crate::FluidView::interface_stiffness`], 1/length): a wave number q
+    /// decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes carry.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// The stiffness of an interface of that perimeter (length) without a contrast, until interfaces are known.
+    pub fn set_reference_perimeter(&mut self, perimeter: f64) {
+        self.stiffness = stiffness(self.flow.settings().nodes, perimeter);
+    }
+
+    /// Takes the stiffness from the interfaces among the groups, which have these lengths (length).
+    pub fn set_lengths(&mut self, groups: &[MarkerGroup], lengths: impl Iterator<Item = f64>) {
+        let (nodes, viscosity) = (self.flow.settings().nodes, self.flow.viscosity());
+        self.stiffness = fastest(nodes, viscosity, groups, lengths).unwrap_or(self.stiffness);
+    }
+
+    /// Takes over positions and forces of the interfaces.
+    ///
+    /// # Errors
+    /// Those of [`InterfaceFlow::load`].
+    pub fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        let (exterior, Markers { positions, forces, .. }) = (self.flow.viscosity(), markers);
+        Ok(self.flow.load(interfaces(markers).map(|group| group.interface(positions, forces, exterior)))?)
+    }
+
+    /// Fills the velocities of all markers and counts the work.
+    ///
+    /// # Errors
+    /// Those of [`InterfaceFlow::load`] and [`InterfaceFlow::solve`].
+    pub fn velocities(&mut self, markers: &mut Markers, work: &mut FlowWork) -> Result<SolveReport, FlowError> {
+        self.load(markers)?;
+        work.evaluations += 1;
+        let Self { flow, samples, .. } = self;
+        let Solution { iterations, residual, pressure_gradient, .. } = flow.solve()?;
+        work.iterations += iterations;
+        work.most_iterations = work.most_iterations.max(iterations);
+        let lengths = (0..flow.len()).filter_map(|interface| flow.perimeter(interface));
+        if let Some(fastest) = fastest(flow.settings().nodes, flow.viscosity(), &markers.groups, lengths) {
+            self.stiffness = fastest;
+        }
+        let mut interface = 0;
+        for MarkerGroup { range, kind, .. } in &markers.groups {
+            let velocities = &mut markers.velocities[range.clone()];
+            if kind.is_closed_curve() {
+                flow.velocities(interface, velocities)?;
+                interface += 1;
+            } else {
+                samples.resize(range.len(), FlowSample::default());
+                flow.sample(&markers.positions[range.clone()], samples)?;
+                velocities.iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
+            }
+        }
+        Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
+    }
+
+    /// The flow at points for the positions, forces and velocities in `markers`. The next solution starts from what it
+    /// would have started from without this.
+    ///
+    /// # Errors
+    /// Those of [`InterfaceFlow::load`] and [`InterfaceFlow::sample`].
+    pub fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        all_points_finite("the points to sample", points)?;
+        self.load(markers)?;
+        let flow = &mut self.flow;
+        if markers.groups.iter().any(|group| group.kind == MarkerKind::Rigid) {
+            // Velocities do not tell of the layer on a rigid body.
+            let before = flow.warm_start();
+            flow.solve()?;
+            flow.resume(before);
+        } else {
+            for (interface, group) in interfaces(markers).enumerate() {
+                flow.set_velocities(interface, &markers.velocities[group.range.clone()])?;
+            }
+        }
+        Ok(flow.sample(points, out)?)
+    }
+
+    /// The last solution, from which the next one starts, and the stiffness.
+    #[must_use]
+    pub fn save(&self) -> SavedState {
+        let WarmStart { velocities, directions } = self.flow.warm_start();
+        let counts = vec![velocities.len() as u64];
+        SavedState { reals: [&[self.stiffness], velocities.as_slice(), directions.as_slice()].concat(), counts }
+    }
+
+    /// Takes back what [`InterfaceGroups::save`] wrote; what does not fit is ignored.
+    pub fn restore(&mut self, reals: &[f64], counts: &[u64]) {
+        let ([stiffness, rest @ ..], &[count]) = (reals, counts) else { return };
+        let Some((velocities, directions)) = usize::try_from(count).ok().and_then(|n| rest.split_at_checked(n)) else {
+            return;
+        };
+        self.stiffness = *stiffness;
+        self.flow.resume(WarmStart { velocities: velocities.to_vec(), directions: directions.to_vec() });
+    }
+}
+
+/// The groups that are interfaces.
+fn interfaces(markers: &Markers) -> impl Iterator<Item = &MarkerGroup> + Clone {
+    markers.groups.iter().filter(|group| group.kind.is_closed_curve())
+}
+
+/// The largest stiffness of interfaces of these lengths; `None` where there are none.
+fn fastest(nodes: usize, exterior: f64, groups: &[MarkerGroup], lengths: impl Iterator<Item = f64>) -> Option<f64> {
+    let interfaces = groups.iter().filter(|group| group.kind.is_closed_curve());
+    let rates = interfaces.zip(lengths).map(|(group, length)| {
+        let [inside, outside] = group.viscosities(exterior);
+        stiffness(nodes, length) * 2.0 * outside / (outside + inside)
+    });
+    rates.reduce(f64::max)
+}
+
+/// A quarter of the largest wave number of a curve.
+fn stiffness(nodes: usize, perimeter: f64) -> f64 {
+    0.25 * (nodes / 2) as f64 * std::f64::consts::TAU / perimeter
+}

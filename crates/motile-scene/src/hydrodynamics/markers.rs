@@ -1,0 +1,244 @@
+//! The markers of all bodies of a scene in flat arrays.
+
+use std::ops::Range;
+
+use crate::gap::SurfaceCurve;
+use motile_base::{InputError, Vec2, positive, within};
+use stokes_layers::Interface;
+
+/// What a group of markers is, as far as the flow is concerned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum MarkerKind {
+    /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few per
+    /// cent), the last one next to the first.
+    Interface {
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        viscosity_inside: Option<f64>,
+    },
+    /// A closed curve whose markers are not equally spaced.
+    UnevenInterface {
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        viscosity_inside: Option<f64>,
+    },
+    /// The closed outline of a rigid body that moves freely, markers in counter-clockwise order.
+    Rigid,
+    /// Points in no particular order, such as those of an elastic solid.
+    Points,
+}
+
+impl MarkerKind {
+    /// Whether the markers are those of a closed curve.
+    #[must_use]
+    pub fn is_closed_curve(&self) -> bool {
+        *self != Self::Points
+    }
+
+    /// The surface of a body of this many markers, unless it is told otherwise.
+    pub(crate) fn surface(&self, count: usize) -> Vec<SurfaceCurve> {
+        if self.is_closed_curve() { vec![SurfaceCurve::through(0..count, 0)] } else { Vec::new() }
+    }
+
+    /// Viscosity of the fluid inside (stress times time), where it is another one than outside.
+    #[must_use]
+    pub fn viscosity_inside(&self) -> Option<f64> {
+        match self {
+            Self::Interface { viscosity_inside } | Self::UnevenInterface { viscosity_inside } => *viscosity_inside,
+            Self::Rigid | Self::Points => None,
+        }
+    }
+
+    /// Whether the markers are those of a closed curve with fluid inside, in which other bodies may lie.
+    #[must_use]
+    pub fn holds_fluid(&self) -> bool {
+        matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. })
+    }
+}
+
+/// The markers of one body within [`Markers`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkerGroup {
+    /// Which entries of the flat arrays.
+    pub range: Range<usize>,
+    /// What they are.
+    pub kind: MarkerKind,
+    /// The surface of the body.
+    pub surfaces: Vec<SurfaceCurve>,
+    /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` where it is
+    /// that of the exterior fluid.
+    pub viscosity_outside: Option<f64>,
+}
+
+impl MarkerGroup {
+    /// The curves of the surface that can carry layers: those of which markers trace all.
+    pub fn layers(&self) -> impl Iterator<Item = &SurfaceCurve> {
+        self.surfaces.iter().filter(|curve| curve.markers().count() == curve.points.len())
+    }
+
+    /// It as an interface of layers, where the viscosity of the exterior fluid is `exterior`.
+    #[must_use]
+    pub fn interface<'a>(&self, positions: &'a [Vec2], forces: &'a [Vec2], exterior: f64) -> Interface<'a> {
+        let (positions, forces) = (&positions[self.range.clone()], &forces[self.range.clone()]);
+        let viscosities = self.viscosities(exterior);
+        match self.kind {
+            MarkerKind::Rigid => Interface::rigid(positions, forces, viscosities[1]),
+            _ => Interface::closed(positions, forces, viscosities),
+        }
+    }
+
+    /// Viscosities of the fluid inside and right outside of an interface (stress times time), where that of the
+    /// exterior fluid is `exterior`.
+    #[must_use]
+    pub fn viscosities(&self, exterior: f64) -> [f64; 2] {
+        let outside = self.viscosity_outside.unwrap_or(exterior);
+        [self.kind.viscosity_inside().unwrap_or(outside), outside]
+    }
+}
+
+/// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups
+/// together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Markers {
+    /// Positions (length), not wrapped into the box.
+    pub(crate) positions: Vec<Vec2>,
+    /// Forces on the fluid (force, not force per length).
+    pub(crate) forces: Vec<Vec2>,
+    /// Velocities (length per time).
+    pub(crate) velocities: Vec<Vec2>,
+    pub(crate) groups: Vec<MarkerGroup>,
+}
+
+impl Markers {
+    /// No markers.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a group of `count` markers, with positions, forces and velocities zero.
+    pub fn push_group(&mut self, count: usize, kind: MarkerKind) {
+        self.push_body(count, kind, kind.surface(count));
+    }
+
+    /// Adds the markers of a body like [`Markers::push_group`], with its surface ([`crate::Body::surfaces`]).
+    pub fn push_body(&mut self, count: usize, kind: MarkerKind, surfaces: Vec<SurfaceCurve>) {
+        let start = self.positions.len();
+        self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces, viscosity_outside: None });
+        self.resize(start + count);
+    }
+
+    /// Says what fluid a group lies in: one of that viscosity (stress times time), or, `None`, the exterior fluid. A
+    /// [`Scene`](crate::Scene) finds it out by itself.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, no group of that number.
+    pub fn set_viscosity_outside(&mut self, group: usize, viscosity: Option<f64>) -> Result<(), InputError> {
+        if let Some(viscosity) = viscosity {
+            positive("the viscosity around a group of markers", viscosity)?;
+        }
+        let most = self.groups.len().saturating_sub(1);
+        within("the number of a group of markers", group as f64, 0.0, most as f64)?;
+        self.groups[group].viscosity_outside = viscosity;
+        Ok(())
+    }
+
+    /// The same for the groups in their order.
+    pub(crate) fn set_outside(&mut self, viscosities: &[Option<f64>]) {
+        for (group, viscosity) in self.groups.iter_mut().zip(viscosities) {
+            group.viscosity_outside = *viscosity;
+        }
+    }
+
+    /// Removes all groups, keeping the memory.
+    pub fn clear(&mut self) {
+        self.groups.clear();
+        self.resize(0);
+    }
+
+    fn resize(&mut self, count: usize) {
+        for array in [&mut self.positions, &mut self.forces, &mut self.velocities] {
+            array.resize(count, Vec2::ZERO);
+        }
+    }
+
+    /// Positions (length), not wrapped into the box.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec2] {
+        &self.positions
+    }
+
+    /// The positions to be changed.
+    pub fn positions_mut(&mut self) -> &mut [Vec2] {
+        &mut self.positions
+    }
+
+    /// Forces on the fluid (force, not force per length).
+    #[must_use]
+    pub fn forces(&self) -> &[Vec2] {
+        &self.forces
+    }
+
+    /// The forces to be changed.
+    pub fn forces_mut(&mut self) -> &mut [Vec2] {
+        &mut self.forces
+    }
+
+    /// Velocities (length per time).
+    #[must_use]
+    pub fn velocities(&self) -> &[Vec2] {
+        &self.velocities
+    }
+
+    /// The velocities to be changed.
+    pub fn velocities_mut(&mut self) -> &mut [Vec2] {
+        &mut self.velocities
+    }
+
+    /// Positions, forces and velocities to be changed, at once.
+    pub fn lists_mut(&mut self) -> [&mut [Vec2]; 3] {
+        [&mut self.positions, &mut self.forces, &mut self.velocities]
+    }
+
+    /// The groups, one a body.
+    #[must_use]
+    pub fn groups(&self) -> &[MarkerGroup] {
+        &self.groups
+    }
+
+    /// Number of markers.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+}
+
+/// The flow at the markers of one body: lists of as many entries as it has markers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyFlow<'a> {
+    /// Positions (length), not wrapped into the box.
+    pub positions: &'a [Vec2],
+    /// Forces on the fluid (force, not force per length).
+    pub forces: &'a [Vec2],
+    /// Velocities of the fluid (length per time).
+    pub velocities: &'a [Vec2],
+    /// All markers, and hosts and guests by their numbers.
+    pub(crate) all: (&'a Markers, &'a [[usize; 2]]),
+    pub(crate) index: usize,
+}
+
+impl<'a> BodyFlow<'a> {
+    /// Positions (length) of the inner points of the bodies that fill this one ([`crate::Guest`]), and their
+    /// forces on the fluid there (force).
+    pub fn inside(&self) -> impl Iterator<Item = [Vec2; 2]> + use<'a> {
+        let (Self { index, .. }, (markers, guests)) = (*self, self.all);
+        let own = guests.iter().filter(move |[host, _]| *host == index);
+        own.flat_map(|&[_, guest]| markers.groups()[guest].range.clone())
+            .map(|k| [markers.positions[k], markers.forces[k]])
+    }
+}

@@ -1,0 +1,46 @@
+//! Bodies in Stokes flow without inertia: what is common to all bodies and to all ways of computing the flow.
+//!
+//! Bodies put forces on the fluid at their markers; the fluid moves the markers:
+//!
+//! ```text
+//! bodies --forces--> Hydrodynamics --marker velocities--> bodies (rate of their state) --> Integrator
+//! ```
+//!
+//! [`Hydrodynamics`] is everything between forces and velocities; the crates `ib-core` (by a grid) and
+//! `boundary-integral` (without one) have flows, [`Substrate`] is the simplest. A [`Body`] is anything with markers; a
+//! [`Scene`] couples bodies and advances them by an [`integrator`], watches their [gaps](gap), and is saved to a
+//! [`checkpoint`]; observers look on during a [`Run`].
+//!
+//! A point that a spring draws to the origin, on a substrate of friction 2:
+//!
+//! ```
+//! use motile_base::Vec2;
+//! use motile_scene::{MarkerBody, Scene, StepSize, Substrate};
+//!
+//! let mut scene = Scene::new(Substrate::new(2.0)?);
+//! let spring = |positions: &[Vec2], forces: &mut [Vec2]| forces[0] = -3.0 * positions[0];
+//! let point = scene.add(MarkerBody::new("point", vec![Vec2::X], spring));
+//! scene.run(1.0).step_size(StepSize::Adaptive { tolerance: 1e-4 }).go()?;
+//! let place = scene.body(point)?.positions()[0];
+//! println!("at {:.3}", place.x);
+//! assert!((place.x - (-1.5_f64).exp()).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod body;
+pub mod checkpoint;
+mod error;
+pub mod gap;
+mod hydrodynamics;
+pub mod integrator;
+mod saved_state;
+mod scene;
+
+pub use body::{
+    Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning, mirror_points, read_points, write_points,
+};
+pub use error::{BodyError, FlowError, SceneError};
+pub use hydrodynamics::{
+    BodyFlow, Domain, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers, Substrate,
+};
+pub use scene::{Every, Handle, Limiting, Observer, Run, Scene, StepReport, StepSize, System, Warnings};

@@ -1,0 +1,277 @@
+//! Scenes: bodies in a fluid, advanced in time.
+
+mod handle;
+mod mirror;
+mod run;
+mod step_control;
+mod system;
+mod warnings;
+
+pub use handle::Handle;
+pub(crate) use handle::SceneId;
+use mirror::Mirror;
+pub use run::{Every, Observer, Run};
+pub(crate) use step_control::StepControl;
+pub use step_control::{Limiting, StepReport, StepSize};
+pub(crate) use system::Findings;
+pub use system::System;
+pub use warnings::Warnings;
+
+use motile_base::{InputError, finite, positive};
+
+use crate::{
+    Body, Hydrodynamics, Observe, SceneError,
+    body::{StepCause, StepInfo},
+    gap::Repulsion,
+    integrator::{Dynamics as _, ErrorEstimate, Integrator, IntegratorKind, IntegratorWork},
+    saved_state::SavedState,
+};
+
+/// Bodies coupled by a fluid, and the integrator that advances them.
+#[derive(Debug)]
+pub struct Scene<H> {
+    system: System<H>,
+    integrator: Box<dyn Integrator>,
+    step_size: StepSize,
+    pub(crate) control: StepControl,
+    pub(crate) report: StepReport,
+    saved: Vec<f64>,
+    saved_lengths: Vec<usize>,
+    error: ErrorEstimate,
+    mirror: Option<Mirror>,
+}
+
+impl<H: Hydrodynamics> Scene<H> {
+    /// A scene without bodies, advanced by the midpoint rule.
+    #[must_use]
+    pub fn new(hydrodynamics: H) -> Self {
+        Self {
+            system: System::new(hydrodynamics),
+            integrator: IntegratorKind::Midpoint.into(),
+            step_size: StepSize::default(),
+            control: StepControl::default(),
+            report: StepReport::default(),
+            saved: Vec::new(),
+            saved_lengths: Vec::new(),
+            error: ErrorEstimate::default(),
+            mirror: None,
+        }
+    }
+
+    /// The same scene, from its present state on, advanced by another integrator: an [`IntegratorKind`] or one of
+    /// one's own. Handles stay valid.
+    #[must_use]
+    pub fn advanced_by(self, integrator: impl Into<Box<dyn Integrator>>) -> Self {
+        Self { integrator: integrator.into(), control: StepControl::default(), ..self }
+    }
+
+    /// The same scene with a short-range repulsion between interfaces, solids and walls (none by default).
+    #[must_use]
+    pub fn with_repulsion(mut self, repulsion: Repulsion) -> Self {
+        self.system.repulsion = Some(repulsion);
+        self
+    }
+
+    /// The same scene with a bound on gaps (length): a step after which an interface is closer to another body, to its
+    /// own image or to a wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that
+    /// they drain as the kernel and not as the fluid has it. By default gaps are measured ([`System::minimum_gap`],
+    /// [`System::minimum_wall_gap`]) and only overlaps are errors.
+    ///
+    /// # Errors
+    /// A bound that is not finite.
+    pub fn with_least_gap(mut self, bound: f64) -> Result<Self, InputError> {
+        self.system.least_gap = Some(finite("the bound on gaps", bound)?);
+        Ok(self)
+    }
+
+    /// The same scene, held to be its own mirror image in y = 0 from now on: after each step a body and its mirror
+    /// image, which may be itself, are taken to the mean of the two, positions and inner state. An exact solution stays
+    /// symmetric; round-off does not where the symmetric path is unstable, and so both paths can be computed. Bodies
+    /// that are added later are held as well.
+    ///
+    /// # Errors
+    /// [`SceneError::NotSymmetric`] for a body without a mirror image, here or in a later step; in steps also where
+    /// something else is no mirror image, such as walls.
+    pub fn held_symmetric(mut self) -> Result<Self, SceneError> {
+        self.mirror = Some(Mirror::of(&mut self.system)?);
+        Ok(self)
+    }
+
+    /// Adds a body; the handle gives it back.
+    pub fn add<B: Body>(&mut self, body: B) -> Handle<B> {
+        self.system.push(body)
+    }
+
+    /// A body.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
+        self.system.body(handle)
+    }
+
+    /// A body, to be changed between steps.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
+        self.system.body_mut(handle)
+    }
+
+    /// What is seen of a body in the present state, whose flow is computed if it is not known yet: all observables of
+    /// a droplet, say.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene; those of the flow and of the body.
+    pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
+        self.system.observe(handle)
+    }
+
+    /// The bodies, the fluid and the time.
+    #[must_use]
+    pub fn system(&self) -> &System<H> {
+        &self.system
+    }
+
+    /// The same, to evaluate and sample the flow.
+    pub fn system_mut(&mut self) -> &mut System<H> {
+        &mut self.system
+    }
+
+    /// Time since the start (time).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.system.time()
+    }
+
+    /// Steps since the start.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.system.steps()
+    }
+
+    /// Refuses a time step that makes no sense or is above the estimated stability limit of a body at the present
+    /// state.
+    ///
+    /// # Errors
+    /// [`SceneError::Input`], [`SceneError::TimeStepTooLarge`].
+    pub fn check_step(&self, dt: f64) -> Result<(), SceneError> {
+        positive("the time step", dt)?;
+        if let Some((limit, reason, body)) = self.stable_step()
+            && dt > limit
+        {
+            return Err(SceneError::TimeStepTooLarge { dt, limit, reason, body: body.to_owned() });
+        }
+        Ok(())
+    }
+
+    /// The largest stable step of the scene's integrator at the present state (time), or the time in which a film would
+    /// close at its present velocity where that is shorter, what sets it, and of which body.
+    #[must_use]
+    pub fn step_limit(&self) -> Option<(f64, &'static str, &str)> {
+        self.least_limit(|_| true)
+    }
+
+    /// The same for what is stable alone.
+    pub(crate) fn stable_step(&self) -> Option<(f64, &'static str, &str)> {
+        self.least_limit(|cause| cause != StepCause::Accuracy)
+    }
+
+    fn least_limit(&self, counts: impl Fn(StepCause) -> bool) -> Option<(f64, &'static str, &str)> {
+        let (interval, stabilised) = (self.integrator.stability_interval(), self.integrator.stabilised());
+        let mut least: Option<(f64, &str, &str)> = None;
+        self.system.each_limit(&mut |limit, body| {
+            let dt = limit.for_interval(interval, stabilised);
+            if counts(limit.cause) && least.is_none_or(|(shortest, ..)| dt.total_cmp(&shortest).is_lt()) {
+                least = Some((dt, limit.reason, body));
+            }
+        });
+        least
+    }
+
+    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step.
+    /// Stability limits are not looked at here but in [`Scene::check_step`], and during a [`Run`].
+    ///
+    /// # Errors
+    /// A time step that is not positive; those of the bodies and of the flow, also at the state that the step leads to.
+    pub fn step(&mut self, dt: f64) -> Result<(), SceneError> {
+        self.attempt(dt, None).map(|_| ())
+    }
+
+    /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it,
+    /// or after an error, the scene is in the state before the step.
+    pub(crate) fn attempt(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
+        positive("the time step", dt)?;
+        self.system.write_state(&mut self.saved);
+        self.system.write_lengths(&mut self.saved_lengths);
+        let outcome = self.advance(dt, tolerance);
+        if matches!(outcome, Ok(error) if error <= 1.0) {
+            self.system.commit(dt);
+            return outcome;
+        }
+        self.system.restore(&self.saved_lengths, &self.saved)?;
+        let known = self.error.return_to(&mut self.system, &self.saved);
+        outcome.and_then(|error| known.map(|()| error))
+    }
+
+    fn advance(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
+        let Self { system, integrator, error, saved, saved_lengths, mirror, .. } = self;
+        let estimated = tolerance.zip(integrator.error_constant());
+        system.begin_step(StepInfo { dt, stabilised: integrator.stabilised() })?;
+        if estimated.is_some() {
+            error.begin(system, saved)?;
+        }
+        integrator.step(system, dt)?;
+        if estimated.is_some() {
+            error.advanced(system);
+        }
+        system.end_step(dt)?;
+        if let Some(mirror) = mirror {
+            mirror.project(system)?;
+        }
+        system.check_gaps()?;
+        // The flow at the end of a step is that at the start of the next.
+        system.evaluate()?;
+        let Some((tolerance, constant)) = estimated else { return Ok(0.0) };
+        // Where the states cannot be compared, the step stays and the next one is judged again.
+        Ok(error.end(system, (saved, saved_lengths), dt, constant)?.map_or(1.0, |error| error / tolerance))
+    }
+
+    /// The steps of the runs of this scene.
+    #[must_use]
+    pub fn step_report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// Stages and estimates of the integrator since the start.
+    #[must_use]
+    pub fn integrator_work(&self) -> IntegratorWork {
+        self.integrator.work()
+    }
+
+    pub(crate) fn load_integrator(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        self.integrator.load(saved)
+    }
+
+    /// The integrator.
+    #[must_use]
+    pub fn integrator(&self) -> &dyn Integrator {
+        self.integrator.as_ref()
+    }
+
+    /// How long the steps of runs are unless they are told otherwise.
+    #[must_use]
+    pub fn step_size(&self) -> StepSize {
+        self.step_size
+    }
+
+    /// The same scene with another step size for its runs (default: half the stability limit).
+    #[must_use]
+    pub fn with_step_size(mut self, step: StepSize) -> Self {
+        self.step_size = step;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,172 @@
+use std::convert::Infallible;
+
+use super::*;
+use crate::hydrodynamics::drag_box::DragBox;
+use crate::{
+    MarkerBody,
+    integrator::{Dynamics, Integrator, IntegratorKind, IntegratorWork},
+};
+use motile_base::{InputError, Vec2};
+
+fn empty() -> Scene<DragBox> {
+    Scene::new(DragBox::new(1.6, 1.0, 0.1))
+}
+
+/// A point that a force of -100 x draws to the origin, without a word on its stable time step.
+fn drawn() -> MarkerBody {
+    MarkerBody::new("drawn", vec![Vec2::new(0.3, 0.0)], |positions, forces| forces[0] = -100.0 * positions[0])
+}
+
+/// The times at which an observer is called.
+fn times(scene: &mut Scene<DragBox>, until: f64, step: StepSize, every: &[Every]) -> Vec<Vec<f64>> {
+    let mut seen = vec![Vec::new(); every.len()];
+    let mut watches: Vec<_> = seen
+        .iter_mut()
+        .map(|times| {
+            move |system: &mut System<DragBox>| {
+                times.push(system.time());
+                Ok::<_, Infallible>(())
+            }
+        })
+        .collect();
+    let mut run = scene.run(until).step_size(step);
+    for (&every, watch) in every.iter().zip(&mut watches) {
+        run = run.observe(every, watch);
+    }
+    run.go().unwrap();
+    drop(watches);
+    seen
+}
+
+#[test]
+fn runs_that_would_never_end_are_refused() {
+    let mut scene = empty();
+    scene.add(drawn().with_stiffness(1.5).unwrap());
+    let error = scene.run(1.0).step_size(StepSize::Fixed(1e-300)).go().unwrap_err();
+    assert!(matches!(error, SceneError::Input(InputError::OutOfRange { .. })), "{error}");
+    scene.add(drawn().with_stiffness(1e12).unwrap());
+    let error = scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go().unwrap_err();
+    assert!(matches!(error, SceneError::StepTooShort { dt, .. } if dt < 1e-10), "{error}");
+    assert!(scene.run(1e-9).step_size(StepSize::OfLimit(0.5)).go().is_ok());
+}
+
+#[test]
+fn reports_are_exact_or_after_a_step() {
+    for step in [StepSize::Fixed(0.7), StepSize::OfLimit(0.5), StepSize::Adaptive { tolerance: 1e-3 }] {
+        let mut scene = empty();
+        scene.add(drawn().with_stiffness(1.5).unwrap());
+        let every = [Every::Time(2.0), Every::StepAfter(2.0), Every::Time(0.9)];
+        let seen = times(&mut scene, 6.5, step, &every);
+        assert_eq!(seen[0], [0.0, 2.0, 4.0, 6.0, 6.5]);
+        assert!(seen[1].len() >= 5 && seen[1][1] >= 2.0 && seen[1][2] >= 4.0, "{seen:?}");
+        assert!(seen[2].iter().zip([0.0, 0.9, 1.8, 2.7, 3.6, 4.5, 5.4, 6.3, 6.5]).all(|(a, b)| (a - b).abs() < 1e-12));
+        // The next run goes on with them.
+        assert_eq!(times(&mut scene, 9.0, step, &[Every::Time(2.0)]), [[6.5, 8.0, 9.0]]);
+    }
+    let mut scene = empty();
+    let seen = times(&mut scene, 2.1, StepSize::Fixed(0.7), &[Every::StepAfter(1.0)]);
+    assert!(seen[0].iter().zip([0.0, 1.4, 2.1]).all(|(a, b)| (a - b).abs() < 1e-12), "{seen:?}");
+}
+
+/// Steps that end at a report say nothing about those that follow.
+#[test]
+fn exact_reports_leave_the_adaptive_steps_as_they_are() {
+    let steps = |every: &[Every]| {
+        let mut scene = empty();
+        scene.add(drawn());
+        times(&mut scene, 40.0, StepSize::Adaptive { tolerance: 1e-4 }, every);
+        (scene.step_report().clone(), scene.steps())
+    };
+    let (free, count) = steps(&[]);
+    let (reported, more) = steps(&[Every::Time(4.0)]);
+    assert!(more <= count + 2 * 10, "{count} {more}");
+    assert!(reported.shortest > 0.3 * free.shortest, "{free:?} {reported:?}");
+}
+
+#[test]
+fn an_interval_far_below_the_step_is_refused() {
+    for (interval, refused) in [(1e-9, true), (1e-300, true), (1e-3, false)] {
+        let mut scene = empty();
+        let mut look = |_: &mut System<DragBox>| Ok::<_, Infallible>(());
+        let ended = scene.run(2.0).observe(Every::Time(interval), &mut look).go();
+        match ended {
+            Err(SceneError::Input(InputError::OutOfRange { value, .. })) => {
+                assert!(refused && value == interval);
+                assert_eq!(scene.steps(), 0);
+            }
+            other => assert!(!refused && other.is_ok(), "{other:?}"),
+        }
+        // After every step, since each is longer.
+        let mut scene = empty();
+        let seen = times(&mut scene, 2.0, StepSize::Fixed(0.5), &[Every::StepAfter(interval)]);
+        assert_eq!(seen[0], [0.0, 0.5, 1.0, 1.5, 2.0]);
+    }
+}
+
+#[test]
+fn a_run_needs_a_bound_on_its_steps() {
+    let mut scene = empty();
+    let point = scene.add(drawn());
+    let mut calls = 0;
+    let mut look = |_: &mut System<DragBox>| {
+        calls += 1;
+        Ok::<_, Infallible>(())
+    };
+    let error = scene.run(50.0).observe(Every::Steps(1), &mut look).go().unwrap_err();
+    assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
+    assert!(error.to_string().contains("`StepSize::Fixed`"), "{error}");
+    assert_eq!((calls, scene.steps(), scene.time()), (0, 0, 0.0));
+    // The method that bounds its errors has no better idea of what is stable.
+    let mut scene = scene.advanced_by(IntegratorKind::RungeKuttaChebyshev);
+    assert!(matches!(scene.run(50.0).go(), Err(SceneError::NoStepLimit { .. })));
+    let mut scene = scene.advanced_by(IntegratorKind::Midpoint);
+    for step in [StepSize::Fixed(0.01), StepSize::Adaptive { tolerance: 1e-4 }] {
+        scene.body_mut(point).unwrap().positions_mut()[0].x = 0.3;
+        scene.run(scene.time() + 1.0).step_size(step).go().unwrap();
+        assert!(scene.body(point).unwrap().positions()[0].length() < 1e-2, "{step:?}");
+    }
+    // A bound that a body states, and a scene in which nothing moves.
+    let mut scene = empty();
+    let point = scene.add(drawn().with_stiffness(100.0).unwrap());
+    scene.run(1.0).go().unwrap();
+    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
+    let mut scene = empty();
+    scene.run(2.0).go().unwrap();
+    assert_eq!((scene.steps(), scene.time()), (1, 2.0));
+}
+
+/// Explicit Euler, which says nothing of its errors.
+#[derive(Debug)]
+struct Euler;
+
+impl Integrator for Euler {
+    fn name(&self) -> &'static str {
+        "Euler's method"
+    }
+
+    fn step(&mut self, system: &mut dyn Dynamics, dt: f64) -> Result<(), SceneError> {
+        let mut state = Vec::new();
+        system.write_state(&mut state);
+        let mut rate = vec![0.0; state.len()];
+        system.present_rate(&mut rate)?;
+        state.iter_mut().zip(&rate).for_each(|(y, f)| *y += dt * f);
+        system.read_state(&state)
+    }
+
+    fn stability_interval(&self) -> f64 {
+        2.0
+    }
+}
+
+#[test]
+fn adaptive_steps_need_an_estimate_of_errors() {
+    let mut scene = empty().advanced_by(Euler);
+    let point = scene.add(drawn().with_stiffness(100.0).unwrap());
+    let adaptive = StepSize::Adaptive { tolerance: 1e-4 };
+    let error = scene.run(1.0).step_size(adaptive).go().unwrap_err();
+    assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");
+    assert_eq!(scene.steps(), 0);
+    scene.run(1.0).go().unwrap();
+    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
+    assert_eq!(scene.integrator_work(), IntegratorWork::default());
+}

@@ -1,0 +1,289 @@
+//! How near the bodies come to one another and to walls.
+
+use std::borrow::Cow;
+
+use super::{Known, System};
+use crate::{
+    Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
+    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, REACH, Repulsion, Surfaces, Surroundings, wall_gap},
+};
+use motile_base::{Drive, Vec2};
+
+/// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
+/// neighbouring nodes of an interface where there is no grid.
+const RESOLVED_CELLS: f64 = 1.0;
+/// The same in channels of given flux: what a droplet displaces has to pass it, and slow swimmers err by more.
+const RESOLVED_CELLS_CLOSED: f64 = 5.5;
+const RESOLVED_NODES: f64 = 0.3;
+/// Gaps below this, in units of what a contact is measured in, close as if they were that wide: what touches at the
+/// start sets no step.
+const THINNEST: f64 = 0.02;
+
+impl<H: Hydrodynamics> System<H> {
+    /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
+    /// a wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
+    /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
+    pub fn wall_gap(&mut self) -> Option<f64> {
+        let domain = self.hydrodynamics.fluid_view().domain;
+        let (straight, others) = (domain.walls, self.hydrodynamics.walls().is_some());
+        if straight.is_none() && !others {
+            return None;
+        }
+        self.place_markers();
+        let interfaces =
+            self.markers.groups().iter().filter(|group| group.kind.is_closed_curve() && !group.range.is_empty());
+        let gaps = interfaces.flat_map(|group| {
+            let positions = &self.markers.positions[group.range.clone()];
+            let others = self.hydrodynamics.walls().and_then(|walls| walls.smallest(positions, domain.periods));
+            [straight.map(|walls| wall_gap(positions, walls)), others.map(|(gap, _)| gap)].into_iter().flatten()
+        });
+        gaps.reduce(|least, gap| if gap < least || gap.is_nan() { gap } else { least })
+    }
+
+    /// The gap between two bodies at the present state (length): the smallest distance of the corners of the boundary
+    /// of each, or of its markers where it has none, from the boundary of the other, over all images. Negative where
+    /// the bodies overlap; for a body inside an interface the distance from within. `None` where neither has a
+    /// boundary. Needs no evaluation, but memory and time.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`].
+    pub fn gap(
+        &self,
+        first: impl Into<Handle<dyn Body>>,
+        second: impl Into<Handle<dyn Body>>,
+    ) -> Result<Option<f64>, SceneError> {
+        let periods = self.hydrodynamics.fluid_view().domain.periods;
+        let outline = |body: Handle<dyn Body>| Ok::<_, SceneError>(Outline::of(self.any_body(body)?, periods));
+        Ok(outline(first.into())?.gap(&outline(second.into())?, periods))
+    }
+
+    /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at
+    /// the end of each step.
+    #[must_use]
+    pub fn minimum_wall_gap(&self) -> Option<f64> {
+        self.minimum_wall_gap
+    }
+
+    /// The smallest gap between an interface and another body, or between an interface and its own image in a periodic
+    /// domain (length): of the present state, and of the states at the ends of steps where it was so narrow that a step
+    /// looks for it, below four grid spacings (without a grid four times the distance of markers). Negative where
+    /// bodies overlap; `None` where there is no such gap. Needs no evaluation, but memory and time.
+    #[must_use]
+    pub fn minimum_gap(&self) -> Option<f64> {
+        let present =
+            self.surfaces().narrowest(&self.hydrodynamics.fluid_view().domain, f64::INFINITY).map(|gap| gap.width);
+        [self.minimum_gap, present].into_iter().flatten().reduce(f64::min)
+    }
+
+    /// The surfaces of the bodies in the present state, laid out anew where that is not known.
+    fn surfaces(&self) -> Cow<'_, Surfaces> {
+        if self.known >= Known::Surfaces {
+            return Cow::Borrowed(&self.surfaces);
+        }
+        let periods = self.hydrodynamics.fluid_view().domain.periods;
+        Cow::Owned(Surfaces::of(self.bodies.iter().map(|body| (Boundary::of(body.as_ref(), periods), body.kind()))))
+    }
+
+    /// Where an interface is nearest to a solid at the present state.
+    pub(crate) fn nearest_solid(&self) -> Option<NearestSolid> {
+        let found = self.surfaces().nearest_solid(self.hydrodynamics.fluid_view().domain.periods);
+        found.map(|(gap, body, marker, place)| NearestSolid {
+            gap,
+            interface: Handle::new(self.id, body),
+            marker,
+            place,
+        })
+    }
+
+    /// The same over the states that steps have looked at alone.
+    pub(crate) fn narrowest_so_far(&self) -> Option<f64> {
+        self.minimum_gap
+    }
+
+    /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
+    /// that the method does not resolve.
+    pub fn warnings(&mut self) -> Vec<Warning> {
+        if !self.apart {
+            // No step has looked at the gaps of this state.
+            self.find_gaps();
+        }
+        let view = self.hydrodynamics.fluid_view();
+        let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&view)).collect();
+        let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
+        let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
+        let resolved = self.resolved_film();
+        for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
+            let message = format!(
+                "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
+                if on_grid(&view).is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+            );
+            warnings.push(Warning {
+                body,
+                cause: "thin film".into(),
+                excess: resolved / gap.max(1e-3 * resolved),
+                message,
+            });
+        }
+        warnings
+    }
+
+    /// The narrowest film in which velocities are within about a per cent (length).
+    fn resolved_film(&self) -> f64 {
+        let view = self.hydrodynamics.fluid_view();
+        let closed = matches!(self.hydrodynamics.drive(), Some(Drive::ZeroFlux | Drive::Flux(_)));
+        let cells = if closed { RESOLVED_CELLS_CLOSED } else { RESOLVED_CELLS };
+        let nodes = || RESOLVED_NODES * self.node_spacing(&view);
+        on_grid(&view).map_or_else(nodes, |spacing| cells * spacing)
+    }
+
+    /// The largest distance of neighbouring nodes of an interface (length).
+    fn node_spacing(&self, view: &FluidView) -> f64 {
+        let groups = self.markers.groups().iter().filter(|group| group.kind.is_closed_curve());
+        let spacings = groups.map(|group| {
+            let markers = &self.markers.positions[group.range.clone()];
+            let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            perimeter / view.shape_modes.unwrap_or(markers.len()) as f64
+        });
+        spacings.fold(0.0, f64::max)
+    }
+
+    /// The repulsion between interfaces, if it is on.
+    #[must_use]
+    pub fn repulsion(&self) -> Option<&Repulsion> {
+        self.repulsion.as_ref()
+    }
+
+    /// Looks at how the bodies lie before anything is computed for them, unless that is known: neither interfaces nor
+    /// solids may be inside other bodies by more than a quarter of the grid spacing.
+    pub(super) fn check_bodies(&mut self) -> Result<(), SceneError> {
+        if self.apart {
+            return Ok(());
+        }
+        self.check_guests()?;
+        let (time, allowed) = (self.time, self.find_gaps());
+        let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
+            let ([body, other], [x, y]) = ([body, other].map(|index| self.name_of(index)), place.into());
+            Err(SceneError::Overlap { time, body, x, y, other, depth, allowed })
+        };
+        if let Some(Gap { body, place, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
+            return overlap(body, other, place, -width);
+        }
+        if let Some(Overlap { body, other, place, depth, .. }) =
+            self.surfaces.first_overlap(&self.hydrodynamics.fluid_view())
+        {
+            return overlap(body, other, place, depth);
+        }
+        self.record_gap();
+        self.apart = true;
+        Ok(())
+    }
+
+    /// Looks at the gaps that a step has led to: interfaces must not have come to be inside other bodies or their own
+    /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
+    pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
+        let any = self.bodies.iter().any(|body| body.kind().is_closed_curve());
+        let (time, mut before) = (self.time, std::mem::take(&mut self.enclosing_before));
+        before.clone_from(&self.enclosing);
+        let allowed = if any { self.find_gaps() } else { 0.0 };
+        let changed = (0..before.len()).find(|&body| before[body] != self.enclosing[body]);
+        if let Some(body) = changed {
+            let place = |around: Option<usize>| match around {
+                Some(outer) => format!("inside {}", self.name_of(outer)),
+                None => "in the exterior fluid".to_owned(),
+            };
+            let [before, now] = [place(before[body]), place(self.enclosing[body])];
+            return Err(SceneError::Containment { time, body: self.name_of(body), before, now });
+        }
+        self.enclosing_before = before;
+        if let Some(Gap { body, place, other, width }) = self.narrowest {
+            let names = || [body, other].map(|index| self.name_of(index));
+            if width < -allowed {
+                let ([body, other], [x, y]) = (names(), place.into());
+                return Err(SceneError::Crossing { time, body, x, y, other, depth: -width, allowed });
+            }
+            if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
+                let [body, other] = names();
+                return Err(SceneError::Gap { time, body, other, gap: width, bound });
+            }
+        }
+        if let Some(bound) = self.least_gap
+            && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
+        {
+            let (body, other) = ("a body".to_owned(), "a wall".to_owned());
+            return Err(SceneError::Gap { time, body, other, gap, bound });
+        }
+        self.apart = true;
+        Ok(())
+    }
+
+    /// Finds the narrowest gap of the present state, and what the bodies lie in; how deep a body may be inside another
+    /// one (length).
+    fn find_gaps(&mut self) -> f64 {
+        self.find_surroundings();
+        let view = self.hydrodynamics.fluid_view();
+        self.narrowest = self.surfaces.narrowest_near(&view, self.least_gap.unwrap_or_default());
+        self.surfaces.allowed(&view)
+    }
+
+    /// Finds the interfaces that the bodies lie in, and the viscosities there.
+    pub(super) fn find_surroundings(&mut self) {
+        self.lay_out();
+        self.surfaces.surroundings(self.hydrodynamics.fluid_view().domain.periods, &mut self.enclosing);
+        for &[host, guest] in &self.guests {
+            self.enclosing[guest] = Some(host);
+        }
+        for index in 0..self.bodies.len() {
+            let enclosing = std::iter::successors(self.enclosing[index], |&outer| self.enclosing[outer]);
+            self.viscosity_around[index] =
+                enclosing.take(self.bodies.len()).find_map(|outer| self.bodies[outer].kind().viscosity_inside());
+        }
+        self.markers.set_outside(&self.viscosity_around);
+    }
+
+    /// Finds how fast films close, and how fast a repulsion opens them, at the present state.
+    pub(super) fn measure_films(&mut self) {
+        (self.closing, self.opening) = (None, 0.0);
+        self.lay_out();
+        if !self.markers.groups().iter().any(|group| group.kind.is_closed_curve()) {
+            return;
+        }
+        let view = self.hydrodynamics.fluid_view();
+        let scale = self.surfaces.contact_scale(&view);
+        let reach = self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale);
+        let (domain, walls) = (view.domain, self.hydrodynamics.walls());
+        self.films.find(&self.surfaces, Surroundings { domain, walls, around: &self.enclosing }, reach);
+        self.closing = self.films.closing(&self.surfaces, &self.markers.velocities, THINNEST * scale);
+        if let Some(repulsion) = &self.repulsion {
+            let stiffness = view.interface_stiffness;
+            self.opening = self.films.relaxation(repulsion, view.viscosity, stiffness);
+        }
+    }
+
+    /// Takes the gap that was found last into the smallest one.
+    pub(super) fn record_gap(&mut self) {
+        if let Some(Gap { width, .. }) = self.narrowest {
+            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
+        }
+    }
+
+    /// The name of a body, with its number where another one has the same.
+    pub(in crate::scene) fn name_of(&self, index: usize) -> String {
+        let name = self.bodies[index].name();
+        let shared = self.bodies.iter().filter(|body| body.name() == name).count() > 1;
+        if shared { format!("{name} (body {index})") } else { name.to_owned() }
+    }
+
+    pub(super) fn record_wall_gap(&mut self) {
+        if let Some(gap) = self.wall_gap() {
+            self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
+        }
+    }
+}
+
+/// The grid spacing (length) where films are on the grid: where interfaces have modes of their own they are not.
+fn on_grid(view: &FluidView) -> Option<f64> {
+    view.spacing.filter(|_| view.shape_modes.is_none())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,204 @@
+//! Steady states from a description: implicit steps in time, then Newton's method.
+
+use motile::setup::{IntegralMethod, Method, Setup};
+use motile_base::Vec2;
+use nalgebra::{DMatrix, DVector};
+
+use crate::iteration::{LARGEST_CHANGE, LEAST_PART, Outcome, SHORTER, USUAL_CHANGE, in_steps};
+use crate::modes::Part;
+use crate::profile::{CROWDING, RESOLVED};
+use crate::system::{Point, System};
+use crate::{Parameter, Profile, SteadyError, SteadyState};
+
+/// Number of nodes on the way to a state, and the most where the droplet on the way needs more.
+const COARSE: usize = 64;
+const FINEST: usize = 160;
+/// Attempts, the quickest first: the most nodes on the way, or none to stay at the first ones, and the change of the
+/// coefficients in a time R^2/D below which Newton's method takes over.
+const ATTEMPTS: [(Option<usize>, f64); 3] = [(None, 0.02), (Some(FINEST), 0.02), (Some(FINEST), 0.003)];
+/// Part of the activity at which a state is looked for where there is none in reach at the whole.
+const WEAKER: f64 = 0.5;
+/// Largest relative change of the velocity by Newton's method: more is another state than the one settled to.
+const SAME_VELOCITY: f64 = 0.3;
+/// First step in time, in units of R^2/D: an implicit step longer than the time in which a disturbance grows would
+/// reverse that disturbance, and with it the direction of swimming.
+const FIRST_STEP: f64 = 5e-3;
+/// Growth of the rates in a step that is still taken: instabilities on the way grow by some e in a step, and rates of
+/// short waves that grow more show a step too long for them.
+const LARGEST_GROWTH: f64 = 3.0;
+/// Steps in time before giving up; a droplet that settles takes some thirty.
+const MOST_STEPS: usize = 80;
+
+impl SteadyState {
+    /// Steady swimmer that a description leads to: implicit steps in time from the start that the description gives,
+    /// on few nodes, then Newton's method at the nodes asked for. A start that is its own mirror image at the x axis
+    /// leads to a state that is, too. Where this fails it is done at half the activity, and the activity then raised
+    /// in steps.
+    ///
+    /// # Errors
+    /// A description of anything but one round active droplet (with rigid discs inside, if any) by the method of
+    /// boundary integrals; no convergence; a state that the nodes do not resolve.
+    pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
+        Self::settled(setup).or_else(|error| {
+            let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
+            let at = |part: f64| Parameter::Activity.with(setup, part * goal);
+            let start = at(WEAKER).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
+            in_steps((start, WEAKER), 0.5 * (1.0 - WEAKER), |last, part| {
+                let missed = |_| SteadyError::NotFound {
+                    what: "a steady swimmer over the activity",
+                    from: Parameter::Activity.get(last.setup()).unwrap_or(f64::NAN),
+                    to: goal,
+                    remedy: "follow the branch from the first value, it may turn back or need more nodes",
+                };
+                let frame = last.point().frame;
+                Self::from_profile(&at(part)?, last.profile(), frame, last.part()).map_err(missed)
+            })
+        })
+    }
+
+    /// State by steps in time and Newton's method, in a few attempts.
+    fn settled(setup: &Setup) -> Result<Self, SteadyError> {
+        let start = start(setup)?;
+        let part = if is_mirror(&start) { Part::Even } else { Part::Full };
+        let mut failure = Outcome::default().failure();
+        for (most_nodes, steady) in ATTEMPTS {
+            let mut settling = Settling::new(setup, &start, part, most_nodes)?;
+            let found = settling.settle(steady).and_then(|()| {
+                let Settling { system, point, .. } = &settling;
+                Self::from_profile(setup, &system.profile(point), point.frame, part)
+            });
+            let model = &settling.system.model;
+            let unit = model.radius * model.diffusion_rate();
+            let near = |a: f64, b: f64| (a - b).abs() < SAME_VELOCITY * (a.abs() + unit);
+            match found {
+                Ok(found) => {
+                    let (ours, settled) = (found.point().frame, settling.point.frame);
+                    if near(ours[0], settled[0]) && near(ours[1], settled[1]) {
+                        return Ok(found);
+                    }
+                    failure = found.outcome().failure();
+                }
+                Err(error) => failure = error,
+            }
+        }
+        Err(failure)
+    }
+}
+
+/// Way of a droplet to a steady state by implicit Euler steps, which grow as the rates fall.
+struct Settling {
+    system: System,
+    point: Point,
+    /// Part of the state that changes.
+    part: Part,
+    /// Rates of change of the coefficients at the point (1/time).
+    rates: DVector<f64>,
+    /// Next step in time (time).
+    step: f64,
+    most_nodes: Option<usize>,
+}
+
+impl Settling {
+    fn new(setup: &Setup, start: &Profile, part: Part, most_nodes: Option<usize>) -> Result<Self, SteadyError> {
+        let mut system = System::new(&with_nodes(setup, COARSE))?;
+        let profile = start.resampled(system.model.nodes(), 0.0)?.centred()?;
+        profile.check_room(setup)?;
+        let point = system.point(&profile, [0.0; 3])?;
+        let rates = system.residual(&point)?;
+        let step = FIRST_STEP / system.model.diffusion_rate();
+        Ok(Self { system, point, part, rates, step, most_nodes })
+    }
+
+    /// Steps until one of R^2/D or more changes all coefficients by less than `steady`.
+    fn settle(&mut self, steady: f64) -> Result<(), SteadyError> {
+        for _ in 0..MOST_STEPS {
+            let change = self.advance()?;
+            if change < steady && self.step * self.system.model.diffusion_rate() > 1.0 {
+                self.point = self.system.rebased(&self.point)?;
+                return Ok(());
+            }
+            self.step *= (USUAL_CHANGE / change).clamp(0.5, 2.0);
+            let strained = self.most_nodes.is_some() && self.system.tail(&self.point)? > RESOLVED;
+            if strained || self.system.is_far(&self.point) {
+                self.rebase()?;
+            }
+        }
+        Err(self.failure(MOST_STEPS))
+    }
+
+    /// Takes one step, shortened until it succeeds; returns the largest change of a coefficient.
+    fn advance(&mut self) -> Result<f64, SteadyError> {
+        let jacobian = self.system.rough_jacobian(&self.point, self.part, &self.rates)?;
+        let shortest = LEAST_PART * FIRST_STEP / self.system.model.diffusion_rate();
+        loop {
+            match self.attempt(&jacobian) {
+                Err(_) if self.step > shortest => self.step *= SHORTER,
+                outcome => return outcome,
+            }
+        }
+    }
+
+    /// Solves (J - 1/dt) dx = -dx/dt, with the conserved quantities and the frame as in Newton's method, and goes
+    /// there unless the change is too large or the rates grow too much.
+    fn attempt(&mut self, jacobian: &DMatrix<f64>) -> Result<f64, SteadyError> {
+        let damped = jacobian - DMatrix::identity(jacobian.nrows(), jacobian.ncols()) / self.step;
+        let equations = self.system.border(&self.point, self.part, &damped, None)?;
+        let correction = self.system.correction(&equations, &self.rates)?;
+        let change = correction.state.amax();
+        if change > LARGEST_CHANGE {
+            return Err(self.failure(1));
+        }
+        let next = self.point.corrected(&correction, 1.0);
+        let rates = self.system.residual(&next)?;
+        if rates.iter().all(|rate| rate.abs() < LARGEST_GROWTH * self.rates.amax()) {
+            (self.point, self.rates) = (next, rates);
+            Ok(change)
+        } else {
+            Err(self.failure(1))
+        }
+    }
+
+    /// Takes the droplet as its own base, with more nodes if it needs and may have them.
+    fn rebase(&mut self) -> Result<(), SteadyError> {
+        self.point = self.system.rebased(&self.point)?;
+        if let Some(most) = self.most_nodes {
+            let mut tail = self.system.tail(&self.point)?;
+            while tail > RESOLVED && self.system.model.nodes() < most {
+                let nodes = (self.system.model.nodes() / 8 * 10).min(most);
+                let profile = self.system.profile(&self.point).resampled(nodes, CROWDING)?;
+                self.system = System::new(&with_nodes(&self.system.model.setup, nodes))?;
+                self.point = self.system.point(&profile, self.point.frame)?;
+                tail = self.system.tail(&self.point)?;
+            }
+        }
+        self.rates = self.system.residual(&self.point)?;
+        Ok(())
+    }
+
+    fn failure(&self, iterations: usize) -> SteadyError {
+        Outcome { iterations, residual: self.rates.amax(), ..Outcome::default() }.failure()
+    }
+}
+
+/// Description at another number of nodes.
+fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
+    Setup { method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }), ..setup.clone() }
+}
+
+/// Droplet from which a run of a description starts, with its discs.
+fn start(setup: &Setup) -> Result<Profile, SteadyError> {
+    let nodes = System::new(setup)?.model.nodes();
+    let fine = with_nodes(setup, nodes.max(2 * COARSE));
+    let droplet = fine.droplet(&fine.droplets[0])?;
+    let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
+    Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
+}
+
+/// True for a droplet that is its own mirror image at the x axis, to the six digits in which squeezed shapes are.
+fn is_mirror(profile: &Profile) -> bool {
+    let other = profile.mirrored();
+    let largest = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let places = |profile: &Profile| profile.positions.iter().chain(&profile.nuclei).copied().collect::<Vec<_>>();
+    places(profile).iter().zip(places(&other)).all(|(a, b)| a.distance(b) < 1e-6)
+        && profile.density.iter().zip(&other.density).all(|(a, b)| (a - b).abs() < 1e-6 * largest)
+}

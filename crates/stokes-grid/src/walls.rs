@@ -1,0 +1,101 @@
+//! Tangential velocities of the walls of a channel.
+
+use motile_base::{all_finite, same_length, sum};
+use num_complex::Complex64;
+
+use crate::transform::RowTransform;
+use crate::{Grid, StokesError};
+
+/// One of the two walls of a channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wall {
+    /// The wall at the first row of nodes.
+    Bottom,
+    /// The wall at the last row of nodes.
+    Top,
+}
+
+/// Tangential velocities (length per time) of both walls of a channel, uniform or functions of x. Walls never move
+/// along their normal.
+///
+/// The default, [`WallMotion::AT_REST`], fits every grid, periodic ones included.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WallMotion {
+    bottom: Vec<f64>,
+    top: Vec<f64>,
+}
+
+impl WallMotion {
+    /// Walls at rest.
+    pub const AT_REST: Self = Self { bottom: Vec::new(), top: Vec::new() };
+
+    /// Walls that slide with uniform velocities (length per time).
+    ///
+    /// # Errors
+    /// A periodic grid, or a velocity that is not finite.
+    pub fn uniform(grid: &Grid, bottom: f64, top: f64) -> Result<Self, StokesError> {
+        Self::from_fn(grid, |_| bottom, |_| top)
+    }
+
+    /// Walls whose velocities (length per time) are functions of x (length, from the grid's origin of coordinates),
+    /// taken at the columns of nodes.
+    ///
+    /// # Errors
+    /// A periodic grid, or a velocity that is not finite.
+    pub fn from_fn(grid: &Grid, bottom: impl Fn(f64) -> f64, top: impl Fn(f64) -> f64) -> Result<Self, StokesError> {
+        if !grid.has_walls() {
+            return Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" });
+        }
+        let x = |i: usize| grid.origin()[0] + i as f64 * grid.spacing();
+        let bottom: Vec<f64> = (0..grid.nx()).map(|i| bottom(x(i))).collect();
+        let top: Vec<f64> = (0..grid.nx()).map(|i| top(x(i))).collect();
+        all_finite("the velocity of the bottom wall", &bottom)?;
+        all_finite("the velocity of the top wall", &top)?;
+        Ok(Self { bottom, top })
+    }
+
+    /// Velocities of a wall (length per time) at the columns of nodes; empty for walls at rest.
+    #[must_use]
+    pub fn velocities(&self, wall: Wall) -> &[f64] {
+        match wall {
+            Wall::Bottom => &self.bottom,
+            Wall::Top => &self.top,
+        }
+    }
+
+    /// Velocity of a wall (length per time) at column `i` of nodes.
+    #[must_use]
+    pub fn at(&self, wall: Wall, i: usize) -> f64 {
+        self.velocities(wall).get(i).copied().unwrap_or(0.0)
+    }
+
+    /// Mean velocity of a wall over x (length per time).
+    #[must_use]
+    pub fn mean(&self, wall: Wall) -> f64 {
+        let velocities = self.velocities(wall);
+        if velocities.is_empty() { 0.0 } else { sum(velocities) / velocities.len() as f64 }
+    }
+
+    /// Writes the Fourier coefficients of the velocities of a wall.
+    pub(crate) fn spectrum(&self, wall: Wall, rows: &mut RowTransform, out: &mut [Complex64]) {
+        let fill = |row: &mut [f64]| {
+            let scale = 1.0 / row.len() as f64;
+            for (i, value) in row.iter_mut().enumerate() {
+                *value = scale * self.at(wall, i);
+            }
+        };
+        rows.forward(fill, out);
+    }
+
+    /// Refuses wall velocities that do not belong to the grid.
+    pub(crate) fn check(&self, grid: &Grid) -> Result<(), StokesError> {
+        let found = self.bottom.len();
+        if found == 0 {
+            Ok(())
+        } else if grid.has_walls() {
+            Ok(same_length("the wall motion", grid.nx(), found)?)
+        } else {
+            Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" })
+        }
+    }
+}

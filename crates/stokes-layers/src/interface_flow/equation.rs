@@ -1,0 +1,246 @@
+//! The integral equation for the velocities on interfaces, over the mean viscosity of each, and its solution by GMRES.
+
+use std::f64::consts::PI;
+
+use crate::{
+    LayerError, Settings,
+    curve::Curve,
+    density::Density,
+    gmres::{Gmres, Outcome},
+    layer::Layers,
+    rigid_motion::RigidMotion,
+};
+
+use super::{interface::Inside, rigid::RigidWalls};
+
+/// Least relative residual that is asked for: round-off of a sum over some nodes.
+const ATTAINABLE: f64 = 1e-15;
+/// Iterations beyond which the residual is computed instead of taken from the recurrence, whose basis loses its
+/// orthogonality to round-off in longer cycles.
+const TRUSTED: usize = 32;
+/// Error of a product over the tolerance that counts as round-off when the residual is computed: products are sums of
+/// some hundred terms, each right to the tolerance.
+const PRODUCTS: f64 = 100.0;
+/// Largest relative residual that is asked for in place of a smaller one that turns out not to be attainable.
+const LOOSEST: f64 = 1e-10;
+
+const FOUR_PI: f64 = 4.0 * PI;
+
+/// Interior and exterior of an interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sides {
+    inside: Inside,
+    /// Viscosity outside (stress times time).
+    outside: f64,
+}
+
+impl Sides {
+    pub(super) fn is_rigid(self) -> bool {
+        self.inside == Inside::Rigid
+    }
+
+    /// Viscosity inside; around a rigid body that outside.
+    pub(super) fn viscosity(self) -> f64 {
+        if let Inside::Fluid { viscosity } = self.inside { viscosity } else { self.outside }
+    }
+
+    /// Factor of the velocity in the double layer, the viscosity inside less that outside. The density of a rigid body
+    /// is the one of the completed equation over the viscosity outside.
+    fn contrast(self) -> f64 {
+        if self.is_rigid() { self.outside } else { self.viscosity() - self.outside }
+    }
+
+    /// Inverse of the mean viscosity, of half the viscosity outside for a rigid body.
+    pub(super) fn mobility(self) -> f64 {
+        2.0 / if self.is_rigid() { self.outside } else { self.viscosity() + self.outside }
+    }
+}
+
+/// The equation for the present interfaces and the memory of its solution.
+#[derive(Debug, Clone)]
+pub(super) struct Equation {
+    pub(super) sides: Vec<Sides>,
+    /// [`Sides::contrast`] of each interface.
+    pub(super) contrasts: Vec<f64>,
+    pub(super) gmres: Gmres,
+    right: Vec<f64>,
+    /// Velocities last solved for, from which the next solution starts: at the nodes, x then y, interface after
+    /// interface.
+    pub(super) solution: Vec<f64>,
+    /// Left-hand side for the last solution.
+    image: Vec<f64>,
+}
+
+impl Equation {
+    pub(super) fn new() -> Self {
+        let [right, solution, image] = Default::default();
+        Self { sides: Vec::new(), contrasts: Vec::new(), gmres: Gmres::recycling(), right, solution, image }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.sides.clear();
+        self.contrasts.clear();
+    }
+
+    pub(super) fn push(&mut self, inside: Inside, outside: f64) {
+        let sides = Sides { inside, outside };
+        self.sides.push(sides);
+        self.contrasts.push(sides.contrast());
+    }
+
+    /// True where a viscosity differs or a body is rigid, so that there is something to iterate.
+    pub(super) fn has_contrast(&self) -> bool {
+        self.contrasts.iter().any(|contrast| *contrast != 0.0)
+    }
+
+    /// The right-hand side of zeros for so many nodes of each interface.
+    pub(super) fn begin(&mut self, nodes: usize) {
+        self.right.clear();
+        self.right.resize(2 * nodes * self.sides.len(), 0.0);
+    }
+
+    /// Right-hand side of each interface, x then y, with its [`Sides::mobility`].
+    pub(super) fn right_sides(&mut self) -> impl Iterator<Item = (&mut [f64], f64)> {
+        let len = self.right.len() / self.sides.len().max(1);
+        self.right.chunks_exact_mut(len.max(1)).zip(self.sides.iter().map(|sides| sides.mobility()))
+    }
+
+    /// Adds the flow of the last layer to the right-hand side.
+    pub(super) fn add_flow(&mut self, layers: &Layers) {
+        for (index, (right, mobility)) in self.right_sides().enumerate() {
+            layers.add_flow(index, mobility / FOUR_PI, right);
+        }
+    }
+
+    /// Solves for the right-hand side, from the last solution or from the right-hand side as a guess; `viscosity` is
+    /// that of the exterior fluid.
+    pub(super) fn solve(
+        &mut self,
+        layers: &mut Layers,
+        walls: Option<&mut RigidWalls>,
+        settings: &Settings,
+        viscosity: f64,
+    ) -> Result<Outcome, LayerError> {
+        let cold = !settings.warm_start || self.solution.len() != self.right.len();
+        let contrast = self.has_contrast();
+        if cold || !contrast {
+            self.solution.clone_from(&self.right);
+        }
+        if !contrast {
+            return Ok(Outcome::default());
+        }
+        if cold {
+            self.gmres.forget();
+        }
+        self.iterate(layers, walls, settings, viscosity).inspect_err(|_| self.solution.clear())
+    }
+
+    fn iterate(
+        &mut self,
+        layers: &mut Layers,
+        mut walls: Option<&mut RigidWalls>,
+        &Settings { tolerance, most_iterations, .. }: &Settings,
+        viscosity: f64,
+    ) -> Result<Outcome, LayerError> {
+        // A rigid motion is multiplied by eta_out alone, one of several interfaces together by the exterior viscosity,
+        // so a residual in it counts that much more.
+        let least = |sides: &Sides| tolerance * sides.outside.min(viscosity) * sides.mobility();
+        let mut goal = self.sides.iter().map(least).fold(tolerance, f64::min).max(ATTAINABLE);
+        let Self { sides, contrasts, gmres, right, solution, image } = self;
+        let operator = Operator { sides, contrasts };
+        let mut product = |v: &[f64], out: &mut [f64], accuracy: f64| {
+            operator.apply(layers, walls.as_deref_mut(), v, accuracy.max(tolerance), out);
+        };
+        let mut outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
+        while outcome.iterations > TRUSTED {
+            image.resize(right.len(), 0.0);
+            product(solution, image, tolerance);
+            let squares = image.iter().zip(right.iter()).zip(solution.iter());
+            let [left, size, scale] = squares.fold([0.0; 3], |[left, size, scale], ((image, right), solution)| {
+                [left + (image - right).powi(2), size + solution * solution, scale + right * right]
+            });
+            let residual = (left / scale).sqrt();
+            if residual <= goal + PRODUCTS * tolerance * (size / scale).sqrt() {
+                break;
+            }
+            if goal > LOOSEST || outcome.residual > goal {
+                outcome.residual = residual;
+                break;
+            }
+            goal *= 10.0;
+            gmres.forget();
+            solution.clone_from(right);
+            let before = outcome.iterations;
+            outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
+            outcome.iterations += before;
+        }
+        let Outcome { iterations, residual } = outcome;
+        if residual <= goal {
+            Ok(outcome)
+        } else {
+            Err(LayerError::NoConvergence { iterations, residual, tolerance: goal })
+        }
+    }
+}
+
+/// Left-hand side of the equation.
+pub(super) struct Operator<'a> {
+    pub(super) sides: &'a [Sides],
+    pub(super) contrasts: &'a [f64],
+}
+
+impl Operator<'_> {
+    /// Left-hand side for velocities v: `out = v + mobility/(4 pi) double layer`, the response of the walls to it, the
+    /// growth term of [`growth`], and twice the mean motion of a rigid body.
+    pub(super) fn apply(
+        &self,
+        layers: &mut Layers,
+        walls: Option<&mut RigidWalls>,
+        v: &[f64],
+        accuracy: f64,
+        out: &mut [f64],
+    ) {
+        let density = Density { values: v, contrasts: self.contrasts };
+        let len = 2 * density.nodes();
+        layers.double_layer(density, accuracy);
+        out.copy_from_slice(v);
+        let values = || v.chunks_exact(len).zip(self.sides).enumerate();
+        for ((index, (v, sides)), out) in values().zip(out.chunks_exact_mut(len)) {
+            layers.add_flow(index, sides.mobility() / FOUR_PI, out);
+            let curve = &layers.curves[index];
+            // Uniform growth is multiplied by eta_in alone.
+            let lacking = 1.0 - sides.viscosity() * sides.mobility();
+            if lacking > 0.0 {
+                growth(curve, lacking, v, out);
+            }
+            if sides.is_rigid() {
+                RigidMotion::of(curve, v).add(curve, 2.0, out);
+            }
+        }
+        if let Some(walls) = walls {
+            walls.respond(layers, layers.dipole_moment(density), false);
+            for ((index, (_, sides)), out) in values().zip(out.chunks_exact_mut(len)) {
+                layers.add_flow(index, sides.mobility() / FOUR_PI, out);
+            }
+        }
+    }
+}
+
+/// Adds `lacking` times the mean of v.n along n: moves the eigenvalue of uniform growth, which incompressible flow does
+/// not have, to that of the other motions.
+fn growth(curve: &Curve, lacking: f64, v: &[f64], out: &mut [f64]) {
+    let (vx, vy) = v.split_at(curve.len());
+    let (x, y) = out.split_at_mut(curve.len());
+    let tangents = &curve.nodes.tangent;
+    let [mut flux, mut length] = [0.0; 2];
+    for (i, t) in tangents.iter().enumerate() {
+        flux += vx[i] * t.im - vy[i] * t.re;
+        length += t.norm_sqr().sqrt();
+    }
+    let mean = lacking * flux / length;
+    for (i, t) in tangents.iter().enumerate() {
+        let factor = mean / t.norm_sqr().sqrt();
+        x[i] += factor * t.im;
+        y[i] -= factor * t.re;
+    }
+}

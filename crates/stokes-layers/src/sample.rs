@@ -1,0 +1,199 @@
+//! The flow at points anywhere: velocity, pressure and velocity gradient.
+
+use std::f64::consts::{PI, TAU};
+
+use motile_base::{FlowSample, Vec2};
+use num_complex::Complex64;
+
+use crate::images::Images;
+use crate::{
+    close_weights::reach,
+    density::Density,
+    greens::{Flow, GreensFunction, Kernels},
+    layer::Layers,
+    plan::Plan,
+    rigid_motion::RigidMotion,
+    transforms::REFINEMENT,
+};
+
+/// Part of a radius by which two positions of the same node may differ by round-off.
+const SAME_NODE: f64 = 1e-10;
+
+/// Evaluation of layers at points, with its working memory.
+#[derive(Debug, Clone)]
+pub(crate) struct Sampler {
+    /// Distance in spacings below which a point is close to a curve.
+    reach: f64,
+    /// The point relative to the images of a curve that it is close to.
+    close: Vec<Complex64>,
+    /// Mean of the double layer in a box.
+    mean: Complex64,
+}
+
+impl Sampler {
+    pub(crate) fn new(tolerance: f64) -> Self {
+        Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default() }
+    }
+
+    /// Writes the flow at points, the single layer less the double layer and the forced flow of a channel. Fluid inside
+    /// a curve, or outside of all, has the viscosity `viscosity(curve)`; the curves that have a motion are rigid
+    /// bodies.
+    pub(crate) fn sample(
+        &mut self,
+        layers: &mut Layers,
+        density: Density<'_>,
+        points: &[Vec2],
+        out: &mut [FlowSample],
+        viscosity: impl Fn(Option<usize>) -> f64,
+        motion: impl Fn(usize) -> Option<RigidMotion>,
+    ) {
+        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
+        layers.curves.iter_mut().for_each(|curve| curve.refine(&mut layers.plans[curve.plan].transforms));
+        layers.refine(density);
+        self.mean = layers.mean_flow(density).unwrap_or_default();
+        if let Some(walls) = &mut layers.walls {
+            walls.prepare_points(&layers.curves, density, &layers.fine, points.clone());
+        }
+        let exterior = viscosity(None);
+        for (index, (point, out)) in points.zip(out).enumerate() {
+            let (flow, inside) = self.flow_at(layers, index, point, density);
+            if let Some(motion) = inside.and_then(&motion) {
+                let arm = Images::of(&layers.region).wrap(point - Complex64::new(motion.centre.x, motion.centre.y));
+                let velocity = motion.at(motion.centre + Vec2::new(arm.re, arm.im));
+                *out = FlowSample { velocity, pressure: 0.0, gradient: [[0.0, -motion.spin], [motion.spin, 0.0]] };
+                continue;
+            }
+            let viscosity = viscosity(inside);
+            let scale = 1.0 / (4.0 * PI * viscosity);
+            let [forced, shear] = layers.forced_flow(point.im, exterior).map(|value| value * exterior / viscosity);
+            *out = FlowSample {
+                velocity: Vec2::new(flow.velocity.re * scale + forced, flow.velocity.im * scale),
+                pressure: flow.pressure / (4.0 * PI),
+                gradient: flow.gradient().map(|row| row.map(|slope| slope * scale)),
+            };
+            out.gradient[0][1] += shear;
+        }
+    }
+
+    /// Flow at the point of that number, and the innermost curve with a density that the point lies inside of.
+    fn flow_at(
+        &mut self,
+        layers: &mut Layers,
+        index: usize,
+        point: Complex64,
+        density: Density<'_>,
+    ) -> (Flow, Option<usize>) {
+        let mut flow = Flow::default();
+        let mut inside = None;
+        let images = Images::of(&layers.region);
+        for number in 0..layers.curves.len() {
+            let curve = &layers.curves[number];
+            let (apart, distance) = (images.wrap(point - curve.centre), self.reach * curve.spacing());
+            let open = curve.is_open();
+            self.close.clear();
+            // An open curve has its own images along x.
+            for shift in images.shifts().filter(|shift| !open || shift.re == 0.0) {
+                let point = apart + shift;
+                let curve = &layers.curves[number];
+                if !open && point.norm() > curve.radius + distance {
+                    continue;
+                }
+                let is_close = |z: &Complex64| curve.wrap(z - point).norm_sqr() < distance * distance;
+                let side = if curve.nodes.position.iter().any(is_close) {
+                    self.close.push(point);
+                    self.add_close(layers, number, point, density, &mut flow)
+                } else {
+                    None
+                };
+                let curve = &layers.curves[number];
+                let smaller = |other: usize| curve.radius < layers.curves[other].radius;
+                let fluid = number < density.contrasts.len();
+                if fluid && inside.is_none_or(smaller) && side.unwrap_or_else(|| curve.winds_around(point)) {
+                    inside = Some(number);
+                }
+            }
+            self.add_nodes(layers, number, apart, density, &mut flow);
+        }
+        match &layers.walls {
+            Some(walls) => walls.add_flow(index, &mut flow),
+            None => flow.velocity += self.mean,
+        }
+        (flow, inside)
+    }
+
+    /// Adds the flow of one image of a curve by the quadrature for close points; true for a point on the left of the
+    /// curve, if it is close to the fine nodes as well.
+    fn add_close(
+        &self,
+        layers: &mut Layers,
+        number: usize,
+        point: Complex64,
+        density: Density<'_>,
+        flow: &mut Flow,
+    ) -> Option<bool> {
+        let Layers { curves, plans, fine, .. } = layers;
+        let curve = &curves[number];
+        let Plan { transforms, weights, .. } = &mut plans[curve.plan];
+        let inside = weights.find(curve, transforms, point, self.reach);
+        for (j, force) in curve.fine.force.iter().enumerate() {
+            flow.add_force(&weights.kernels(j), *force, 1.0);
+        }
+        let contrast = density.contrast(number);
+        if contrast == 0.0 {
+            return inside;
+        }
+        let len = REFINEMENT * curve.len();
+        let velocities = &fine[number * len..(number + 1) * len];
+        // The double layer of a constant is known: with the velocity of the nearest node subtracted, nothing is divided
+        // by a small distance.
+        let constant = if inside.is_some() { velocities[weights.nearest()] } else { Complex64::default() };
+        let turns = match (inside, curve.is_open()) {
+            (None, _) | (Some(false), false) => 0.0,
+            (Some(true), false) => 2.0,
+            (Some(true), true) => 1.0,
+            (Some(false), true) => -1.0,
+        };
+        flow.velocity += constant * (turns * TAU * contrast);
+        let weight = contrast * curve.weight() / REFINEMENT as f64;
+        for (j, velocity) in velocities.iter().enumerate() {
+            flow.add_dipole(&weights.kernels(j), velocity - constant, curve.fine.tangent[j] * weight, 1.0);
+        }
+        inside
+    }
+
+    /// Adds the flow of the nodes of a curve and of all its images but the close ones, which have been added.
+    fn add_nodes(&self, layers: &Layers, number: usize, apart: Complex64, density: Density<'_>, flow: &mut Flow) {
+        let curve = &layers.curves[number];
+        let contrast = density.contrast(number);
+        let weight = curve.weight() * contrast;
+        let velocities = (contrast != 0.0).then(|| density.of(number));
+        let greens = curve.greens();
+        // The quadrature for close points has all images of an open curve in a channel.
+        if curve.is_open() && !self.close.is_empty() && matches!(layers.greens, GreensFunction::Row { .. }) {
+            return;
+        }
+        let images = Images::of(&layers.region);
+        for (i, z) in curve.nodes.position.iter().enumerate() {
+            let nearest = images.wrap(z - apart);
+            let mut add = |k: &Kernels, sign: f64| {
+                flow.add_force(k, curve.nodes.force[i], sign);
+                if let Some((vx, vy)) = velocities {
+                    flow.add_dipole(k, Complex64::new(vx[i], vy[i]), curve.nodes.tangent[i] * weight, sign);
+                }
+            };
+            let mut own = false;
+            for point in &self.close {
+                let d = curve.wrap(z - point);
+                if (d - nearest).norm_sqr() < (SAME_NODE * curve.radius).powi(2) {
+                    own = true;
+                    if curve.is_open() {
+                        add(&greens.without_nearest(d), -1.0);
+                    }
+                } else {
+                    add(&greens.at(d), -1.0);
+                }
+            }
+            add(&if own { layers.greens.without_nearest(nearest) } else { layers.greens.at(nearest) }, 1.0);
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! A branch of steady states over a parameter, with its stability and special points.
+//!
+//! `cargo run --release --example bifurcation_diagram -- --in activity --from -0.3 --to -4` follows the droplet at
+//! rest, and the swimmers that branch off where it polarises, and writes to `out/bifurcation_diagram/`:
+//! `branches.csv`, all points; `special.csv`, folds (kind 0), branch points (1), Hopf points (2) and the ends of
+//! branches (3); `summary.json`, why they end; `diagram.svg` (also as PNG), stable parts drawn through and unstable
+//! ones dashed. With `--swimmer` it starts from the swimmer at `--from`. It goes on with `--resume` where it was broken
+//! off. `--help` lists the flags.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, ensure};
+use clap::Parser;
+use motile::motile_base::Vec2;
+use motile_examples::SteadyFlags;
+use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
+use motile_output::run::{Summary, make_directory, say};
+use motile_output::{CsvTable, Progress};
+use steady_states::{
+    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+};
+
+/// A branch of steady states over a parameter, with its stability and special points.
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    scene: SteadyFlags,
+    /// Parameter
+    #[arg(long = "in", value_name = "PARAMETER", value_parser = parameter)]
+    parameter: Parameter,
+    /// Its first value
+    #[arg(long, allow_hyphen_values = true)]
+    from: f64,
+    /// Its last value
+    #[arg(long, allow_hyphen_values = true)]
+    to: f64,
+    /// Start from the swimmer at the first value instead of the droplet at rest
+    #[arg(long)]
+    swimmer: bool,
+    /// Largest step, as a part of the range
+    #[arg(long, default_value_t = 0.05)]
+    step: f64,
+    /// Another observable for the table, such as beta, active_fraction or stresslet_xx; may be repeated
+    #[arg(long, value_name = "NAME")]
+    observable: Vec<String>,
+    /// Go on from the last point in the directory of the results
+    #[arg(long)]
+    resume: bool,
+    /// Show no progress
+    #[arg(long)]
+    quiet: bool,
+    /// Directory of the results
+    #[arg(long, value_name = "DIRECTORY", default_value = "out/bifurcation_diagram")]
+    out: PathBuf,
+}
+
+fn parameter(text: &str) -> Result<Parameter, String> {
+    let found = Parameter::NAMES.iter().find(|(name, _)| *name == text);
+    let names = || Parameter::NAMES.map(|(name, _)| name).join(", ");
+    found.map(|(_, parameter)| *parameter).ok_or_else(|| format!("must be one of {}", names()))
+}
+
+/// Kind of the end of a branch among special points.
+const END: f64 = 3.0;
+
+/// Columns of every table, before the observables that are asked for.
+const COLUMNS: [&str; 15] = [
+    "branch",
+    "value",
+    "speed",
+    "velocity_x",
+    "velocity_y",
+    "y",
+    "stresslet",
+    "aspect_ratio",
+    "c_max",
+    "c_min",
+    "unstable_modes",
+    "growth_rate",
+    "frequency",
+    "antisymmetric",
+    "tail",
+];
+
+fn main() -> ExitCode {
+    motile_examples::run(draw)
+}
+
+fn draw(flags: &Flags) -> Result<()> {
+    let Flags { parameter, from, to, step, ref out, .. } = *flags;
+    ensure!(from != to, "--from and --to are both {from}: give two values");
+    ensure!(step > 0.0 && step <= 0.5, "--step {step} is not a part of the range: give one between 0 and 0.5");
+    let setup = parameter.with(&flags.scene.setup()?, from)?;
+    make_directory(out)?;
+    let mut diagram = Diagram::new(flags)?;
+    let settings = Continuation { largest_step: step, ..Continuation::new(parameter, from, to) };
+    // A diagram that was broken off on its first branch begins anew, which takes no longer.
+    if diagram.branch > 0 {
+        let (state, upwards) = diagram.last(&setup)?;
+        let rest = Continuation { upwards, ..settings };
+        let mut first = true;
+        let branch =
+            rest.follow(&state, |point, special| std::mem::take(&mut first) || diagram.update_host(point, special))?;
+        diagram.end(&branch)?;
+    } else {
+        let start = if flags.swimmer { SteadyState::find(&setup)? } else { SteadyState::uniform(&setup)? };
+        let known = start.observables()?;
+        for name in &flags.observable {
+            ensure!(known.get(name).is_some(), "--observable {name} is none: give one such as beta or stresslet_xx");
+        }
+        let rest = settings.follow(&start, |point, special| diagram.update_host(point, special))?;
+        diagram.end(&rest)?;
+        // What branches off first; from rest the swimmers along x, of which those along y are others by a turn.
+        let wanted = |point: &SpecialPoint| {
+            let along = point.critical.mode.symmetry == Symmetry::Symmetric;
+            point.kind == SpecialKind::BranchPoint && (flags.swimmer || along)
+        };
+        if let Some(point) = rest.special.into_iter().find(wanted) {
+            diagram.branch += 1;
+            let branch = settings.switch(&point, true, |point, special| diagram.update_host(point, special))?;
+            diagram.end(&branch)?;
+        }
+    }
+    diagram.finish()
+}
+
+/// What is written of a diagram.
+struct Diagram<'a> {
+    flags: &'a Flags,
+    branch: usize,
+    table: CsvTable,
+    /// Kind, value and speed of special points, and frequency and symmetry of their modes.
+    special: CsvTable,
+    before: f64,
+    /// Why each branch ends.
+    ends: Vec<String>,
+    progress: Progress,
+}
+
+impl<'a> Diagram<'a> {
+    fn new(flags: &'a Flags) -> Result<Self> {
+        let names: Vec<&str> = COLUMNS.into_iter().chain(flags.observable.iter().map(String::as_str)).collect();
+        let open = |name: &str, names: &[&str], resume: bool| {
+            let path = flags.out.join(name);
+            if resume { CsvTable::resume(path, names) } else { CsvTable::create(path, names) }
+        };
+        let table = open("branches.csv", &names, flags.resume)?;
+        let branch = table.rows().last().map_or(0, |row| row[0] as usize);
+        let resume = branch > 0 && flags.out.join("last.csv").exists();
+        let table = if resume { table } else { open("branches.csv", &names, false)? };
+        let special = open("special.csv", &["kind", "value", "speed", "frequency", "antisymmetric"], resume)?;
+        let progress = Progress::new(flags.quiet);
+        Ok(Self {
+            flags,
+            branch: if resume { branch } else { 0 },
+            table,
+            special,
+            before: flags.from,
+            ends: Vec::new(),
+            progress,
+        })
+    }
+
+    /// Takes over a point of a branch; whether to go on.
+    fn update_host(&mut self, point: &BranchPoint, special: &[SpecialPoint]) -> bool {
+        self.write(point, special).inspect_err(|error| eprintln!("error: {error:#}")).is_ok()
+    }
+
+    fn write(&mut self, point: &BranchPoint, special: &[SpecialPoint]) -> Result<()> {
+        let Flags { parameter, from, to, ref observable, .. } = *self.flags;
+        for SpecialPoint { kind, critical } in special {
+            let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
+            let frequency = critical.mode.value.im;
+            let note = format!("{} at {} = {at:.7}, frequency {frequency:.5}", kind.name(), parameter.name());
+            self.progress.note(&note);
+            let antisymmetric = critical.mode.symmetry == Symmetry::Antisymmetric;
+            let speed = critical.state.measured()?.speed;
+            self.special.push(&[f64::from(*kind as u8), at, speed, frequency, f64::from(u8::from(antisymmetric))])?;
+            self.special.flush()?;
+        }
+        let seen = point.state.measured()?;
+        let velocity = point.state.velocity();
+        let leading = point.spectrum.leading();
+        let value = |of: fn(&Eigenmode) -> f64| leading.map_or(f64::NAN, of);
+        let mut row = vec![
+            self.branch as f64,
+            point.value,
+            seen.speed,
+            velocity.x,
+            velocity.y,
+            seen.centroid.y,
+            seen.stresslet,
+            seen.aspect_ratio,
+            seen.concentration[0],
+            seen.concentration[1],
+            point.spectrum.unstable() as f64,
+            value(|mode| mode.value.re),
+            value(|mode| mode.value.im),
+            value(|mode| f64::from(u8::from(mode.symmetry == Symmetry::Antisymmetric))),
+            point.state.tail(),
+        ];
+        if !observable.is_empty() {
+            let all = point.state.observables()?;
+            row.extend(observable.iter().map(|name| all.get(name).unwrap_or(f64::NAN)));
+        }
+        self.table.push(&row)?;
+        self.table.flush()?;
+        self.keep(point)?;
+        self.progress.update((point.value - from) / (to - from), || {
+            format!("branch {}: {} {:.4}, speed {:.5}", self.branch, parameter.name(), point.value, seen.speed)
+        });
+        self.before = point.value;
+        Ok(())
+    }
+
+    /// Tells why a branch ends, and where.
+    fn end(&mut self, branch: &Branch) -> Result<()> {
+        let Some(last) = branch.points.last() else { return Ok(()) };
+        let end =
+            format!("branch {} ends at {} = {:.6}: {}", self.branch, branch.parameter.name(), last.value, branch.end);
+        self.progress.note(&end);
+        self.ends.push(end);
+        self.special.push(&[END, last.value, last.state.measured()?.speed, 0.0, 0.0])?;
+        Ok(self.special.flush()?)
+    }
+
+    /// Writes the last point, to go on from.
+    fn keep(&self, point: &BranchPoint) -> Result<()> {
+        let path = self.flags.out.join("last.csv");
+        let partial = path.with_extension("part");
+        let mut table = CsvTable::create(&partial, &["x", "y", "density"])?;
+        let velocity = point.state.velocity();
+        table.push(&[point.value, f64::from(u8::from(point.value > self.before)), 0.0])?;
+        table.push(&[velocity.x, velocity.y, f64::from(u8::from(point.state.is_mirror_symmetric()))])?;
+        let profile = point.state.profile();
+        for (x, density) in profile.positions.iter().zip(&profile.density) {
+            table.push(&[x.x, x.y, *density])?;
+        }
+        table.flush()?;
+        Ok(std::fs::rename(partial, path)?)
+    }
+
+    /// The last point that was written, and whether the parameter grew there.
+    fn last(&mut self, setup: &motile::setup::Setup) -> Result<(SteadyState, bool)> {
+        let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"])?;
+        let [place, velocity, nodes @ ..] = table.rows() else {
+            anyhow::bail!("last.csv is incomplete: run without --resume")
+        };
+        let profile = Profile {
+            positions: nodes.iter().map(|row| Vec2::new(row[0], row[1])).collect(),
+            density: nodes.iter().map(|row| row[2]).collect(),
+            nuclei: Vec::new(),
+        };
+        let setup = self.flags.parameter.with(setup, place[0])?;
+        let moves = Vec2::new(velocity[0], velocity[1]);
+        let state = SteadyState::near(&setup, &profile, moves, velocity[2] == 1.0).context("resuming from last.csv")?;
+        self.before = place[0];
+        Ok((state, place[1] == 1.0))
+    }
+
+    /// Draws the diagram.
+    fn finish(mut self) -> Result<()> {
+        let Flags { parameter, ref out, .. } = *self.flags;
+        let seconds = self.progress.finish();
+        self.table.flush()?;
+        let rows = self.table.rows();
+        let column = |name: &str| COLUMNS.iter().position(|column| *column == name).unwrap_or(0);
+        let panel = |name: &str, label: &str| {
+            let mut plot = Plot::new("").x_axis(parameter.name(), AxisScale::Linear).y_axis(label, AxisScale::Linear);
+            let y = column(name);
+            for branch in 0..=self.branch {
+                for stable in [true, false] {
+                    let shown =
+                        |row: &Vec<f64>| row[0] as usize == branch && (row[column("unstable_modes")] == 0.0) == stable;
+                    // Points of the other kind interrupt the line.
+                    let points = rows.iter().filter(|row| row[0] as usize == branch);
+                    let points = points.map(|row| (row[1], if shown(row) { row[y] } else { f64::NAN }));
+                    let line = Series::line(if stable { "stable" } else { "unstable" }, points);
+                    plot = plot.series(if stable {
+                        line.marker(Marker::Disc)
+                    } else {
+                        line.dashed().marker(Marker::Circle)
+                    });
+                }
+            }
+            plot
+        };
+        let mut speeds = panel("speed", "speed (R_{0}/T)");
+        for kind in [SpecialKind::Fold, SpecialKind::BranchPoint, SpecialKind::Hopf] {
+            let of_kind = self.special.rows().iter().filter(|row| row[0] == f64::from(kind as u8));
+            let points: Vec<(f64, f64)> = of_kind.map(|row| (row[1], row[2])).collect();
+            if !points.is_empty() {
+                speeds = speeds.series(Series::points(kind.name(), points).marker(Marker::Diamond));
+            }
+        }
+        let figure = Figure::new(1).panel(speeds).panel(panel("growth_rate", "leading growth rate (1/T)"));
+        figure.write(out, "diagram")?;
+        let mut summary = Summary::default();
+        summary.put("points", rows.len(), "of all branches");
+        let special = self.special.rows().iter().filter(|row| row[0] != END).count();
+        summary.put("special_points", special, "folds, branch points, Hopf points");
+        summary.put("ends", self.ends, "of branches");
+        summary.put("seconds", seconds, "on one core");
+        summary.write(&out.join("summary.json"))?;
+        say(format_args!("{} points in {seconds:.1} s; results in {}", rows.len(), out.display()));
+        Ok(())
+    }
+}

@@ -1,0 +1,69 @@
+//! The command line of steady states: the droplet, the region, the nodes.
+
+use anyhow::{Result, bail, ensure};
+use clap::Args;
+use motile::motile_base::Region;
+use motile::setup::{IntegralMethod, Method, RigidBodySetup, Setup};
+
+use crate::parse::positive;
+use crate::{AlongFlags, DropletFlags, RegionKind};
+
+/// A scene of one droplet without a grid.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct SteadyFlags {
+    #[command(flatten)]
+    droplet: DropletFlags,
+    /// Region; without it a channel if --width is given, and a box otherwise
+    #[arg(long, value_enum)]
+    region: Option<RegionKind>,
+    /// Side of the periodic box (R0)
+    #[arg(long = "box", value_name = "SIDE", default_value_t = 6.0, value_parser = positive)]
+    side: f64,
+    /// Distance of the walls (R0) [default: 3]
+    #[arg(long, value_parser = positive)]
+    width: Option<f64>,
+    #[command(flatten)]
+    along: AlongFlags,
+    /// Radius of a rigid nucleus (R0) [default: there is none]
+    #[arg(long, value_name = "RADIUS", value_parser = positive, allow_hyphen_values = true)]
+    core_radius: Option<f64>,
+    /// Where the nucleus starts, from the droplet's centre (R0): aside, the droplet may go round in circles
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    core_offset: Vec<f64>,
+    /// Nodes of shape and concentration
+    #[arg(long, default_value_t = 96)]
+    nodes: usize,
+}
+
+impl SteadyFlags {
+    /// The scene.
+    ///
+    /// # Errors
+    /// Flags that do not fit together, a scene that cannot be.
+    pub fn setup(&self) -> Result<Setup> {
+        let Self { side, width, nodes, along: AlongFlags { length, lateral_offset, drive }, .. } = *self;
+        let kind = self.region.unwrap_or(if width.is_some() { RegionKind::Channel } else { RegionKind::Box });
+        ensure!(width.is_none() || kind == RegionKind::Channel, "--width means nothing here: give --region channel");
+        let region = match kind {
+            RegionKind::Plane => Region::Plane,
+            RegionKind::Box => Region::Box { lengths: [side; 2] },
+            RegionKind::Channel => Region::Channel { length, width: width.unwrap_or(3.0), drive },
+        };
+        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let mut setup = Setup { region, method, ..Setup::default() };
+        self.droplet.apply(&mut setup)?;
+        setup.droplets[0].centre[1] = lateral_offset;
+        let offset = match self.core_offset.as_slice() {
+            [] => [0.0; 2],
+            &[x, y] if self.core_radius.is_some() => [x, y],
+            _ => bail!("--core-offset is two numbers, as in 0,0.4, and needs --core-radius"),
+        };
+        if let Some(radius) = self.core_radius {
+            let [x, y] = setup.droplets[0].centre;
+            let centre = [x + offset[0], y + offset[1]];
+            setup.rigid_bodies.push(RigidBodySetup { centre, ..RigidBodySetup::disc(radius) });
+        }
+        setup.check()?;
+        Ok(setup)
+    }
+}
