@@ -116,13 +116,17 @@ fn file(name: &str, k: usize) -> PathBuf {
     root().join(format!("docs/tables/{name}{number}.csv"))
 }
 
-/// Commits since `commit` that changed more than comments and tests of what a table depends on.
-fn changes(commit: &str, inputs: &str) -> Result<usize> {
+/// Commits since `commit` that changed more than comments and tests of what a table depends on; `None` where the
+/// history has no such commit.
+fn changes(commit: &str, inputs: &str) -> Result<Option<usize>> {
+    if git(&["cat-file", "-e", &format!("{commit}^{{commit}}")]).is_err() {
+        return Ok(None);
+    }
     let (range, code) = (format!("{commit}..HEAD"), "-G^[[:space:]]*[^/[:space:]]");
     let mut arguments = vec!["log", "--format=%h", code, &range, "--"];
     arguments.extend(inputs.split_whitespace());
     arguments.push(":(exclude)*tests.rs");
-    Ok(git(&arguments)?.lines().count())
+    Ok(Some(git(&arguments)?.lines().count()))
 }
 
 pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
@@ -155,9 +159,10 @@ pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
         }
     }
     for [name, commit, inputs, command] in tables {
-        let count = changes(&commit, &inputs)?;
-        if count > 0 {
-            say(format_args!("{name}: {count} changes since {commit}; {command}"));
+        match changes(&commit, &inputs)? {
+            Some(0) => {}
+            Some(count) => say(format_args!("{name}: {count} changes since {commit}; {command}")),
+            None => say(format_args!("{name}: made at {commit}, which is not in the history; {command}")),
         }
     }
     Ok(())
