@@ -7,6 +7,7 @@ mod filter;
 pub(crate) mod geometry;
 mod limits;
 mod redistribution;
+mod shape;
 mod spectral;
 
 use std::sync::Arc;
@@ -21,10 +22,11 @@ use crate::{
     curve::MINIMUM_MARKERS,
 };
 use filter::ShortWaveFilter;
-use geometry::{Geometry, Shape, equidistribute, motion_rate};
+use geometry::{Geometry, equidistribute, motion_rate};
 use limits::finest_response;
 pub(crate) use limits::grid_spacing;
 use redistribution::redistribute;
+use shape::Shape;
 use spectral::SpectralCurve;
 
 /// Motion of the markers of an interface.

@@ -2,8 +2,6 @@
 
 use motile_base::Vec2;
 
-use super::spectral::SpectralCurve;
-
 /// Geometry of a closed polygon, marker k followed by segment k.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Geometry {
@@ -16,7 +14,7 @@ pub(crate) struct Geometry {
     pub(crate) weights: Vec<f64>,
     /// Unit tangents at the markers, along the half chords; the outward normal is (tau_y, -tau_x).
     pub(crate) tangents: Vec<Vec2>,
-    /// |X_alpha| at the markers (length); only of smooth curves, see [`super::spectral::SpectralCurve`].
+    /// |X_alpha| at the markers (length); only of smooth curves, see `SpectralCurve`.
     pub(crate) stretch: Vec<f64>,
     /// Sum of the lengths of the segments (length).
     pub(crate) perimeter: f64,
@@ -55,45 +53,6 @@ impl Geometry {
     /// Mean length of the segments (length).
     pub(crate) fn mean_length(&self) -> f64 {
         self.perimeter / self.lengths.len() as f64
-    }
-}
-
-/// Markers of a closed curve with the geometry of the curve through them.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Shape {
-    /// Positions (length), counter-clockwise.
-    pub(crate) markers: Vec<Vec2>,
-    pub(crate) geometry: Geometry,
-    /// Count of computations of the geometry, for tests.
-    pub(crate) evaluations: usize,
-}
-
-impl Shape {
-    /// Tells whether the markers are at these positions (x and y of each), bit by bit.
-    pub(crate) fn is_at(&self, positions: &[f64]) -> bool {
-        let same = |marker: &Vec2, pair: &[f64]| {
-            [marker.x.to_bits(), marker.y.to_bits()] == [pair[0], pair[1]].map(f64::to_bits)
-        };
-        2 * self.markers.len() == positions.len()
-            && self.markers.iter().zip(positions.chunks_exact(2)).all(|(marker, pair)| same(marker, pair))
-    }
-
-    /// Moves the markers to these positions, unless they are there.
-    pub(crate) fn move_to(&mut self, positions: &[f64], spectral: Option<&mut SpectralCurve>) {
-        if !self.is_at(positions) {
-            self.markers.clear();
-            self.markers.extend(positions.chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
-            self.update(spectral);
-        }
-    }
-
-    /// Computes the geometry of the smooth curve where there is one for as many markers, else that of the polygon.
-    pub(crate) fn update(&mut self, spectral: Option<&mut SpectralCurve>) {
-        self.evaluations += 1;
-        match spectral.filter(|spectral| spectral.len() == self.markers.len()) {
-            Some(spectral) => spectral.update(&self.markers, &mut self.geometry),
-            None => self.geometry.update(&self.markers),
-        }
     }
 }
 
