@@ -4,15 +4,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use motile::motile_scene::checkpoint::Checkpoint;
 use motile_output::run::Summary;
 
 /// Part of a run after which it is killed.
 const LATE: f64 = 0.8;
-/// Longest that a run may take.
-const PATIENCE: Duration = Duration::from_secs(300);
 
 /// The program of an example, which `cargo test` builds beside this one's directory.
 fn program(example: &str) -> PathBuf {
@@ -37,20 +35,18 @@ fn finish(mut child: Child) -> ExitStatus {
     child.wait().expect("its end")
 }
 
-/// Kills a run when a checkpoint of a time after `time` is there.
+/// Kills a run when a checkpoint of a time after `time` is there; a run ends of itself, which is then a failure.
 fn kill_after(time: f64, checkpoint: &Path, mut child: Child) {
-    let begun = Instant::now();
     while Checkpoint::read(checkpoint).map_or(0.0, |saved| saved.time()) < time {
         let ended = child.try_wait().expect("its state");
         assert!(ended.is_none(), "it ended before it was killed: {ended:?}");
-        assert!(begun.elapsed() < PATIENCE, "no checkpoint of a time after {time}");
         std::thread::sleep(Duration::from_millis(1));
     }
     child.kill().expect("a run that can be killed");
     child.wait().expect("its end");
 }
 
-/// Texts of the results of a run: `summary.json` without what its wall clock time is, and `trajectory.csv`.
+/// Texts of the results of a run: `summary.json` without the wall clock time, and `trajectory.csv`.
 fn results(out: &Path) -> [String; 2] {
     let summary = Summary::read(&out.join("summary.json")).expect("a summary").expect("results");
     let mut values = summary.values().clone();

@@ -2,12 +2,12 @@
 //!
 //! The program `motile-sweep` (`cargo install motile-output --features sweep`; in a clone of the repository `cargo run
 //! --release -p motile-output --features sweep -- plan.toml`) makes the runs of a [`Plan`]: a scene, a time, ranges of
-//! the scene's entries. Each has a folder of its own with scene file, trajectory, checkpoint and summary. What is
-//! finished is not run again (but for other scenes, settings and times, whose results do not count), what was cut goes
-//! on from its checkpoint, what fails is listed and does not keep the others from running. Any number of processes may
-//! work on one sweep: a run belongs to the first that takes it.
-//! `--shard 2/4` takes the second of four shares. `motile-sweep plan.toml collect` makes one table of the results, the
-//! same bytes whoever made the runs in whatever order; `motile-sweep plan.toml status` tells what is left.
+//! the scene's entries. Each run has a folder of its own with scene file, trajectory, checkpoint and summary. Finished
+//! runs are not repeated, unless scene, settings or time have changed; interrupted ones go on from their checkpoints;
+//! failed ones are listed and do not keep the others from running. Several processes may work on one sweep: a run
+//! belongs to the first that takes it. `--shard 2/4` makes the second of four shares. `motile-sweep plan.toml collect`
+//! writes one table of all results, byte for byte the same in whatever order they were made; `motile-sweep plan.toml
+//! status` lists how many runs are left.
 //!
 //! In a program, [`Plan::trials`] are the runs, [`Trial::run`] makes one, and a [`RunPool`] makes many.
 
@@ -28,16 +28,16 @@ pub use trial::{State, Trial};
 
 use crate::run::{Summary, Taken, explained, say, write_results};
 
-/// Makes the runs of a plan, or tells of them.
+/// Options of a sweep: a plan, and what to do with its runs.
 #[derive(Debug, Args)]
 pub struct SweepFlags {
-    /// The plan: a scene, a time, and ranges of the scene's entries (TOML)
+    /// Plan: a scene, a time, and ranges of the scene's entries (TOML)
     #[arg(value_name = "FILE")]
     plan: PathBuf,
-    /// What to do
+    /// Task: make the runs, write one table of their results, or list how many are left
     #[arg(value_enum, default_value_t = Action::Run)]
     action: Action,
-    /// The share of the runs to make, such as 2/4 for the second of four
+    /// Share of the runs to make, such as 2/4 for the second of four
     #[arg(long, value_parser = shard, default_value = "1/1")]
     shard: Shard,
     /// Runs at a time; without it as many as there are processors
@@ -60,11 +60,11 @@ enum Action {
     Run,
     /// Write the results of all finished runs to results.csv
     Collect,
-    /// Tell what is finished, cut, failed and left
+    /// List how many runs are finished, failed, begun and not begun
     Status,
 }
 
-/// One of several shares, counted from 0.
+/// Share of the runs: its number, counted from 0, and the number of shares.
 #[derive(Debug, Clone, Copy)]
 struct Shard {
     number: usize,
@@ -79,10 +79,10 @@ fn shard(text: &str) -> Result<Shard, String> {
     }
 }
 
-/// Makes the runs of the plan, collects their results, or tells of them, as the flags say.
+/// Makes the runs of a plan, collects their results, or lists their states, as the flags say.
 ///
 /// # Errors
-/// A plan that cannot be read or is none; files that cannot be written; runs that failed, or were stopped.
+/// A plan that cannot be read or is not valid; files that cannot be written; runs that failed or were stopped.
 pub fn sweep(flags: &SweepFlags) -> Result<()> {
     let plan = Plan::read(&flags.plan)?;
     let name = flags.plan.file_stem().context("a plan is a file")?;
@@ -149,7 +149,7 @@ fn is_stop(error: &anyhow::Error) -> bool {
     error.downcast_ref::<SceneError>().is_some_and(|error| matches!(error, SceneError::Stopped { .. }))
 }
 
-/// What a run is told by, and what it took, which is not the same on every machine.
+/// Entries of a summary that collected tables leave out: names of the run, and costs, which differ between machines.
 const COST: [&str; 12] = [
     "run",
     trial::FINGERPRINT,

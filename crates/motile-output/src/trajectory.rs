@@ -10,8 +10,7 @@ use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError, SolidMeter, Track};
 
-/// Columns of channels alone; of these the ones that are measured up to rigid walls, which channels of elastic walls do
-/// not have.
+/// Columns that only channels have, and those of them that need rigid walls.
 const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
 const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 /// Columns that channels of curved walls do not have.

@@ -6,7 +6,7 @@ use clap::Parser;
 use motile_output::run::explained;
 use motile_output::sweep::{SweepFlags, sweep};
 
-/// Makes the runs of a plan, on all cores of a machine or on many machines, or tells of them.
+/// Makes the runs of a plan, on all cores of a machine or on many machines, and collects their results.
 #[derive(Debug, Parser)]
 #[command(name = "motile-sweep", version)]
 struct Command {

@@ -2,7 +2,9 @@
 
 use crate::{
     Rgb,
-    drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width, ticks::Ticks},
+    drawing::canvas::Drawing,
+    drawing::shapes::{Anchor, Pen, Pixel, Rect, TextStyle},
+    drawing::{font::text_width, ticks::Ticks},
 };
 
 /// Scale of an axis.

@@ -5,7 +5,7 @@
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use crate::drawing::{Anchor, Pixel, TextStyle};
+use crate::drawing::shapes::{Anchor, Pixel, TextStyle};
 
 const FONT: &[u8] = include_bytes!("../../fonts/NotoSans-subset.ttf");
 

@@ -6,7 +6,7 @@ use tiny_skia::{
     Color, FillRule, FilterQuality, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, PixmapPaint, Stroke, Transform,
 };
 
-use super::{Drawing, Shape};
+use super::{canvas::Drawing, shapes::Shape};
 use crate::{OutputError, Rgb};
 
 /// Largest width and height (pixels).

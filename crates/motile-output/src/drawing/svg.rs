@@ -2,7 +2,7 @@
 
 use tiny_skia::{Path, PathSegment};
 
-use super::{Drawing, Shape, raster};
+use super::{canvas::Drawing, raster, shapes::Shape};
 
 impl Drawing {
     /// Text of an SVG file of the drawing. Lettering is drawn as outlines, so that it looks the same everywhere; its

@@ -2,7 +2,8 @@
 
 use motile::active_interface::observables::ConcentrationProfile;
 
-use crate::plot::{AxisScale, Figure, Plot, Series};
+use crate::drawing::axes::AxisScale;
+use crate::plot::{contents::Plot, figure::Figure, series::Series};
 use crate::{CsvTable, OutputError};
 
 /// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.

@@ -1,8 +1,10 @@
 //! Painting of plots.
 
-use crate::drawing::axes::{Axis, Frame};
+use crate::colour::SERIES_COLOURS;
+use crate::drawing::axes::{Axis, AxisScale, Frame};
 use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width};
-use crate::plot::{AxisScale, Figure, Marker, Plot, SERIES_COLOURS, Series};
+use crate::plot::contents::Plot;
+use crate::plot::series::{Marker, Series};
 use crate::{OutputError, Rgb};
 
 /// Size of the type (pixels of the SVG).
@@ -18,22 +20,21 @@ struct Panel<'a> {
     frame: Frame,
 }
 
-/// Drawing of a figure.
-pub(crate) fn draw(figure: &Figure) -> Result<Drawing, OutputError> {
-    let [width, height] = figure.panel_size;
-    if figure.panels.is_empty() {
+/// Drawing of plots in rows of `columns`, each of a width and height (pixels).
+pub(crate) fn draw(plots: &[Plot], columns: usize, [width, height]: [f64; 2]) -> Result<Drawing, OutputError> {
+    if plots.is_empty() {
         return Err(OutputError::Empty("a figure without plots"));
     }
     OutputError::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
     OutputError::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
-    let columns = figure.columns.min(figure.panels.len());
-    let rows = figure.panels.len().div_ceil(columns);
+    let columns = columns.min(plots.len());
+    let rows = plots.len().div_ceil(columns);
     let panel = |(k, plot)| {
         let (left, top) = ((k % columns) as f64 * width, (k / columns) as f64 * height);
         Panel { plot, frame: frame(plot, Rect { left, top, width, height }, EM) }
     };
     let mut drawing = Drawing::new([columns as f64 * width, rows as f64 * height]);
-    figure.panels.iter().enumerate().map(panel).for_each(|panel| panel.paint(&mut drawing));
+    plots.iter().enumerate().map(panel).for_each(|panel| panel.paint(&mut drawing));
     Ok(drawing)
 }
 

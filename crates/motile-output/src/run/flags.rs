@@ -8,13 +8,13 @@ use clap::Args;
 use motile::motile_scene::{Run, Scene, SceneError, checkpoint::Checkpoint};
 use motile::setup::{AnyFlow, Setup};
 
-use super::make_directory;
 use super::places::{Places, are_one};
+use super::summary::make_directory;
 
-/// Steps between checkpoints unless something else is said.
+/// Default number of steps between checkpoints.
 const EVERY: usize = 500;
 
-/// Files that examples leave in their directory.
+/// Files that runs leave in their directory.
 const RESULTS: [&str; 9] = [
     "summary.json",
     "summary.json.part",
@@ -26,13 +26,14 @@ const RESULTS: [&str; 9] = [
     "concentration_profile.svg",
     "concentration_profile.png",
 ];
-/// A run of a scene that a description made.
+
+/// Run of a scene that was built from a [`Setup`].
 type FlowRun<'a> = Run<'a, AnyFlow>;
 
-/// Whether the user has asked the run to stop.
+/// Request of the user to stop the run.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Checkpoints.
+/// Checkpoints of a run: where they are saved, how often, and from which one the run goes on.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct CheckpointFlags {
     /// File to save checkpoints to; Ctrl-C, SIGTERM and SIGHUP then save one and end the run
@@ -48,11 +49,11 @@ pub struct CheckpointFlags {
 }
 
 impl CheckpointFlags {
-    /// Brings the scene to the state to go on from, if there is one. A checkpoint whose description is another one was
-    /// saved with other flags: the run goes on with those that are given now, and says so.
+    /// Brings the scene to the state of the checkpoint to go on from, if one is given. If the checkpoint was saved with
+    /// other settings, which its description shows, the run goes on with those given now and a note is printed.
     ///
     /// # Errors
-    /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`; a file to save to that
+    /// A checkpoint that cannot be read, is of another scene or not before the time `end`; a file to save to that
     /// cannot be written.
     pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
         self.try_file()?;
@@ -71,7 +72,7 @@ impl CheckpointFlags {
         Ok(())
     }
 
-    /// Makes sure that checkpoints can be saved where they are wanted.
+    /// Refuses a place where checkpoints cannot be saved.
     fn try_file(&self) -> Result<()> {
         let Some(path) = &self.checkpoint else { return Ok(()) };
         let flag = || format!("--checkpoint {}", path.display());
@@ -83,10 +84,10 @@ impl CheckpointFlags {
         std::fs::write(&trial, "trial").and_then(|()| std::fs::remove_file(&trial)).with_context(flag)
     }
 
-    /// The run with checkpoints and Ctrl-C as the flags say; SIGTERM and SIGHUP end it like Ctrl-C.
+    /// Run that saves checkpoints as the flags say and ends on Ctrl-C, SIGTERM and SIGHUP.
     ///
     /// # Errors
-    /// Ctrl-C that cannot be listened to.
+    /// Signals that cannot be caught.
     pub(crate) fn watch<'a>(&'a self, run: FlowRun<'a>, description: &'a str) -> Result<FlowRun<'a>> {
         let Some(path) = &self.checkpoint else { return Ok(run) };
         let every = self.checkpoint_every.unwrap_or(EVERY);
@@ -98,8 +99,8 @@ impl CheckpointFlags {
         Ok(run.save(every, path, description).stop_on(&STOP))
     }
 
-    /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with
-    /// `.last` added to the name, where it failed, so that the last periodic checkpoint stays.
+    /// Saves the last state of a run: to the file of the flags if the run ended or was stopped; if it failed, to a file
+    /// whose name has `.last` added, so that the last periodic checkpoint stays.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -113,7 +114,7 @@ impl CheckpointFlags {
     }
 }
 
-/// What is written where.
+/// Output of a run: which files are written, and where.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct OutputFlags {
     /// Draw no pictures, plots and animations
@@ -128,17 +129,17 @@ pub struct OutputFlags {
     /// Write the scene to this TOML file, for `swimming_droplet --scene`
     #[arg(long, value_name = "FILE")]
     pub write_scene: Option<PathBuf>,
-    /// Checkpoints
+    /// Checkpoints of the run
     #[command(flatten)]
     pub checkpoints: CheckpointFlags,
 }
 
 impl OutputFlags {
-    /// Refuses files of example `name` that are one, by whatever paths and links; `scene` is the scene file that it
-    /// reads. A checkpoint may take the place of the one that the run goes on from.
+    /// Refuses two files of the run `name` that are one and the same, also by links; `scene` is the scene file that it
+    /// reads. A checkpoint may replace the one that the run goes on from.
     ///
     /// # Errors
-    /// Two flags, or a flag and a result, that are one file.
+    /// Two flags, or a flag and a result, that name the same file.
     pub fn check(&self, name: &str, scene: Option<&Path>) -> Result<()> {
         let (directory, mut places) = (self.place(name), Places::default());
         let CheckpointFlags { checkpoint, resume, .. } = &self.checkpoints;
@@ -166,10 +167,10 @@ impl OutputFlags {
         std::fs::write(path, setup.to_toml()?).with_context(|| format!("--write-scene {}", path.display()))
     }
 
-    /// The directory of the results of example `name`, made if it is not there.
+    /// Directory of the results of the run `name`, created if needed.
     ///
     /// # Errors
-    /// It cannot be made.
+    /// A directory that cannot be created.
     pub fn directory(&self, name: &str) -> Result<PathBuf> {
         let directory = self.place(name);
         make_directory(&directory)?;

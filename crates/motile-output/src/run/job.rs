@@ -1,10 +1,10 @@
-//! A run from the first check to the last line, whatever watches it.
+//! Runs from the check of their settings to the written summary, with any observers.
 
 use std::fs::{File, TryLockError};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use super::{OutputFlags, Summary, say};
+use super::{flags::OutputFlags, summary::Summary, words::say};
 use crate::RunProgress;
 use anyhow::{Result, ensure};
 use motile::motile_scene::{Every, Observer, Scene, SceneError, StepSize, System};
@@ -12,18 +12,18 @@ use motile::setup::{AnyFlow, Setup};
 
 /// Most steps of a run: more would take weeks.
 const MOST_STEPS: f64 = 1e9;
-/// Name of the record of the wall clock time.
+/// Name of the record of the computing time.
 const CLOCK: &str = "seconds of computation";
 
-/// An observer of a run, and when it is called.
+/// Observer of a run, with the times at which it is called.
 pub type Watch<'a> = (Every, &'a mut dyn Observer<AnyFlow>);
 
-/// Ends a run: what it was to find out is known.
+/// Error by which an observer ends a run early that has shown its result: no failure.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("the run has shown what it was to show")]
 pub struct Decided;
 
-/// Another run writes to a directory.
+/// Error of a run whose directory is in use by another run.
 #[derive(Debug)]
 pub struct Taken(PathBuf);
 
@@ -35,32 +35,32 @@ impl std::fmt::Display for Taken {
 
 impl std::error::Error for Taken {}
 
-/// A run of a scene: its end, its directory, its checkpoints, its progress and how it went.
+/// Run of a scene, with its directory, end, checkpoints, progress and outcome.
 #[derive(Debug)]
 pub struct Job {
-    /// Where the results go.
+    /// Directory of the results.
     pub directory: PathBuf,
-    /// Time of its end.
+    /// Time at which the run ends.
     pub end: f64,
-    /// Wall clock time that it took, also before the checkpoint that it goes on from (seconds).
+    /// Computing time (seconds of wall clock), including that before the checkpoint that the run goes on from.
     pub seconds: f64,
-    /// What its user should know of it.
+    /// Warnings, each with the time at which it was worst.
     pub warnings: Vec<String>,
     output: OutputFlags,
     description: String,
     outcome: Result<(), SceneError>,
-    /// The directory, for this run alone as long as it lasts.
+    /// Lock on the directory, which keeps other runs out.
     _lock: File,
 }
 
 impl Job {
-    /// A run to the time `end` of the scene that was made from `setup`, from the checkpoint that is asked for on. Its
-    /// results go where `output` says, by default to `out/<name>/`.
+    /// Run to the time `end` of the scene that was built from `setup`, from the checkpoint in `output` on if there is
+    /// one. Its results go to the directory in `output`, by default to `out/<name>/`.
     ///
     /// # Errors
-    /// Two files that are one; a time step that is not stable or so short that the run would take more than 1e9 steps,
-    /// before anything is written; a checkpoint that does not fit; a file or directory that cannot be made, a directory
-    /// that another run writes to ([`Taken`]).
+    /// Before anything is written: two paths of the same file, a time step that is unstable or so short that the run
+    /// would take more than 1e9 steps. Then: a checkpoint of another scene, a file or directory that cannot be created,
+    /// a directory in use by another run ([`Taken`]).
     pub fn new(scene: &mut Scene<AnyFlow>, setup: &Setup, end: f64, output: &OutputFlags, name: &str) -> Result<Self> {
         output.check(name, None)?;
         check_run(scene, end, setup.step)?;
@@ -77,16 +77,16 @@ impl Job {
         Ok(Self { directory, end, seconds, warnings, output, description, outcome, _lock: lock })
     }
 
-    /// Whether pictures are wanted.
+    /// True if pictures are to be drawn.
     #[must_use]
     pub fn draws(&self) -> bool {
         !self.output.no_pictures
     }
 
-    /// Runs to the end, or until an observer ends it by the error [`Decided`] or it breaks off.
+    /// Runs to the end, to an observer's error [`Decided`], or to a failure.
     ///
     /// # Errors
-    /// Checkpoints that cannot be written. Why a run broke off is kept for [`Job::finish`].
+    /// Checkpoints that cannot be written. The failure of the run itself is returned by [`Job::finish`].
     pub fn go(&mut self, scene: &mut Scene<AnyFlow>, observers: Vec<Watch<'_>>) -> Result<()> {
         let Self { output, description, .. } = self;
         let mut progress = RunProgress::new(self.end, output.quiet);
@@ -113,30 +113,30 @@ impl Job {
         output.checkpoints.save(scene, description, &self.outcome)
     }
 
-    /// Whether the run was stopped, to be gone on with.
+    /// True if the run was stopped by a signal: it can go on from its checkpoint.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         matches!(self.outcome, Err(SceneError::Stopped { .. }))
     }
 
-    /// Ends without another word.
+    /// Outcome of the run, without any files.
     ///
     /// # Errors
-    /// What made the run break off.
+    /// The failure of the run.
     pub fn outcome(self) -> Result<(), SceneError> {
         self.outcome
     }
 
-    /// Why the run broke off, if it did.
+    /// Explanation of the failure of the run, if it failed.
     #[must_use]
     pub fn failure(&self) -> Option<String> {
         self.outcome.as_ref().err().map(SceneError::explanation)
     }
 
-    /// Writes `summary.json` and prints its table, draws what `pictures` draws, and ends as the run ended.
+    /// Writes `summary.json`, prints its table, calls `pictures` to draw, and returns the outcome of the run.
     ///
     /// # Errors
-    /// What made the run break off; files that cannot be written.
+    /// The failure of the run; files that cannot be written.
     pub fn finish(self, summary: &Summary, pictures: impl FnOnce() -> Result<()>) -> Result<()> {
         summary.write(&self.directory.join("summary.json"))?;
         say(summary.table().trim_end());
@@ -146,7 +146,7 @@ impl Job {
     }
 }
 
-/// Refuses a run that could not start with its time step, or could not end in a lifetime.
+/// Refuses a run with an unstable time step or more than [`MOST_STEPS`] steps.
 fn check_run(scene: &Scene<AnyFlow>, end: f64, step: StepSize) -> Result<()> {
     let dt = match step {
         StepSize::Fixed(dt) => dt,

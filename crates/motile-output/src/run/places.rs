@@ -1,4 +1,4 @@
-//! Files that a run reads and writes: none of them may be another one.
+//! Paths of the files that a run reads and writes, no two of which may be the same file.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 /// Most symbolic links on the way to a file.
 const MOST_LINKS: usize = 40;
 
-/// Files and directories of a run, each with the words for it in a message.
+/// Files of a run with their names in messages.
 #[derive(Debug, Default)]
 pub(crate) struct Places {
     known: Vec<(String, PathBuf)>,
@@ -17,7 +17,7 @@ impl Places {
     /// Adds a file that is read or written.
     ///
     /// # Errors
-    /// One that is another place by whatever path or link, or that another place is below.
+    /// A file that is already known under another path or link, or lies above or below one.
     pub(crate) fn add(&mut self, what: String, path: &Path) -> Result<()> {
         let path = resolved(path);
         self.check(&what, &path, |there| path.starts_with(there) || there.starts_with(&path))?;
@@ -25,10 +25,10 @@ impl Places {
         Ok(())
     }
 
-    /// Makes sure of a directory, which files may be in.
+    /// Checks a directory, which may contain files of the run.
     ///
     /// # Errors
-    /// One that is a file of the run, or below one.
+    /// A directory that is a file of the run, or below one.
     pub(crate) fn check_directory(&self, what: &str, path: &Path) -> Result<()> {
         let path = resolved(path);
         self.check(what, &path, |there| path.starts_with(there))
@@ -47,13 +47,13 @@ impl Places {
     }
 }
 
-/// Whether two paths are of one file, there or not.
+/// True if two paths lead to one file, which need not exist.
 pub(crate) fn are_one(here: &Path, there: &Path) -> bool {
     let [here, there] = [here, there].map(resolved);
     here == there || is_linked(&here, &there)
 }
 
-/// The path without `.`, `..` and symbolic links, also of a file or directory that is not there yet.
+/// Path without `.`, `..` and symbolic links, also of a file that does not exist yet.
 fn resolved(path: &Path) -> PathBuf {
     let mut links = MOST_LINKS;
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
@@ -80,7 +80,7 @@ fn follow(mut place: PathBuf, path: &Path, links: &mut usize) -> PathBuf {
     place
 }
 
-/// Whether two paths are hard links to one file.
+/// True if two paths are hard links to one file.
 #[cfg(unix)]
 fn is_linked(here: &Path, there: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -89,7 +89,7 @@ fn is_linked(here: &Path, there: &Path) -> bool {
     file(here).is_some() && file(here) == file(there)
 }
 
-/// Whether two paths are hard links to one file: not known here.
+/// Hard links cannot be recognised on this system.
 #[cfg(not(unix))]
 fn is_linked(_here: &Path, _there: &Path) -> bool {
     false

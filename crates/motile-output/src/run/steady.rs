@@ -1,4 +1,4 @@
-//! Whether and when a run became steady.
+//! Steady states: the time from which the speed of a droplet is constant.
 
 use serde_json::{Value, json};
 
@@ -12,25 +12,26 @@ const REST: f64 = 1e-5;
 /// that it is steady.
 const PATIENCE: f64 = 0.5;
 
-/// Whether and when a steady state was reached.
+/// Steadiness of a run, judged by the speed of its droplet.
 ///
-/// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the
-/// speed stays within 0.1 % of it, or after which it stays below 1e-5 D/R0 (at rest), provided that this is at least
-/// the last fifth of the run and at least half a diffusion time R0^2/D.
+/// The final speed is the mean over the last fifth of the run. The state is steady from the time after which the speed
+/// stays within 0.1 % of the final speed, or below 1e-5 D/R0 (at rest). This must last for at least the last fifth of
+/// the run and half a diffusion time R0^2/D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steadiness {
-    /// Since when the state has been steady; `None` if it is not.
+    /// Time from which the state is steady; `None` if it is not.
     pub since: Option<f64>,
-    /// Whether that is rest: a speed below 1e-5 D/R0, be it constant or not.
+    /// True for a steady state at rest: a speed below 1e-5 D/R0, constant or not.
     pub at_rest: bool,
     /// Mean speed over the last fifth of the run (length per time).
     pub final_speed: f64,
-    /// Largest relative deviation from it there.
+    /// Largest deviation of the speed over the last fifth of the run, relative to the final speed (no dimension).
     pub deviation: f64,
 }
 
 impl Steadiness {
-    /// From points (time, speed) in the order of time, and the diffusion constant of the particles in R0^2 per time.
+    /// Steadiness from points (time, speed) in the order of time, with the diffusion constant D of the particles (R0^2
+    /// per time).
     #[must_use]
     pub fn of(points: &[(f64, f64)], diffusion: f64) -> Self {
         let nothing = Self { since: None, at_rest: false, final_speed: f64::NAN, deviation: f64::NAN };
@@ -50,13 +51,13 @@ impl Steadiness {
         Self { since: resting.or(constant), at_rest: resting.is_some(), final_speed: mean, deviation }
     }
 
-    /// As it stands in `summary.json`.
+    /// Entry of `summary.json`: an object with `reached`, `time` and `at_rest`.
     #[must_use]
     pub fn json(&self) -> Value {
         json!({ "reached": self.since.is_some(), "time": self.since, "at_rest": self.at_rest })
     }
 
-    /// What the verdict is based on, in words.
+    /// Criterion that was applied, in words.
     #[must_use]
     pub fn criterion(&self) -> &'static str {
         if self.at_rest {

@@ -1,4 +1,4 @@
-//! The results of a run: a file for programs, a table for people.
+//! Results of a run, as a JSON file and as a table of text.
 
 use std::{collections::HashMap, fmt::Write as _, fs, path::Path};
 
@@ -23,27 +23,27 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Puts in a result: a number (`null` if it is not finite), integer, flag, text, list or `serde_json::json!` value,
-    /// and a few words about it for the table. The same name again replaces it.
+    /// Adds a result, or replaces the one of this name: a number (`null` if it is not finite), integer, flag, text,
+    /// list or `serde_json::json!` value, and a few words about it for the table.
     pub fn put(&mut self, name: &str, value: impl Into<Value>, about: &str) {
         self.values.insert(name.to_string(), value.into());
         self.about.insert(name.to_string(), about.into());
     }
 
-    /// The results by name.
+    /// Results by name.
     #[must_use]
     pub fn values(&self) -> &Map<String, Value> {
         &self.values
     }
 
-    /// The text of `summary.json`.
+    /// Text of `summary.json`.
     #[must_use]
     pub fn json(&self) -> String {
         // `{:#}` of a JSON value is its indented form.
         format!("{:#}\n", Value::Object(self.values.clone()))
     }
 
-    /// The table: names, values to six figures, and what they are.
+    /// Table of the results: names, values to six figures, remarks.
     #[must_use]
     pub fn table(&self) -> String {
         let rows = || self.values.iter().map(|(name, value)| (name, shown(value), self.about.get(name)));
@@ -63,7 +63,7 @@ impl Summary {
     /// Writes `summary.json`. The file appears only when it is complete, so that its presence means a finished run.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// A file that cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
         let partial = path.with_extension("json.part");
         fs::write(&partial, self.json())
@@ -71,8 +71,7 @@ impl Summary {
             .with_context(|| format!("writing {}", path.display()))
     }
 
-    /// The results in a `summary.json` of a finished run; `None` if there is none (studies use it to go on where they
-    /// were broken off).
+    /// Results from the `summary.json` of a finished run; `None` if the file does not exist.
     ///
     /// # Errors
     /// A file that cannot be read or does not hold a JSON object.
@@ -85,14 +84,14 @@ impl Summary {
         Ok(Some(Self { values, about: HashMap::new() }))
     }
 
-    /// A number among the results; not a number if there is none of that name.
+    /// Number among the results; not a number if there is none of that name.
     #[must_use]
     pub fn number(&self, name: &str) -> f64 {
         self.values.get(name).and_then(Value::as_f64).unwrap_or(f64::NAN)
     }
 }
 
-/// A value as a person reads it.
+/// Value as text for the table.
 fn shown(value: &Value) -> String {
     match value {
         Value::Null => "not defined".into(),
@@ -108,7 +107,7 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// A number to six significant figures.
+/// Number to six significant figures.
 fn six_figures(value: f64) -> String {
     let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     if !(-4..9).contains(&magnitude) {
@@ -118,11 +117,11 @@ fn six_figures(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
-/// Writes a table of results, one a row, to a CSV file; the columns are those of the first. Lists and objects are
-/// written as in `summary.json`, `null` as nothing.
+/// Writes the results of several runs to a CSV file, a row for each, with the names of the first as columns. Lists and
+/// objects are written as in `summary.json`, `null` as an empty field.
 ///
 /// # Errors
-/// The file cannot be written.
+/// A file that cannot be written.
 pub fn write_results(path: &Path, results: &[Summary]) -> Result<()> {
     let names: Vec<&String> = results.first().map(|first| first.values().keys().collect()).unwrap_or_default();
     let field = |summary: &Summary, name: &str| match summary.values().get(name) {
@@ -141,10 +140,10 @@ pub fn write_results(path: &Path, results: &[Summary]) -> Result<()> {
     write().with_context(|| format!("writing {}", path.display()))
 }
 
-/// Makes a directory and those above it.
+/// Creates a directory and those above it.
 ///
 /// # Errors
-/// It cannot be made.
+/// A directory that cannot be created.
 pub fn make_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path).with_context(|| format!("making {}", path.display()))
 }

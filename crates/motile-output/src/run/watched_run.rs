@@ -1,4 +1,4 @@
-//! A run of a scene with a droplet, from the first check to the last file.
+//! Runs of scenes with a droplet, from the check of their settings to their pictures.
 
 mod results;
 
@@ -10,23 +10,23 @@ use motile::motile_base::Vec2;
 use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
 use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Particles, Setup};
 
-use super::{Job, OutputFlags, Summary, Watch};
+use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
 use crate::plot::{concentration_plot, time_series};
 use crate::{CsvTable, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
 /// Rows of the trajectory and files for ParaView in a run.
 const ROWS: f64 = 1000.0;
 const FILES: f64 = 20.0;
-/// Time between frames of the animation, of which there are some number in this range.
+/// Time between the frames of the animation, and the smallest and largest number of frames.
 const FRAME_INTERVAL: f64 = 1.2;
 const FRAMES: [f64; 2] = [50.0, 150.0];
 /// Most cells in a direction of the fields in pictures and files.
 const MOST_CELLS: usize = 512;
 /// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
 const COARSER: f64 = 2.0;
-/// How deep a droplet may come into an elastic solid, in grid spacings, before its run ends with an error.
+/// Depth to which a droplet may enter an elastic solid before its run ends with an error (grid spacings).
 const SOLID_OVERLAP: f64 = 0.25;
-/// Side of what is shown of unbounded fluid (R0).
+/// Side of the square that pictures show of unbounded fluid (R0).
 const VIEW: f64 = 12.0;
 /// Distance of streamlines (R0).
 const STREAMLINES: f64 = 0.24;
@@ -34,24 +34,24 @@ const STREAMLINES: f64 = 0.24;
 /// Resolution and caption of the pictures of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// Spacing of the fields in pictures (length); that of the grid where there is one.
+    /// Spacing of the raster of fields in pictures (length).
     pub spacing: f64,
-    /// Text about the region above a picture, empty where the picture shows it.
+    /// Text about the region in the title of a picture; empty where the picture shows the region itself.
     pub region: String,
 }
 
 impl View {
-    /// The spacing of a scene's grid, or 0.05 where it has none; no text.
+    /// View with the spacing of a scene's grid, or 0.05 where it has none, and no text.
     #[must_use]
     pub fn of(setup: &Setup) -> Self {
         Self { spacing: setup.method.spacing().unwrap_or(GridMethod::default().spacing), region: String::new() }
     }
 }
 
-/// A run of a scene with one droplet, and all that watches it.
+/// Run of a scene whose first droplet is measured, drawn and recorded.
 #[derive(Debug)]
 pub struct WatchedRun {
-    /// The scene.
+    /// Scene in its present state.
     pub scene: Scene<AnyFlow>,
     job: Job,
     droplet: Handle<ActiveDroplet>,
@@ -67,8 +67,8 @@ pub struct WatchedRun {
 }
 
 impl WatchedRun {
-    /// A run to the time `end` of the scene that was made from `setup`, watching its first droplet. Its results go
-    /// where `output` says, by default to `out/<name>/`.
+    /// Run to the time `end` of the scene that was built from `setup`, recording its first droplet. Its results go to
+    /// the directory in `output`, by default to `out/<name>/`.
     ///
     /// # Errors
     /// Those of [`Job::new`]; a first droplet without particles.
@@ -107,11 +107,11 @@ impl WatchedRun {
         Ok(Self { scene, job, droplet, particles, method, area, raster: still, start, recorder, pictures, gap })
     }
 
-    /// Runs to the end, or until the observer `end`, which looks at every step, ends it by the error
-    /// [`super::Decided`]. What the scene has come to is recorded even where it breaks off.
+    /// Runs to the end, or until the observer `end`, called at every step, returns the error [`super::Decided`]. The
+    /// last state is recorded even if the run fails.
     ///
     /// # Errors
-    /// Files that cannot be written. Why a run broke off is kept for [`WatchedRun::finish`].
+    /// Files that cannot be written. The failure of the run itself is returned by [`WatchedRun::finish`].
     pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
         let time = self.job.end;
         let mut observers: Vec<Watch<'_>> =
@@ -132,30 +132,30 @@ impl WatchedRun {
         Ok(self.recorder.finish(self.scene.system_mut())?)
     }
 
-    /// Ends without files and pictures but those of the run itself.
+    /// Outcome of the run, without summary and pictures.
     ///
     /// # Errors
-    /// What made the run break off.
+    /// The failure of the run.
     pub fn outcome(self) -> Result<(), SceneError> {
         self.job.outcome()
     }
 
-    /// Times and positions of the droplet.
+    /// Times and centroids of the droplet (length), as [`TrajectoryCsv::track`].
     #[must_use]
     pub fn track(&self) -> Track {
         self.recorder.track()
     }
 
-    /// What was measured of the droplet in the order of time, also before the checkpoint that the run goes on from.
+    /// Observables of the droplet in the order of time, also from before the checkpoint that the run goes on from.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         self.recorder.table()
     }
 
-    /// The number of particles at the start, on the interface and inside.
+    /// Number of particles at the start, on the interface and inside (no dimension).
     ///
     /// # Errors
-    /// A run that has not been.
+    /// A run that has not begun.
     pub fn totals(&self) -> Result<f64> {
         let table = self.recorder.table();
         let first =
@@ -163,16 +163,16 @@ impl WatchedRun {
         Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
     }
 
-    /// The last value in a column of the trajectory; `None` if it has no such column.
+    /// Last value in a column of the trajectory; `None` if it has no such column.
     #[must_use]
     pub fn last_of(&self, column: &str) -> Option<f64> {
         Some(self.recorder.table().curve("time", column).ok()?.last()?.1)
     }
 
-    /// The last of what was measured of the droplet.
+    /// Last measurement of the droplet.
     ///
     /// # Errors
-    /// A run that has not been.
+    /// A run that has not begun.
     pub fn last(&self) -> Result<&TrajectoryRecord> {
         self.recorder.last().context("nothing was measured")
     }
@@ -181,7 +181,7 @@ impl WatchedRun {
     /// pictures are not wanted.
     ///
     /// # Errors
-    /// What made the run break off; files that cannot be written.
+    /// The failure of the run; files that cannot be written.
     pub fn finish(self, summary: &Summary) -> Result<()> {
         let Self { mut scene, job, droplet, particles, raster, start, recorder, pictures, .. } = self;
         let directory = job.directory.clone();
@@ -203,7 +203,7 @@ impl WatchedRun {
     }
 }
 
-/// The parameters of a scene with these particles on its first droplet as they stand above a picture.
+/// Title of pictures: the parameters of a scene with these particles on its first droplet.
 fn caption(setup: &Setup, particles: &Particles, region: &str) -> String {
     let inside = setup.droplets[0].viscosity.map_or(String::new(), |inside| format!("{inside} in "));
     let strength = match particles.excluded_volume {

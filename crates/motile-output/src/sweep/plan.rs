@@ -18,7 +18,7 @@ const LONGEST: usize = 120;
 /// Relative amplitude of perturbed starts.
 const AMPLITUDE: f64 = 0.05;
 
-/// A scene, the time to which it runs, and the values that its entries take.
+/// Plan of a sweep: a scene, the time to which it runs, and the values that its entries take.
 ///
 /// ```toml
 /// scene = "scene.toml"                  # a file beside the plan, or the scene itself as a table
@@ -88,8 +88,10 @@ enum Spacing {
 type Point = Vec<(String, Value)>;
 
 impl Plan {
+    /// Plan from a TOML file.
+    ///
     /// # Errors
-    /// A file that cannot be read or is no plan.
+    /// A file that cannot be read or is not a plan.
     pub fn read(path: &Path) -> Result<Self> {
         let read = || -> Result<Self> {
             let mut plan = Self::of(toml::from_str(&text_of(path)?)?)?;
@@ -103,21 +105,22 @@ impl Plan {
         read().with_context(|| format!("plan {}", path.display()))
     }
 
-    /// The plan of a table.
+    /// Plan from a TOML table that contains its scene.
     ///
     /// # Errors
-    /// A table that is no plan.
+    /// A table that is not a plan.
     pub fn of(table: Table) -> Result<Self> {
         let plan: Self = table.try_into()?;
         ensure!(plan.time.is_finite() && plan.time > 0.0, "time = {}: give a time above 0", plan.time);
         Ok(plan)
     }
 
-    /// All runs, in the order of the lists, the zipped ones, the grid (the last entry fastest) and the seeds.
+    /// Runs of the plan with their folders below `runs`, in the order of `list`, `zip`, `grid` and `seeds`, the last
+    /// entry changing fastest.
     ///
     /// # Errors
-    /// Ranges that are none, lists to be zipped that are not equally long, entries that the scene does not have, two
-    /// runs that are the same, more than a million.
+    /// Ranges that are not valid, lists in `zip` of different lengths, entries that the scene does not have, two equal
+    /// runs, more than a million runs.
     pub fn trials(&self, runs: &Path) -> Result<Vec<Trial>> {
         let SceneEntry::Here(scene) = &self.scene else { bail!("a plan without a scene") };
         // With all entries written out, and without those that there are not.
@@ -178,7 +181,7 @@ impl Plan {
     }
 }
 
-/// Makes the starts of all droplets with particles perturbed ones; gives the paths of their seeds.
+/// Replaces the starts of all droplets with particles by perturbed ones, and returns the paths of their seeds.
 fn perturbed(base: &mut Table) -> Vec<String> {
     let Some(Value::Array(droplets)) = base.get_mut("droplets") else { return Vec::new() };
     let mut paths = Vec::new();
@@ -200,14 +203,14 @@ fn text_of(path: &Path) -> Result<String> {
     Ok(fs::read_to_string(path)?)
 }
 
-/// All pairs.
+/// All pairs of a point of `first` and one of `second`, joined.
 fn product(first: &[Point], second: &[Point]) -> Result<Vec<Point>> {
     let count = first.len().saturating_mul(second.len());
     ensure!(count <= MOST, "a plan of {count} runs is too long: give at most {MOST}");
     Ok(first.iter().flat_map(|a| second.iter().map(|b| [a.clone(), b.clone()].concat())).collect())
 }
 
-/// The leaves of nested tables by their paths; a table for which `whole` holds is a leaf.
+/// Leaves of nested tables by their paths; a table for which `whole` holds is a leaf.
 fn flat(above: &str, table: &Table, whole: &dyn Fn(&Table) -> bool) -> Point {
     let mut found = Point::new();
     for (key, value) in table {
@@ -246,7 +249,7 @@ fn values(value: Value) -> Result<Vec<Value>> {
     Ok((0..count).map(|k| Value::Float(at(k))).collect())
 }
 
-/// Puts a value in place of an entry, or where its table has none.
+/// Sets the entry of a table at a path.
 fn put(table: &mut Table, path: &str, value: Value) -> Result<()> {
     let (above, key) = path.rsplit_once('.').unwrap_or(("", path));
     let mut place: Option<&mut Value> = None;
@@ -274,7 +277,7 @@ fn put(table: &mut Table, path: &str, value: Value) -> Result<()> {
     Ok(())
 }
 
-/// The last parts of the paths, as many as tell them apart.
+/// Short names of the paths: their last parts, as many as tell them apart.
 fn short_names(points: &[Point]) -> Vec<(String, String)> {
     let mut paths: Vec<&str> = points.iter().flatten().map(|(path, _)| path.as_str()).collect();
     paths.sort_unstable();
@@ -291,7 +294,7 @@ fn short_names(points: &[Point]) -> Vec<(String, String)> {
     paths.iter().map(short).collect()
 }
 
-/// A name for the folder of a run.
+/// Name of the folder of a run.
 fn label(names: &[(String, String)], point: &Point, number: usize) -> String {
     let plain = |text: String| -> String {
         let kept = |c: char| if c.is_ascii_alphanumeric() || "+-.".contains(c) { c } else { '_' };

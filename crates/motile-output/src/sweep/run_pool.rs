@@ -1,4 +1,4 @@
-//! Many runs in parallel, of which those that were finished before are not run again.
+//! Runs in parallel, without those that are finished already.
 
 use std::{
     path::Path,
@@ -15,10 +15,10 @@ use serde_json::Value;
 use crate::Progress;
 use crate::run::{Summary, make_directory};
 
-/// The entry by which a file says which run it is of.
+/// Entry of a summary with the name of its run.
 const NAME: &str = "run";
 
-/// Runs to be made by a number of threads, each leaving its results in a file of a directory.
+/// Pool of threads that make runs, each of which leaves its results in a file of a directory.
 #[derive(Debug)]
 pub struct RunPool<'a> {
     directory: &'a Path,
@@ -27,18 +27,17 @@ pub struct RunPool<'a> {
 }
 
 impl<'a> RunPool<'a> {
-    /// A pool that keeps its files in `directory`, which is made if it is not there; `hidden` shows no progress.
+    /// Pool that keeps its files in `directory`, which is created if needed; `hidden` shows no progress.
     ///
     /// # Errors
-    /// A directory that cannot be made.
+    /// A directory that cannot be created.
     pub fn new(directory: &'a Path, threads: usize, hidden: bool) -> Result<Self> {
         make_directory(directory)?;
         Ok(Self { directory, threads: threads.max(1), hidden })
     }
 
-    /// The results of all jobs, in their order, which is also the order in which they are begun. A job whose results
-    /// are in its file, `<name>.json`, is not run; one whose file does not hold them is run again. A job that fails
-    /// does not keep the others from running.
+    /// Results of all jobs, in their order, in which they are also begun. A job is run by `run`, unless its file
+    /// `<name>.json` has its results already. A job that fails does not keep the others from running.
     pub fn run<J: Sync>(
         &self,
         jobs: &[J],
@@ -73,7 +72,7 @@ impl<'a> RunPool<'a> {
         results.into_iter().map(|result| result.unwrap_or_else(|| Err(anyhow!("a run was lost")))).collect()
     }
 
-    /// The same for a study: the jobs that finished with their results, and the errors of the others.
+    /// Finished jobs with their results, and the errors of the others, as by [`RunPool::run`].
     pub fn study<J: Sync>(
         &self,
         jobs: Vec<J>,

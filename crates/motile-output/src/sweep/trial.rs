@@ -1,4 +1,4 @@
-//! A run of a sweep and its folder.
+//! Runs of a sweep and their folders.
 
 use std::fs;
 use std::path::PathBuf;
@@ -10,35 +10,35 @@ use serde_json::Value;
 
 use crate::run::{CheckpointFlags, OutputFlags, Summary, Taken, View, WatchedRun, explained, make_directory};
 
-/// Entry of a summary that says of which scene, settings and time it is.
+/// Entry of a summary with the [`Trial::fingerprint`] of its run.
 pub(super) const FINGERPRINT: &str = "fingerprint";
 
-/// A run by the values of the entries that are swept.
+/// Run of a sweep, told by the values of the swept entries.
 #[derive(Debug)]
 pub struct Trial {
-    /// The values in short, and the name of the folder.
+    /// Values of the swept entries in short, which is also the name of the folder.
     pub label: String,
-    /// Where its files are.
+    /// Folder of the files of the run.
     pub folder: PathBuf,
-    /// Paths of entries of the scene file and their values.
+    /// Swept entries: their paths in the scene file and their values.
     pub values: Vec<(String, Value)>,
-    /// Its scene, with these values.
+    /// Setup of the scene, with these values.
     pub setup: Setup,
-    /// Time of its end.
+    /// Time at which the run ends.
     pub time: f64,
 }
 
-/// How far a run is.
+/// State of a run, by the files in its folder.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum State {
-    /// To its end, with these results.
+    /// Run to its end, with these results.
     Finished(Summary),
-    /// Why it broke off.
+    /// Failed, for this reason.
     Failed(String),
-    /// There is a checkpoint of it.
+    /// Interrupted, with a checkpoint to go on from.
     Cut,
-    /// Not at all.
+    /// Not begun, or without anything to go on from.
     Left,
 }
 
@@ -55,13 +55,13 @@ impl Trial {
         self.folder.join("summary.json")
     }
 
-    /// Scene, settings and time: what has another one is no result of this run.
+    /// Fingerprint of scene, settings and time, by which results of this run are told from others.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         format!("{}, steps {:?}, to {}", self.setup.fingerprint(), self.setup.step, self.time)
     }
 
-    /// What its folder says. Files that cannot be read are none, nor are those of another scene or time.
+    /// State of the run, by its folder. Files that cannot be read or have another fingerprint do not count.
     pub fn state(&self) -> State {
         if let Some(summary) = self.results() {
             State::Finished(summary)
@@ -74,14 +74,14 @@ impl Trial {
         }
     }
 
-    /// The results, if they are of this run.
+    /// Results in the folder, if they are of this run.
     fn results(&self) -> Option<Summary> {
         let summary = Summary::read(&self.summary()).ok().flatten()?;
         let own = summary.values().get(FINGERPRINT).and_then(Value::as_str) == Some(&self.fingerprint());
         own.then_some(summary)
     }
 
-    /// Takes away results that are not of this run, as of a plan to another time.
+    /// Removes results of another run, such as of a plan to another time.
     ///
     /// # Errors
     /// A file that cannot be removed.
@@ -93,7 +93,7 @@ impl Trial {
         Ok(())
     }
 
-    /// The failure that a file tells of, if it is one of this run. A file without a word could not be written to.
+    /// Failure in the text of its file, if it is of this run. A file could be made but not written to if it is empty.
     fn why(&self, text: &str) -> Option<String> {
         match text.trim().split_once('\n') {
             Some((failure, own)) => (own == self.fingerprint()).then(|| failure.to_owned()),
@@ -101,27 +101,27 @@ impl Trial {
         }
     }
 
-    /// What the run is called in its checkpoints.
+    /// Name of the run in its checkpoints.
     fn name(&self) -> String {
         format!("sweep, {}", self.fingerprint())
     }
 
-    /// A checkpoint of this run to go on from: one that is at the end, broken or of another run is of no use.
+    /// Checkpoint to go on from: not one at the end, broken, or of another run.
     fn useful_checkpoint(&self) -> Option<PathBuf> {
         let saved = Checkpoint::read(&self.checkpoint()).ok()?;
         let own = saved.time() < self.time && saved.description().starts_with(&format!("{}:", self.name()));
         own.then(|| self.checkpoint())
     }
 
-    /// Makes the run, from its checkpoint on where there is one.
+    /// Makes the run, from its checkpoint on if there is one, and returns its results.
     ///
     /// # Errors
-    /// [`Taken`]; what made the run break off, which is kept in the folder; a folder that has another scene.
+    /// [`Taken`]; the failure of the run, which is also written to the folder; a folder that has another scene.
     pub fn run(&self) -> Result<Summary> {
         self.keep(Self::watched)
     }
 
-    /// What comes of `make`; what makes it fail is kept in the folder.
+    /// Results of `make` with the fingerprint added; a failure is written to the folder.
     ///
     /// # Errors
     /// Those of `make`.
@@ -157,7 +157,7 @@ impl Trial {
         Ok(summary)
     }
 
-    /// Whether the folder has the scene file of this run.
+    /// True if the folder has the scene file of this run.
     ///
     /// # Errors
     /// A folder that has another scene.
@@ -169,7 +169,7 @@ impl Trial {
         Ok(true)
     }
 
-    /// Writes the scene file, or makes sure that it is there.
+    /// Writes the scene file if it does not exist.
     ///
     /// # Errors
     /// A folder that has another scene; a file that cannot be written.

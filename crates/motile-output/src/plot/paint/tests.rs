@@ -1,4 +1,5 @@
 use super::*;
+use crate::plot::Figure;
 
 #[test]
 fn ranges_hold_the_data_and_survive_data_that_cannot_be_shown() {

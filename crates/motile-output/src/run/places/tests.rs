@@ -20,7 +20,7 @@ impl Drop for Directory {
     }
 }
 
-/// What is said of flags with these paths in `directory`.
+/// Message of the refusal of flags with these paths in `directory`; `None` if they are accepted.
 fn refusal(
     directory: &Path,
     scene: Option<&str>,

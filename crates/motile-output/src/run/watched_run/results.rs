@@ -1,4 +1,4 @@
-//! What is said of a run with a droplet.
+//! Results of a run with a droplet, for its summary.
 
 use anyhow::{Context, Result};
 use motile::active_interface::observables::InterfaceState;
@@ -9,7 +9,7 @@ use super::WatchedRun;
 use crate::SolidMeter;
 use crate::run::{Steadiness, Summary};
 
-/// What the values of a [`SolidMeter`] are.
+/// Remarks on the values of a [`SolidMeter`].
 const SOLIDS: [&str; 8] = [
     "in the end (R0)",
     "in the end (R0)",
@@ -25,11 +25,10 @@ const SOLIDS: [&str; 8] = [
 const CONVENTIONAL: [&str; 8] = ["stresslet_xx", "s_xxx", "s_xyy", "n_xyy", "n_yxy", "n_yyx", "f_yxy", "f_yyx"];
 
 impl WatchedRun {
-    /// The results that all scenes with a droplet have: its state in the end compared with the start, and what the run
-    /// took.
+    /// Results that all scenes with a droplet have: its final state, the change since the start, the cost of the run.
     ///
     /// # Errors
-    /// A run that has not been.
+    /// A run that has not begun.
     pub fn summary(&self) -> Result<Summary> {
         let mut summary = Summary::default();
         self.put_droplet(&mut summary, &self.last()?.observables)?;
@@ -45,11 +44,12 @@ impl WatchedRun {
         Ok(summary)
     }
 
-    /// The same with all observables, in the convention of Cowley's print too (`..._printed`), the growth rate of the
-    /// speed over the last quarter, and what the droplet does across its channel: what plans may ask for.
+    /// Summary of a run of a sweep: [`WatchedRun::summary`], all observables, those that depend on the convention also
+    /// as printed by Cowley (`..._printed`), the growth rate of the speed over the last quarter (1/time), and the
+    /// regime of the motion across a channel.
     ///
     /// # Errors
-    /// A run that has not been.
+    /// A run that has not begun.
     pub fn measured(&self) -> Result<Summary> {
         let mut summary = self.summary()?;
         let table = self.recorder.table();
@@ -83,10 +83,10 @@ impl WatchedRun {
         Ok(summary)
     }
 
-    /// Puts in what the droplet does across its channel.
+    /// Adds the regime of the motion across the channel and its amplitude (length) to a summary.
     ///
     /// # Errors
-    /// A run that has not been.
+    /// A run that has not begun.
     pub fn put_regime(&self, summary: &mut Summary) -> Result<Evidence> {
         let report = self.recorder.trajectory()?.regime(&RegimeCriteria::default())?;
         summary.put("regime", report.regime.to_string(), "across the channel");
