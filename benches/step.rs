@@ -7,9 +7,9 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motile::elastic_solids::Moduli;
+use motile::elastic_solids::{ChannelShape, Moduli};
 use motile::prelude::*;
-use motile::setup::AnyFlow;
+use motile::setup::{AnyFlow, Material, SolidSetup};
 use motile_timing::{PlainPair, print_ratios};
 
 /// A step small enough that thousands of them stay in the same regime.

@@ -11,7 +11,7 @@ use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::elastic_solids::ChannelShape;
 use motile::motile_base::Region;
-use motile::setup::{MethodKind, RigidSetup, Setup, SolidOutline};
+use motile::setup::{MethodKind, Setup, SolidOutline, WallSetup};
 use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, not_negative, positive};
 
 /// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
@@ -113,12 +113,12 @@ impl Flags {
         let (spacing, [period, width]) = (self.wall_spacing, setup.region.lengths());
         let Some(shape) = shape else {
             // One close to each wall, so that there is room on the other side.
-            let post = |[x, y]: [f64; 2]| RigidSetup {
+            let post = |[x, y]: [f64; 2]| WallSetup {
                 outline: SolidOutline::Disc { centre: [x * period, y * width], radius: 0.12 * width },
                 spacing,
                 rounding: 0.0,
             };
-            setup.rigid = [[0.25, 0.3], [-0.25, -0.3]].map(post).into();
+            setup.walls = [[0.25, 0.3], [-0.25, -0.3]].map(post).into();
             return Ok(setup);
         };
         let channel = shape.channel(period)?;
@@ -129,9 +129,9 @@ impl Flags {
         if let Region::Channel { width, .. } = &mut setup.region {
             *width = 2.0 * half;
         }
-        setup.rigid = RigidSetup::walls(&shape, spacing);
+        setup.walls = WallSetup::channel(&shape, spacing);
         if matches!(self.case, Case::Constriction | Case::Ratchet) {
-            setup.rigid.iter_mut().for_each(|wall| wall.rounding = self.rounding);
+            setup.walls.iter_mut().for_each(|wall| wall.rounding = self.rounding);
         }
         Ok(setup)
     }

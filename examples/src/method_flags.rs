@@ -3,8 +3,9 @@
 use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::ib_core::AnyKernel;
+use motile::motile_scene::gap::Repulsion;
 use motile::motile_scene::{StepSize, integrator::IntegratorKind};
-use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, RepulsionSetup, Setup};
+use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
@@ -101,8 +102,9 @@ impl MethodFlags {
         };
         setup.step = self.dt.unwrap_or(setup.step);
         setup.integrator = self.integrator.unwrap_or(setup.integrator);
-        let repulsion = self.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
-        setup.repulsion = repulsion.or(setup.repulsion);
+        if let Some([strength, range]) = self.repulsion {
+            setup.repulsion = Some(Repulsion::new(strength, range)?);
+        }
         setup.least_gap = self.least_gap.or(setup.least_gap);
         setup.mirror_symmetric |= self.mirror_symmetric;
         if let StepSize::Fixed(dt) = setup.step {

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use motile::active_interface::{ActiveDroplet, observables::centroid_velocity, polygon_moments};
+use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity, polygon_moments};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::motile_base::Region;
@@ -296,15 +296,17 @@ fn orders() -> Result<Table> {
     let mut table = Table::new(title, &["flow", "stabiliser", "filter", "positions", "numbers", "orders"]);
     let rms =
         |[a, b]: [&[f64]; 2]| (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt();
-    let grid = |filter| Method::Grid(GridMethod { filter, ..GridMethod::of_spacing(0.2) });
+    let grid = Method::Grid(GridMethod::of_spacing(0.2));
     let integrals = |cells| Method::Integral(IntegralMethod { nodes: 72, cells });
-    let flows = [("grid 0.2", grid(true), "on"), ("grid 0.2", grid(false), "off")];
+    let flows = [("grid 0.2", grid, "on"), ("grid 0.2", grid, "off")];
     let flows = flows
         .into_iter()
         .chain([("integrals, 72 cells", integrals(72), "none"), ("integrals, 288 cells", integrals(288), "none")]);
     for (flow, method, filter) in flows {
         for (stabilised, name) in [(true, "on"), (false, "off")] {
-            let setup = Setup { method, ..Setup::default() };
+            let motion = Motion::Equidistributed { relaxation: 50.0, filter: filter != "off" };
+            let droplets = vec![DropletSetup { motion, ..DropletSetup::default() }];
+            let setup = Setup { method, droplets, ..Setup::default() };
             let [long, middle, short] = [0.004, 0.002, 0.001].map(|dt| after(&setup, stabilised, dt));
             let (long, middle, short) = (long?, middle?, short?);
             let change = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [0, 1].map(|i| rms([&a[i], &b[i]]));

@@ -15,6 +15,7 @@ mod solids;
 mod two_droplets;
 
 use clap::{Args, ValueEnum};
+use motile::active_interface::Motion;
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::motile_base::Region;
 use motile::motile_scene::StepSize;
@@ -370,8 +371,9 @@ fn long(quick: bool) -> Tables {
         let setup = Setup { droplets: vec![DropletSetup::active(-4.0)], ..on_grid(h) };
         let time = if quick { 60.0 } else { 250.0 };
         push_run(&mut table, format!("h = {h}"), &long_run(&setup, time)?);
-        let unfiltered = GridMethod { filter: false, ..GridMethod::of_spacing(h) };
-        match long_run(&Setup { method: Method::Grid(unfiltered), ..setup }, time) {
+        let motion = Motion::Equidistributed { relaxation: 50.0, filter: false };
+        let droplets = vec![DropletSetup { motion, ..DropletSetup::active(-4.0) }];
+        match long_run(&Setup { droplets, ..setup }, time) {
             Ok(run) => push_run(&mut table, format!("h = {h}, without the filter"), &run),
             Err(error) => table.push([format!("h = {h}, without the filter"), format!("ends: {error}")]),
         }

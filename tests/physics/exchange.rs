@@ -2,8 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use motile::active_interface::ActiveDroplet;
 use motile::active_interface::theory::{LinearTheory, RoundDroplet};
 use motile::prelude::*;
+use motile::setup::{ExchangeSetup, Exclusion, Start};
 use motile_tests::validation::scene::{on_grid, without_grid};
 
 const BINDING: f64 = 0.4;

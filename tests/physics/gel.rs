@@ -3,8 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use motile::active_interface::polygon_moments;
+use motile::elastic_solids::ChannelShape;
 use motile::interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial, GelObservables};
 use motile::prelude::*;
+use motile::setup::{AnyFlow, DropletShape, GelSetup, Material, SolidSetup};
 
 /// A passive droplet of tension 200 with a gel, on a coarse grid.
 fn filled(gel: GelSetup) -> Setup {

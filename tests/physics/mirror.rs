@@ -1,8 +1,11 @@
 //! Scenes that are their own mirror image in y = 0 stay so up to round-off.
 
 use motile::SetupError;
-use motile::motile_scene::{SceneError, integrator::Dynamics};
+use motile::active_interface::ActiveDroplet;
+use motile::elastic_solids::ChannelShape;
+use motile::motile_scene::{Handle, SceneError, integrator::Dynamics};
 use motile::prelude::*;
+use motile::setup::{AnyFlow, DropletShape, Material, RigidBodySetup, SolidSetup, Start, WallSetup};
 
 /// Largest distance (length) of a marker from the mirror image of its counterpart, and the largest difference of
 /// concentrations there over the largest of all, of two droplets (or of one with itself) whose markers are numbered
@@ -66,8 +69,8 @@ fn between_curved_rigid_walls() {
         ChannelShape::Branching { width: 2.4, branches, island_length: 4.0, island_thickness: 1.2, ramp: 2.0 };
     for (shape, x) in [(CONSTRICTION, 0.0), (sinusoidal, 2.0), (branching, 6.0)] {
         let droplets = vec![DropletSetup { centre: [x, 0.0], ..DropletSetup::active(-4.0) }];
-        let rigid = RigidSetup::walls(&shape, 0.2);
-        let setup = Setup { region: channel(12.0, 5.0), droplets, rigid, ..integrals() };
+        let walls = WallSetup::channel(&shape, 0.2);
+        let setup = Setup { region: channel(12.0, 5.0), droplets, walls, ..integrals() };
         stays_symmetric(shape.name(), &setup, 10);
     }
 }
@@ -186,8 +189,8 @@ fn scenes_that_are_no_mirror_images_are_refused() {
     refused(Setup::thesis(), "no mirror images");
     // Walls that are none show in the first step.
     let shape = ChannelShape::Sinusoidal { width: 2.6, amplitude: 0.2, waves: 1, phase: 0.5 };
-    let rigid = RigidSetup::walls(&shape, 0.2);
-    let setup = Setup { region: channel(12.0, 5.0), rigid, mirror_symmetric: true, ..integrals() };
+    let walls = WallSetup::channel(&shape, 0.2);
+    let setup = Setup { region: channel(12.0, 5.0), walls, mirror_symmetric: true, ..integrals() };
     let mut scene = setup.build().unwrap().scene;
     let error = scene.step(0.01).unwrap_err();
     assert!(matches!(error, SceneError::NotSymmetric { .. }), "{error}");

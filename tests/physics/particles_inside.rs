@@ -2,12 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::active_interface::{ConstantTension, ContractileTension, Exchange, ExcludedVolume};
+use motile::active_interface::{ActiveDroplet, ConstantTension, ContractileTension, Curve, Exchange, ExcludedVolume};
 use motile::boundary_integral::{BoundaryIntegral, Settings};
 use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
 use motile::motile_base::Region;
 use motile::motile_scene::integrator::Dynamics as _;
 use motile::prelude::*;
+use motile::setup::{AnyFlow, ExchangeSetup, Exclusion};
 use motile_tests::validation::scene::{on_grid, without_grid};
 
 const BINDING: f64 = 0.6;

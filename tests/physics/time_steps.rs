@@ -12,8 +12,7 @@ use motile::motile_scene::{
     integrator::{Integrator, Midpoint, RungeKuttaChebyshev, SpectralEstimate},
 };
 use motile::setup::{
-    AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, MarkerMotion, Material, Method, Setup,
-    SolidSetup,
+    AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup,
 };
 use motile::stokes_grid::{ChannelStokes, Grid};
 use motile_tests::validation::order;
@@ -37,15 +36,17 @@ fn swimmer(integrator: impl Integrator, dt: f64, stabilised: bool) -> Vec<f64> {
 
 /// The same with or without the filter, before and in the last step.
 fn filtered(integrator: impl Integrator, dt: f64, stabilised: bool, [before, last]: [bool; 2]) -> Vec<f64> {
-    let method = Method::Grid(GridMethod { filter: before, ..GridMethod::of_spacing(0.2) });
-    let setup = Setup { method, viscosity: 40.0, ..Setup::default() };
+    let filtered = |filter| Motion::Equidistributed { filter, relaxation: 50.0 };
+    let droplets = vec![DropletSetup { motion: filtered(before), ..DropletSetup::default() }];
+    let method = Method::Grid(GridMethod::of_spacing(0.2));
+    let setup = Setup { method, viscosity: 40.0, droplets, ..Setup::default() };
     let Built { scene, droplets, .. } = setup.build().expect("a scene");
     let mut scene = scene.advanced_by(integrator);
     let droplet = scene.body_mut(droplets[0]).expect("its droplet");
     *droplet = droplet.clone().with_stabiliser(stabilised);
     scene.run(0.8 - dt).step_size(StepSize::Fixed(dt)).go().expect("a run");
     let droplet = scene.body_mut(droplets[0]).expect("its droplet");
-    *droplet = droplet.clone().with_motion(Motion::Equidistributed { filter: last, relaxation: 50.0 });
+    *droplet = droplet.clone().with_motion(filtered(last));
     scene.step(dt).expect("the last step");
     state(&scene, droplets[0])
 }
@@ -245,7 +246,7 @@ fn both_integrators_come_to_the_same() {
 fn bodies_without_a_finite_bound_need_a_step_that_is_given() {
     let channel = |step| Setup {
         region: Region::Channel { length: 4.0, width: 4.0, drive: Drive::Gradient(-100.0) },
-        droplets: vec![DropletSetup { motion: MarkerMotion::WithFluid, ..DropletSetup::passive(0.0) }],
+        droplets: vec![DropletSetup { motion: Motion::WithFluid, ..DropletSetup::passive(0.0) }],
         method: Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::thesis() }),
         step,
         ..Setup::default()

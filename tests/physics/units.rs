@@ -4,7 +4,8 @@ use motile::elastic_solids::ChannelShape;
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::motile_scene::StepSize;
-use motile::setup::{Material, Method, RepulsionSetup, Setup, SolidSetup};
+use motile::motile_scene::gap::Repulsion;
+use motile::setup::{Material, Method, Setup, SolidSetup};
 use motile_tests::units::Units;
 
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +42,7 @@ fn setup(units: Units, scene: Scene) -> Setup {
     let pair =
         |viscosity| vec![units.droplet(-3.0, [-1.1, 0.05], viscosity), units.droplet(-5.0, [1.2, -0.1], Some(300.0))];
     let range = 0.3 * units.length;
-    let repulsion = Some(RepulsionSetup { strength: 200.0 * units.force / range.powi(2), range });
+    let repulsion = Repulsion::new(200.0 * units.force / range.powi(2), range).ok();
     let (region, method, droplets) = match scene {
         Scene::Integral => (channel(6.0, 2.6), Method::default(), alone(-3.0, None)),
         Scene::Grid => (square(5.0), units.grid(0.1), alone(-4.0, None)),

@@ -2,7 +2,7 @@
 //! works, never a panic, and never something that is made of a value that is not finite.
 
 use motile::active_interface::{
-    ActiveDroplet, ConstantTension, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Units,
+    ActiveDroplet, ConstantTension, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion, Units,
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
@@ -14,8 +14,8 @@ use motile::ib_core::{BSpline, ImmersedBoundary, SmearedContrast};
 use motile::motile_base::{Drive, Region, Vec2};
 use motile::motile_scene::{Scene, StepSize, gap::Repulsion};
 use motile::setup::{
-    Axis, Built, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion,
-    Material, Method, Particles, RepulsionSetup, Setup, SolidOutline, SolidSetup, Squeezed, Start,
+    Axis, Built, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, Material, Method,
+    Particles, Setup, SolidOutline, SolidSetup, Squeezed, Start,
 };
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
 use proptest::prelude::*;
@@ -249,7 +249,9 @@ fn makers() -> Vec<Maker> {
                 .is_ok()
         }),
         maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "++++0-", |v| {
-            ChannelShape::Valve { width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel(v[0]).is_ok()
+            ChannelShape::Valve { width: v[1], gap: v[2], base: v[3], rounding: v[4], centre: v[5] }
+                .channel(v[0])
+                .is_ok()
         }),
         maker("Setup viscosity", &[100.0], "+", |v| builds(&Setup { viscosity: v[0], ..coarse() })),
         maker("Setup step.fixed", &[1e-3], "+", |v| builds(&Setup { step: StepSize::Fixed(v[0]), ..coarse() })),
@@ -259,8 +261,8 @@ fn makers() -> Vec<Maker> {
         }),
         maker("Setup repulsion", &[1.0, 0.2], "++", |v| {
             let droplets = [-1.5, 1.5].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() });
-            let repulsion = Some(RepulsionSetup { strength: v[0], range: v[1] });
-            builds(&Setup { repulsion, droplets: droplets.to_vec(), ..coarse() })
+            let Ok(repulsion) = Repulsion::new(v[0], v[1]) else { return false };
+            builds(&Setup { repulsion: Some(repulsion), droplets: droplets.to_vec(), ..coarse() })
         }),
         maker("Setup region.box", &[6.0, 6.0], "++", |v| region_builds(Region::Box { lengths: [v[0], v[1]] })),
         maker("Setup region.channel", &[6.0, 3.0, 1.0], "++-", |v| {
@@ -276,7 +278,7 @@ fn makers() -> Vec<Maker> {
         maker("Setup droplet.viscosity", &[10.0], "+", |v| droplet_builds(|d| d.viscosity = Some(v[0]))),
         maker("Setup droplet.tension", &[10.0], "0", |v| droplet_builds(|d| d.tension = v[0])),
         maker("Setup droplet.motion.relaxation", &[5.0], "0", |v| {
-            droplet_builds(|d| d.motion = MarkerMotion::Equidistributed { relaxation: v[0] })
+            droplet_builds(|d| d.motion = Motion::Equidistributed { relaxation: v[0], filter: true })
         }),
         maker("Setup shape.round", &[1.0], "+", |v| shape_builds(&DropletShape::Round { radius: v[0] })),
         maker("Setup shape.squeezed", &[1.0, 0.8], "++", |v| {
@@ -326,7 +328,7 @@ fn makers() -> Vec<Maker> {
         }),
         maker("Setup solid.outline.polygon", &[0.0, 1.2, 0.1], "--0", |v| {
             let corners = vec![[-1.0, -1.0], [1.0, -1.0], [v[0], v[1]]];
-            solid_builds(|s| s.outline = SolidOutline::Polygon { corners: corners.clone(), fillet: v[2] })
+            solid_builds(|s| s.outline = SolidOutline::Polygon { corners: corners.clone(), rounding: v[2] })
         }),
         maker("Setup solid.material.springs", &[100.0], "+", |v| {
             solid_builds(|s| s.material = Material::Springs { shear: v[0] })
@@ -354,7 +356,7 @@ fn makers() -> Vec<Maker> {
             })
         }),
         maker("Setup solid.outline, valve", &[3.0, 2.0, 2.0, 0.1, 0.5], "+++0-", |v| {
-            walls_build(ChannelShape::Valve { width: v[0], gap: v[1], base: v[2], radius: v[3], centre: v[4] })
+            walls_build(ChannelShape::Valve { width: v[0], gap: v[1], base: v[2], rounding: v[3], centre: v[4] })
         }),
         maker("Setup solid.outline, ratchet", &[3.0, 2.0, 0.6], "+++", |v| {
             [true, false].into_iter().all(|sharp| {

@@ -133,13 +133,13 @@ pub enum SolidError {
         /// Parameter at the end of the curve.
         end: f64,
     },
-    /// A fillet that does not fit.
+    /// A rounded corner that does not fit.
     #[error(
-        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({:.4}, {:.4}): give at most \
+        "a corner of radius {radius} does not fit on the side of length {side:.4} from ({:.4}, {:.4}): give at most \
          {maximum:.4}", .place.x, .place.y
     )]
-    FilletTooLarge {
-        /// Radius of the fillet (length).
+    RoundingTooLarge {
+        /// Radius of the corner (length).
         radius: f64,
         /// Start of the side.
         place: Vec2,

@@ -8,9 +8,9 @@ use motile_base::{Vec2, all_points_finite, at_least, finite, positive, within};
 use crate::SolidError;
 use crate::error::{MOST_POINTS, length};
 
-mod fillet;
 mod interior;
 mod piece;
+mod rounding;
 mod track;
 
 use piece::{Piece, is_corner};
@@ -28,7 +28,7 @@ pub(crate) use track::{Place, Track};
 /// use elastic_solids::{Outline, SolidError};
 /// use motile_base::Vec2;
 ///
-/// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.filleted(0.2)?;
+/// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.rounded(0.2)?;
 /// println!("circumference {:.4}", post.length()); // 6 - 8 r + 2 pi r = 5.6566
 /// assert!((post.length() - 5.6566).abs() < 1e-4);
 /// # Ok::<(), SolidError>(())
@@ -229,9 +229,9 @@ impl Outline {
     ///
     /// # Errors
     /// A radius that is not positive or too large for the sides next to a corner.
-    pub fn filleted(&self, radius: f64) -> Result<Self, SolidError> {
-        positive("the radius of the fillets", radius)?;
-        Self::from_pieces(fillet::rounded(&self.pieces, radius)?, self.period)
+    pub fn rounded(&self, radius: f64) -> Result<Self, SolidError> {
+        positive("the radius by which corners are rounded", radius)?;
+        Self::from_pieces(rounding::rounded(&self.pieces, radius)?, self.period)
     }
 
     /// Points on the outline at about `spacing` (length), equally spaced between corners, corners among them; at least

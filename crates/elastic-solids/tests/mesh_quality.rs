@@ -49,7 +49,7 @@ fn walls_are_even() {
         ),
         (
             "valve",
-            ChannelShape::Valve { width, gap: 1.0, base: 1.0, radius: 0.2, centre: 0.0 }.channel(period).unwrap(),
+            ChannelShape::Valve { width, gap: 1.0, base: 1.0, rounding: 0.2, centre: 0.0 }.channel(period).unwrap(),
             2.5,
         ),
         ("branch", branch([1.6; 2], 5.0, 1.0), 4.0),
@@ -69,7 +69,7 @@ fn walls_of_other_parameters_are_even() {
     let teeth = ChannelShape::Ratchet { width, throat: 1.0, teeth: 4, rise: 0.8, sharp: false };
     let sharp = ChannelShape::Ratchet { width, throat: 1.3, teeth: 3, rise: 0.7, sharp: true };
     let waves = ChannelShape::Sinusoidal { width, amplitude: 0.2, waves: 4, phase: 1.0 };
-    let valve = ChannelShape::Valve { width, gap: 0.5, base: 1.5, radius: 0.0, centre: 0.0 };
+    let valve = ChannelShape::Valve { width, gap: 0.5, base: 1.5, rounding: 0.0, centre: 0.0 };
     let shapes = [
         ("narrow constriction", narrow.channel(period).unwrap(), 2.5),
         ("ratchet of four teeth", teeth.channel(period).unwrap(), 2.5),

@@ -39,7 +39,7 @@ fn channels_of_any_lengths() {
                     .channel(period)
             });
             bounded(&name, || {
-                ChannelShape::Valve { width, gap: 0.2, base: 1.0, radius: 0.0, centre: 0.0 }.channel(period)
+                ChannelShape::Valve { width, gap: 0.2, base: 1.0, rounding: 0.0, centre: 0.0 }.channel(period)
             });
             let (throat, teeth) = (1.0, 2);
             for sharp in [false, true] {
@@ -55,7 +55,7 @@ fn channels_of_any_lengths() {
         let name = format!("{length:e}");
         bounded(&name, || ChannelShape::Sinusoidal { width, amplitude: length, waves: 2, phase: 0.0 }.channel(period));
         bounded(&name, || {
-            ChannelShape::Valve { width, gap: 0.2, base: length, radius: length, centre: length }.channel(period)
+            ChannelShape::Valve { width, gap: 0.2, base: length, rounding: length, centre: length }.channel(period)
         });
         bounded(&name, || {
             ChannelShape::Ratchet { width, throat: length, teeth: 3, rise: 0.5, sharp: true }.channel(period)

@@ -3,8 +3,8 @@
 pub use crate::SetupError;
 pub use crate::setup::{
     AnyFlow, Axis, Built, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup, Grading, GridMethod, Hold,
-    IntegralMethod, LayersMethod, MarkerMotion, Material, MeshKind, Method, Particles, RepulsionSetup, RigidBodySetup,
-    RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Squeezed, Start,
+    IntegralMethod, LayersMethod, Material, MeshKind, Method, Particles, RigidBodySetup, Setup, ShellSetup,
+    SolidOutline, SolidSetup, Squeezed, Start, WallSetup,
 };
 pub use active_interface::{ActiveDroplet, Curve, Flux};
 pub use elastic_solids::{BendingMeasure, ChannelShape, RigidBody, Shell, Solid};

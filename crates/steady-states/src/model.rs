@@ -117,7 +117,7 @@ impl Model {
         else {
             return refuse("the scene is not of one active droplet", "give one droplet with particles");
         };
-        if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.rigid.is_empty()) || setup.repulsion.is_some()
+        if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some()
         {
             return refuse("the scene has solids, shells, shaped walls or a repulsion", "leave them out");
         }

@@ -1,7 +1,7 @@
 //! Droplets with a rigid nucleus against closed forms.
 
 use motile::prelude::*;
-use motile::setup::{DropletSetup, Exclusion, Particles, RigidBodySetup};
+use motile::setup::{DropletSetup, DropletShape, Exclusion, Particles, RigidBodySetup};
 use num_complex::Complex64;
 use steady_states::SteadyState;
 

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use motile::active_interface::Tension;
 use motile::active_interface::observables::stress_curvature;
 use motile::prelude::*;
+use motile::setup::DropletShape;
 use steady_states::{SteadyState, Symmetry};
 
 type Row = HashMap<String, String>;

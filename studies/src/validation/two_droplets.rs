@@ -2,7 +2,8 @@
 
 use motile::motile_base::Region;
 use motile::motile_base::Vec2;
-use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, RepulsionSetup, Setup};
+use motile::motile_scene::gap::Repulsion;
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::{StudyError, Table};
 
 use super::Tables;
@@ -38,7 +39,7 @@ fn row(&(_, places, towards): &Meeting, method: Method, pair: [f64; 2], time: f6
         region: Region::Box { lengths: SIDES },
         method,
         droplets: vec![droplet("first", 0, 0.0), droplet("second", 1, angle)],
-        repulsion: (strength > 0.0).then_some(RepulsionSetup { strength, range }),
+        repulsion: Repulsion::new(strength, range).ok(),
         least_gap: Some(0.0),
         ..Setup::default()
     };

@@ -105,9 +105,9 @@ impl Settings {
 
     /// The preset's scene with these settings.
     pub(crate) fn setup(&self) -> Setup {
-        let (base, filter) = match self.preset {
-            Preset::Default => (Setup::default(), true),
-            Preset::Thesis => (Setup::thesis(), false),
+        let base = match self.preset {
+            Preset::Default => Setup::default(),
+            Preset::Thesis => Setup::thesis(),
         };
         let method = match self.flow {
             Flow::Integrals { nodes, cells } => Method::Integral(IntegralMethod { nodes, cells }),
@@ -116,7 +116,6 @@ impl Settings {
                 marker_spacing: Some(ratio * h),
                 kernel: self.kernel,
                 corrected: self.corrected,
-                filter,
             }),
         };
         Setup { method, step: self.step, ..base }

@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use motile::active_interface::{ActiveDroplet, Flux, polygon_area};
+use motile::active_interface::{ActiveDroplet, Flux, Motion, polygon_area};
 use motile::motile_base::Vec2;
+use motile::motile_scene::gap::Repulsion;
 use motile::motile_scene::{Hydrodynamics, Scene, StepSize, System, integrator::RungeKuttaChebyshev};
-use motile::setup::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, RepulsionSetup, Setup};
+use motile::setup::{AnyFlow, GridMethod, IntegralMethod, Method, Particles, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
 
@@ -94,8 +95,10 @@ pub(crate) fn measured(
     }
 }
 
-/// What holds films open in the cases that are held apart: 0.2 R0 is two spacings or nodes.
-pub(crate) const HELD: RepulsionSetup = RepulsionSetup { strength: 1000.0, range: 0.2 };
+/// Repulsion that holds films open in the cases that are held apart; a range of 0.2 R0 is two spacings or nodes.
+pub(crate) fn held(range: f64) -> Repulsion {
+    Repulsion::new(1000.0, range).expect("a repulsion")
+}
 
 /// Half of what is stable.
 pub(crate) const AUTO: StepSize = StepSize::OfLimit(0.5);
@@ -115,7 +118,7 @@ pub(crate) fn by(way: Way, base: &Setup) -> Setup {
             };
             *method = Method::Grid(GridMethod { spacing, marker_spacing, ..GridMethod::thesis() });
             for droplet in &mut setup.droplets {
-                droplet.motion = MarkerMotion::WithFluid;
+                droplet.motion = Motion::WithFluid;
                 droplet.area_constraint = true;
                 droplet.particles = droplet.particles.map(|particles| Particles { flux: Flux::Upwind, ..particles });
             }

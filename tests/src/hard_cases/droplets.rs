@@ -3,11 +3,10 @@
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::motile_scene::Body;
-use motile::setup::{
-    Built, DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, RepulsionSetup, Setup,
-};
+use motile::motile_scene::gap::Repulsion;
+use motile::setup::{Built, DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
 
-use crate::hard_cases::drive::{ADAPTIVE, HELD, by, run, run_way};
+use crate::hard_cases::drive::{ADAPTIVE, by, held, run, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
 const ALL: &[Way] = &[Way::Grid, Way::Integral, Way::Thesis];
@@ -88,7 +87,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         })
         .ending_in(DRAINED),
         Recipe::new(6, "a box of 2.2 R0, held apart", &[Way::Grid], |way, extent, look| {
-            narrow_box(Some(HELD), way, extent, look)
+            narrow_box(Some(held(0.2)), way, extent, look)
         }),
         Recipe::new(7, "a circle that touches both walls", ALL, |way, extent, look| {
             let region = Region::Channel { length: 6.0, width: 2.0, drive: Drive::ZeroGradient };
@@ -120,7 +119,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         .ending_in(DRAINED)
         .area_within(1e-2),
         Recipe::new(16, "a grid of 7 x 1000, held apart", &[Way::Grid], |way, extent, look| {
-            seven_columns(Some(RepulsionSetup { range: 0.6, ..HELD }), way, extent, look)
+            seven_columns(Some(held(0.6)), way, extent, look)
         }),
         Recipe::new(16, "a grid of 997 x 991", &[Way::Grid], |way, extent, look| {
             let base = on_grid(GridMethod::of_spacing(0.0125), [12.4625, 12.3875]);
@@ -159,22 +158,12 @@ fn film(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> 
     run_by(way, &Setup { region, droplets, ..coarse() }, extent.pick(10.0, 20.0), look)
 }
 
-fn seven_columns(
-    repulsion: Option<RepulsionSetup>,
-    way: Way,
-    extent: Extent,
-    look: Look<'_>,
-) -> Result<Outcome, CaseError> {
+fn seven_columns(repulsion: Option<Repulsion>, way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
     let base = Setup { repulsion, ..on_grid(GridMethod::of_spacing(0.3), [2.1, 300.0]) };
     run_by(way, &base, extent.pick(1.0, 10.0), look)
 }
 
-fn narrow_box(
-    repulsion: Option<RepulsionSetup>,
-    way: Way,
-    extent: Extent,
-    look: Look<'_>,
-) -> Result<Outcome, CaseError> {
+fn narrow_box(repulsion: Option<Repulsion>, way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
     let base = Setup { repulsion, droplets: one(-3.0, 10.0), ..on_grid(GridMethod::of_spacing(0.1), [2.2, 2.2]) };
     run_by(way, &base, extent.pick(5.0, 60.0), look)
 }

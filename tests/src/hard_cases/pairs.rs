@@ -2,13 +2,14 @@
 
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
-use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, RepulsionSetup, Setup};
+use motile::motile_scene::gap::Repulsion;
+use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
 
-use crate::hard_cases::drive::{HELD, by, run_way};
+use crate::hard_cases::drive::{by, held, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
 /// Two swimmers that press against each other, with or without a repulsion.
-fn head_on(repulsion: Option<RepulsionSetup>, way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
+fn head_on(repulsion: Option<Repulsion>, way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
     let droplet = |name: &str, x: f64, angle: f64| DropletSetup {
         name: name.to_owned(),
         centre: [x, 0.0],
@@ -41,7 +42,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             13,
             "two swimmers head-on, held apart",
             &[Way::Grid, Way::Integral, Way::Chebyshev],
-            |way, extent, look| head_on(Some(HELD), way, extent, look),
+            |way, extent, look| head_on(Some(held(0.2)), way, extent, look),
         )
         .area_within(2e-3),
         Recipe::new(13, "a passive droplet overtakes another", &[Way::Grid, Way::Integral], |way, extent, look| {
@@ -72,7 +73,7 @@ pub(crate) fn trials() -> Vec<Trial> {
                 region: Region::Box { lengths: [8.0, 4.0] },
                 method: Method::Layers(LayersMethod::of_spacing(0.1)),
                 viscosity: 10.0,
-                repulsion: Some(RepulsionSetup { strength: 2000.0, range: 0.3 }),
+                repulsion: Some(Repulsion::new(2000.0, 0.3).expect("a repulsion")),
                 droplets: vec![droplet("first droplet", -1.05), droplet("second droplet", 1.05)],
                 ..Setup::default()
             };

@@ -10,7 +10,7 @@ use motile::motile_scene::Scene;
 use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
-use crate::hard_cases::drive::{HELD, by, run_way};
+use crate::hard_cases::drive::{by, held, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
 /// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle is
@@ -102,7 +102,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         .area_within(5e-3),
         // A material whose energy grows without a bound as a triangle is flattened, and no contact.
         Recipe::new(8, "a throat of R0/4, neo-Hookean, held apart", both, |way, extent, look| {
-            let mut setup = Setup { repulsion: Some(HELD), ..throat()? };
+            let mut setup = Setup { repulsion: Some(held(0.2)), ..throat()? };
             let shear = Moduli::from_thesis_spring_constant(1e4)?.shear();
             setup.solids.iter_mut().for_each(|wall| wall.material = Material::NeoHookean { shear, bulk: 2.0 * shear });
             run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use motile::SetupError;
 use motile::active_interface::{
-    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion, polygon_moments,
+    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, polygon_moments,
     theory::{LinearTheory, RoundDroplet},
 };
 use motile::motile_base::Region;
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Scene, StepSize};
-use motile::setup::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Setup};
+use motile::setup::{AnyFlow, IntegralMethod, Method, Particles, Setup};
 
 use crate::validation::StudyError;
 use crate::validation::scene::flow;
@@ -178,10 +178,7 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
         .collect();
     let law = ContractileTension::new(droplet.tension, particles.activity, ExcludedVolume::None)?;
     let made = ActiveDroplet::new(&curve.markers(count)?, numbers, law, particles.diffusion)?
-        .with_motion(match droplet.motion {
-            MarkerMotion::WithFluid => Motion::WithFluid,
-            MarkerMotion::Equidistributed { relaxation } => Motion::Equidistributed { relaxation, filter: true },
-        })
+        .with_motion(droplet.motion)
         .with_flux(particles.flux)
         .with_area_constraint(droplet.area_constraint);
     Ok(match droplet.viscosity {

@@ -42,7 +42,7 @@ pub enum ChannelShape {
         base: f64,
         /// Radius by which the tips and feet are rounded (length); 0 for sharp ones, as in a file that gives none.
         #[serde(default)]
-        radius: f64,
+        rounding: f64,
         /// Tips in x (length); 0 in a file that gives none.
         #[serde(default)]
         centre: f64,
@@ -154,11 +154,11 @@ impl ChannelShape {
                 };
                 Channel::symmetric(Outline::profile(start, period, move |x| -half_width(x))?)
             }
-            Self::Valve { width, gap, base, radius, centre } => {
+            Self::Valve { width, gap, base, rounding, centre } => {
                 positive("the gap of the valve", gap)?;
                 positive("the base of a tooth", base)?;
                 positive("the width beside the gap", width - gap)?;
-                finite("the radius of the tips", radius)?;
+                finite("the rounding of the tips", rounding)?;
                 finite("the centre of the valve", centre)?;
                 fits("the base of a tooth", base, period)?;
                 let point = |x: f64, width: f64| Vec2::new(centre + x, -0.5 * width);
@@ -167,7 +167,7 @@ impl ChannelShape {
                     corners.pop();
                 }
                 let line = Outline::polyline(&corners, period)?;
-                Channel::symmetric(if radius == 0.0 { line } else { line.filleted(radius)? })
+                Channel::symmetric(if rounding == 0.0 { line } else { line.rounded(rounding)? })
             }
             Self::Ratchet { width, throat, teeth, rise, sharp } => {
                 positive("the width of the throat", throat)?;

@@ -50,10 +50,10 @@ fn corners_are_kept() {
 }
 
 #[test]
-fn fillets_round_corners_to_the_radius() {
+fn corners_are_rounded_to_the_radius() {
     for (radius, turned) in [(0.2, 0.0), (0.5, 0.3)] {
         let square = Outline::rectangle(v(0.0, 0.0), v(1.0, 1.0)).unwrap().rotated(turned, v(0.5, 0.5)).unwrap();
-        let rounded = square.filleted(radius).unwrap();
+        let rounded = square.rounded(radius).unwrap();
         assert!((rounded.length() - (4.0 - 8.0 * radius + 2.0 * PI * radius)).abs() < 1e-5);
         let (least, most) = {
             let p = rounded.resampled(0.02).unwrap();
@@ -61,15 +61,15 @@ fn fillets_round_corners_to_the_radius() {
         };
         assert!(most / least < 1.001, "one smooth line: {least} {most}");
     }
-    let zigzag = Outline::polyline(&[v(0.0, 0.0), v(1.0, 1.0)], 2.0).unwrap().filleted(0.1).unwrap();
+    let zigzag = Outline::polyline(&[v(0.0, 0.0), v(1.0, 1.0)], 2.0).unwrap().rounded(0.1).unwrap();
     // Each of two corners of 90 degrees loses 2 r and gains an arc of pi r / 2.
     assert!((zigzag.length() - (8.0_f64.sqrt() + 0.1 * (PI - 4.0))).abs() < 1e-6);
     let points = zigzag.resampled(0.05).unwrap();
     let (least, most) = spacings(&points, points[0] + v(2.0, 0.0));
     assert!(most / least < 1.02 && points.iter().all(|p| p.y > 0.04 && p.y < 0.96));
     let square = Outline::rectangle(v(0.0, 0.0), v(1.0, 1.0)).unwrap();
-    match square.filleted(0.6) {
-        Err(SolidError::FilletTooLarge { maximum, .. }) => assert!((maximum - 0.5).abs() < 1e-12),
+    match square.rounded(0.6) {
+        Err(SolidError::RoundingTooLarge { maximum, .. }) => assert!((maximum - 0.5).abs() < 1e-12),
         other => panic!("{other:?}"),
     }
 }

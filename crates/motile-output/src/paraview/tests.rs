@@ -1,5 +1,6 @@
 use super::*;
 use motile::prelude::*;
+use motile::setup::DropletShape;
 
 #[test]
 fn each_droplet_has_its_own_forces_and_velocities() {

@@ -1,5 +1,7 @@
 use super::*;
+use motile::elastic_solids::ChannelShape;
 use motile::prelude::*;
+use motile::setup::{Hold, Material, SolidOutline, SolidSetup};
 
 #[test]
 fn a_snapshot_of_a_box_and_of_a_channel() {

@@ -1,5 +1,7 @@
 use super::*;
+use motile::elastic_solids::ChannelShape;
 use motile::prelude::*;
+use motile::setup::{Material, SolidSetup};
 
 #[test]
 fn walls_of_a_channel() {

@@ -1,5 +1,7 @@
 use super::*;
+use motile::motile_scene::checkpoint::Checkpoint;
 use motile::prelude::*;
+use motile::setup::{AnyFlow, ExchangeSetup};
 
 #[test]
 fn the_rows_are_those_of_the_droplet_asked_for() {

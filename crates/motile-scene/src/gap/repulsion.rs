@@ -1,6 +1,7 @@
 //! A short-range repulsion between surfaces.
 
 use motile_base::{InputError, positive};
+use serde::{Deserialize, Serialize};
 
 /// A repulsion between surfaces that come closer than its range, an option for films that are not resolved or that
 /// would drain for ever; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
@@ -15,7 +16,8 @@ use motile_base::{InputError, positive};
 /// half the range, without bound as the gap closes, and continuous with its derivative where it begins. All forces are
 /// minus the gradient of that energy by the places of the markers, so that those of different bodies have no resultant
 /// and no torque together; rigid walls take up what they are pushed by.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Repulsion {
     strength: f64,
     range: f64,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
+use active_interface::{ActiveDroplet, Curve, InitialConcentration};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
@@ -11,8 +11,7 @@ use motile_scene::{Body, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    DropletSetup, DropletShape, IntegralMethod, LayersMethod, MarkerMotion, Method, MethodKind, Setup, SolidSetup,
-    Squeezed, Start,
+    DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup, Squeezed, Start,
 };
 use crate::SetupError;
 
@@ -58,10 +57,8 @@ impl Setup {
         self.check_places(&plans, &flow)?;
         self.check_filled(&plans)?;
         let mut scene = Scene::new(flow).with_step_size(self.step).advanced_by(self.integrator);
-        if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
-            scene = scene.with_repulsion(
-                motile_scene::gap::Repulsion::new(strength, range).map_err(motile_scene::FlowError::from)?,
-            );
+        if let Some(repulsion) = self.repulsion {
+            scene = scene.with_repulsion(repulsion);
         }
         if let Some(bound) = self.least_gap {
             scene = scene.with_least_gap(bound).map_err(motile_scene::FlowError::from)?;
@@ -125,14 +122,8 @@ impl Setup {
                 }
             }
         };
-        let motion = match droplet.motion {
-            MarkerMotion::WithFluid => Motion::WithFluid,
-            MarkerMotion::Equidistributed { relaxation } => {
-                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter);
-                Motion::Equidistributed { relaxation, filter }
-            }
-        };
-        let made = made.with_name(&droplet.name).with_motion(motion).with_area_constraint(droplet.area_constraint);
+        let made = made.with_name(&droplet.name).with_motion(droplet.motion);
+        let made = made.with_area_constraint(droplet.area_constraint);
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
@@ -194,7 +185,7 @@ impl Setup {
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod) -> Result<AnyFlow, SetupError> {
         let settings = Settings { nodes, ..Settings::default() };
         let mut flow = BoundaryIntegral::new(self.region, self.viscosity, settings)?;
-        if !self.rigid.is_empty() {
+        if !self.walls.is_empty() {
             flow = flow.with_walls(&self.rigid_walls()?)?;
         }
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape).chain(self.shells.iter().map(|s| &s.shape));
@@ -242,7 +233,7 @@ impl Setup {
             None => (room, film, to),
         };
         // Where the circle has room elsewhere in the channel it is misplaced, which is not for this to mend.
-        let misplaced = self.rigid.is_empty() && room < least && 0.5 * (above - below) >= least + film * radius;
+        let misplaced = self.walls.is_empty() && room < least && 0.5 * (above - below) >= least + film * radius;
         if room >= least + film * radius || misplaced {
             return Ok(droplet.shape.clone());
         }

@@ -1,10 +1,11 @@
 //! What descriptions must be, checked before any work.
 
+use active_interface::Motion;
 use ib_core::AnyKernel;
 use motile_base::{Drive, Region};
 use motile_scene::StepSize;
 
-use super::{GridMethod, IntegralMethod, LayersMethod, MarkerMotion, Method, MethodKind, Setup, body::BodySetup};
+use super::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup};
 use crate::SetupError;
 
 /// Most cells of a grid in a direction, and in all.
@@ -93,7 +94,7 @@ impl Setup {
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
         }
-        if !self.rigid.is_empty() {
+        if !self.walls.is_empty() {
             self.computed("rigid walls that stand in a channel", &[MethodKind::Integral])?;
         }
         let (key, value) = match self.step {
@@ -104,8 +105,8 @@ impl Setup {
         };
         self.step.check().or_else(|error| top.refuse(key, &value, error.to_string()))?;
         if let Some(repulsion) = self.repulsion {
-            top.positive("repulsion.strength", repulsion.strength)?;
-            top.positive("repulsion.range", repulsion.range)?;
+            top.positive("repulsion.strength", repulsion.strength())?;
+            top.positive("repulsion.range", repulsion.range())?;
         }
         if let Some(bound) = self.least_gap {
             top.finite("least-gap", bound)?;
@@ -114,8 +115,8 @@ impl Setup {
             self.able(body)?;
             body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
         }
-        for (number, wall) in self.rigid.iter().enumerate() {
-            wall.check(&format!("rigid[{number}]"), self)?;
+        for (number, wall) in self.walls.iter().enumerate() {
+            wall.check(&format!("walls[{number}]"), self)?;
         }
         self.check_correction()
     }
@@ -142,16 +143,11 @@ impl Setup {
             checked.positive("marker-spacing", spacing)?;
         }
         self.cells(grid.spacing, self.region.lengths())?;
-        let (with_fluid, equal): (Vec<_>, Vec<_>) =
-            self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
-        if !with_fluid.is_empty() && equal.is_empty() {
-            for (key, set) in [("corrected", grid.corrected), ("filter", grid.filter)] {
-                if set {
-                    let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets \
-                                  with equidistributed markers";
-                    checked.refuse(key, &true, remedy)?;
-                }
-            }
+        let mut droplets = self.droplets.iter();
+        if grid.corrected && !self.droplets.is_empty() && droplets.all(|droplet| droplet.motion == Motion::WithFluid) {
+            let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets with \
+                          equidistributed markers";
+            checked.refuse("corrected", &true, remedy)?;
         }
         Ok(())
     }

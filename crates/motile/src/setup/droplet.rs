@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use active_interface::{ContractileTension, Curve, Exchange, ExcludedVolume, Flux, InterfaceError};
+use active_interface::{ContractileTension, Curve, Exchange, ExcludedVolume, Flux, InterfaceError, Motion};
 use motile_base::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -36,7 +36,7 @@ pub struct DropletSetup {
     /// Tension gamma0 of the interface without particles (force).
     pub tension: f64,
     /// How the markers move along the interface.
-    pub motion: MarkerMotion,
+    pub motion: Motion,
     /// Whether the area is restored to the initial one after each step.
     pub area_constraint: bool,
     /// Its shape at the start.
@@ -57,7 +57,7 @@ impl Default for DropletSetup {
             angle: 0.0,
             viscosity: None,
             tension: 10.0,
-            motion: MarkerMotion::default(),
+            motion: Motion::default(),
             area_constraint: false,
             shape: DropletShape::default(),
             particles: Some(Particles::default()),
@@ -93,7 +93,7 @@ impl DropletSetup {
     #[must_use]
     pub fn thesis() -> Self {
         Self {
-            motion: MarkerMotion::WithFluid,
+            motion: Motion::WithFluid,
             area_constraint: true,
             particles: Some(Particles { flux: Flux::Upwind, ..Particles::default() }),
             ..Self::default()
@@ -228,26 +228,6 @@ pub enum Start {
     },
 }
 
-/// How the markers of an interface move along it; across it they move with the fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum MarkerMotion {
-    /// At a velocity of their own that keeps them equally spaced.
-    Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
-        /// R the perimeter; without particles, of tension over mean viscosity and R.
-        relaxation: f64,
-    },
-    /// With the fluid, as in Cowley; markers are inserted where they thin out and removed where they crowd.
-    WithFluid,
-}
-
-impl Default for MarkerMotion {
-    fn default() -> Self {
-        Self::Equidistributed { relaxation: 50.0 }
-    }
-}
-
 /// The shape of a droplet at the start, about its centre.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
@@ -357,7 +337,7 @@ impl BodySetup for DropletSetup {
             checked.positive("viscosity", viscosity)?;
         }
         checked.not_negative("tension", self.tension)?;
-        if let MarkerMotion::Equidistributed { relaxation } = self.motion {
+        if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
         self.shape.check(checked)?;
@@ -383,7 +363,7 @@ impl BodySetup for DropletSetup {
             for (key, value) in inside.into_iter().filter_map(|(key, value)| Some((key, value?))) {
                 checked.positive(&format!("particles.exchange.{key}"), value)?;
             }
-            if diffusion_inside.is_some() && self.motion == MarkerMotion::WithFluid {
+            if diffusion_inside.is_some() && self.motion == Motion::WithFluid {
                 let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
                 checked.refuse("motion", &"with-fluid", remedy)?;
             }

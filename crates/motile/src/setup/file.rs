@@ -43,22 +43,44 @@ impl Setup {
     }
 }
 
+/// Keys of earlier versions, and what has taken their place.
+const REPLACED: [(&[&str], &str); 5] = [
+    (
+        &["method", "grid", "contrast"],
+        "a sharp contrast is computed by [method.integral] or [method.layers], an arithmetic one by [method.grid] with \
+         corrected = false: take the entry away",
+    ),
+    (&["method", "grid", "layers"], "give nodes and cells in [method.layers]"),
+    (
+        &["method", "grid", "filter"],
+        "the filter is the droplets': give droplets.motion.equidistributed = { relaxation = 50.0, filter = false }, or \
+         take the entry away",
+    ),
+    (
+        &["solids", "surface"],
+        "where surfaces of solids are layers the method is [method.layers], where they are plain [method.grid] with \
+         corrected = false: take the entry away",
+    ),
+    (&["rigid"], "rigid walls are entries of the list [[walls]]"),
+];
+
 /// The first key of an earlier version in a text, and what has taken its place.
 fn replaced(text: &str) -> Option<SetupError> {
-    let table: toml::Table = text.parse().ok()?;
-    let entry = |list: &str, key: &str| {
-        let entries = table.get(list)?.as_array()?.iter().enumerate();
-        let mut found =
-            entries.filter_map(|(number, entry)| Some((format!("{list}[{number}].{key}"), entry.get(key)?)));
-        found.next()
-    };
-    let grid = |key: &str| Some((format!("method.grid.{key}"), table.get("method")?.get("grid")?.get(key)?));
-    let surface = "where surfaces of solids are layers the method is [method.layers], where they are plain [method.grid] \
-                   with corrected = false: take the entry away";
-    let contrast = "a sharp contrast is computed by [method.integral] or [method.layers], an arithmetic one by \
-                    [method.grid] with corrected = false: take the entry away";
-    let layers = "give nodes and cells in [method.layers]";
-    let found = [(grid("contrast"), contrast), (grid("layers"), layers), (entry("solids", "surface"), surface)];
-    let ((key, value), remedy) = found.into_iter().find_map(|(found, remedy)| Some((found?, remedy)))?;
-    Some(SetupError::Value { key, value: value.to_string(), remedy: remedy.to_owned() })
+    let table = toml::Value::Table(text.parse().ok()?);
+    REPLACED.iter().find_map(|(keys, remedy)| {
+        let (key, value) = entry(&table, keys)?;
+        Some(SetupError::Value { key, value, remedy: (*remedy).to_owned() })
+    })
+}
+
+/// Place and value of the first entry at a path of keys, whose lists are searched.
+fn entry(value: &toml::Value, keys: &[&str]) -> Option<(String, String)> {
+    let Some((first, rest)) = keys.split_first() else { return Some((String::new(), value.to_string())) };
+    if let toml::Value::Array(list) = value {
+        let found = |(number, value)| entry(value, keys).map(|(key, found)| (format!("[{number}].{key}"), found));
+        return list.iter().enumerate().find_map(found);
+    }
+    let (key, found) = entry(value.get(first)?, rest)?;
+    let dot = if key.is_empty() || key.starts_with('[') { "" } else { "." };
+    Some((format!("{first}{dot}{key}"), found))
 }

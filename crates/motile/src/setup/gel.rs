@@ -1,12 +1,13 @@
 //! Descriptions of gels inside droplets.
 
+use active_interface::Motion;
 use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
 use motile_base::Vec2;
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
 use super::check::Checked;
-use super::{DropletSetup, ExchangeSetup, MarkerMotion, Particles, Setup, body::Planned};
+use super::{DropletSetup, ExchangeSetup, Particles, Setup, body::Planned};
 use crate::SetupError;
 
 /// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid:
@@ -15,6 +16,7 @@ use crate::SetupError;
 /// ```
 /// use motile::interior_fields::GelMaterial;
 /// use motile::prelude::*;
+/// use motile::setup::GelSetup;
 ///
 /// let material = GelMaterial { activity: -200.0, ..GelMaterial::default() };
 /// let gel = GelSetup { material, ..GelSetup::default() };
@@ -68,7 +70,7 @@ impl GelSetup {
             checked.finite("gel.start.uniform.angle", angle)?;
             checked.not_negative("gel.start.uniform.noise", noise)?;
         }
-        if droplet.motion == MarkerMotion::WithFluid {
+        if droplet.motion == Motion::WithFluid {
             let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
             checked.refuse("motion", &"with-fluid", remedy)?;
         }

@@ -167,16 +167,13 @@ pub struct GridMethod {
     /// Regularised delta function.
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
-    /// equal spacing ([`crate::setup::MarkerMotion::Equidistributed`]) and one viscosity, and is refused beside solids.
+    /// equal spacing ([`active_interface::Motion::Equidistributed`]) and one viscosity, and is refused beside solids.
     pub corrected: bool,
-    /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
-    /// grow in long runs. Needs markers of equal spacing.
-    pub filter: bool,
 }
 
 impl Default for GridMethod {
     fn default() -> Self {
-        Self { spacing: 0.05, marker_spacing: None, kernel: AnyKernel::BSpline4, corrected: true, filter: true }
+        Self { spacing: 0.05, marker_spacing: None, kernel: AnyKernel::BSpline4, corrected: true }
     }
 }
 
@@ -184,7 +181,7 @@ impl GridMethod {
     /// Cowley's grid: Peskin's 4-point function, no mobility correction, h = 0.05, markers h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
-        Self { kernel: AnyKernel::Peskin4, corrected: false, filter: false, ..Self::default() }
+        Self { kernel: AnyKernel::Peskin4, corrected: false, ..Self::default() }
     }
 
     /// The default on a grid of this spacing (length).

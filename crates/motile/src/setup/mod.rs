@@ -11,23 +11,23 @@ mod inside;
 mod method;
 mod particles_entry;
 mod places;
-mod rigid;
 mod rigid_body;
 mod shell;
 mod solid;
+mod wall;
 
 pub use build::{AnyFlow, Built};
-pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, MarkerMotion, Particles, Squeezed, Start};
+pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particles, Squeezed, Start};
 pub use gel::GelSetup;
 pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
-pub use rigid::RigidSetup;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
 pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup};
+pub use wall::WallSetup;
 
 use body::{BodySetup, numbered};
 use motile_base::Region;
-use motile_scene::{StepSize, integrator::IntegratorKind};
+use motile_scene::{StepSize, gap::Repulsion, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 
 /// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
@@ -75,7 +75,7 @@ pub struct Setup {
     pub integrator: IntegratorKind,
     /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
     /// thinner than is resolved; no part of the physics of the model.
-    pub repulsion: Option<RepulsionSetup>,
+    pub repulsion: Option<Repulsion>,
     /// A bound on gaps (length), below which a run ends ([`motile_scene::Scene::with_least_gap`]).
     pub least_gap: Option<f64>,
     /// Whether the scene, which has to be its own mirror image in y = 0, is held so
@@ -95,17 +95,7 @@ pub struct Setup {
     pub shells: Vec<ShellSetup>,
     /// Rigid walls and obstacles in a channel, besides its straight walls; by boundary integrals only.
     #[serde(default)]
-    pub rigid: Vec<RigidSetup>,
-}
-
-/// A short-range repulsion between interfaces, solids and walls (see [`motile_scene::gap::Repulsion`]).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RepulsionSetup {
-    /// Strength (force per length squared).
-    pub strength: f64,
-    /// Range (length).
-    pub range: f64,
+    pub walls: Vec<WallSetup>,
 }
 
 impl Default for Setup {
@@ -124,7 +114,7 @@ impl Default for Setup {
             solids: Vec::new(),
             rigid_bodies: Vec::new(),
             shells: Vec::new(),
-            rigid: Vec::new(),
+            walls: Vec::new(),
         }
     }
 }

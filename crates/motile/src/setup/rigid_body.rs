@@ -15,6 +15,7 @@ use crate::SetupError;
 ///
 /// ```
 /// use motile::prelude::*;
+/// use motile::setup::RigidBodySetup;
 ///
 /// // A droplet with a rigid nucleus off its centre.
 /// let nucleus = RigidBodySetup { centre: [0.1, 0.2], ..RigidBodySetup::disc(0.4) };

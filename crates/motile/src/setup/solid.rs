@@ -19,6 +19,8 @@ use crate::SetupError;
 ///
 /// ```
 /// use motile::prelude::*;
+/// use motile::elastic_solids::ChannelShape;
+/// use motile::setup::{Axis, Grading, Material, SolidSetup};
 ///
 /// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
 /// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };
@@ -126,7 +128,7 @@ pub enum SolidOutline {
         corners: Vec<[f64; 2]>,
         /// Radius to which corners are rounded (length); 0 for sharp ones.
         #[serde(default)]
-        fillet: f64,
+        rounding: f64,
     },
 }
 
@@ -362,10 +364,10 @@ impl SolidOutline {
             Self::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
             &Self::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
             &Self::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
-            Self::Polygon { corners, fillet } => {
+            Self::Polygon { corners, rounding } => {
                 let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
                 let outline = Outline::polygon(&corners)?;
-                if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
+                if *rounding > 0.0 { outline.rounded(*rounding)? } else { outline }
             }
         })
     }
@@ -485,9 +487,9 @@ impl BodySetup for SolidSetup {
                     across("outline.ellipse.half-axes", axis)?;
                 }
             }
-            SolidOutline::Polygon { corners, fillet } => {
+            SolidOutline::Polygon { corners, rounding } => {
                 checked.all_finite("outline.polygon.corners", corners.as_flattened())?;
-                checked.not_negative("outline.polygon.fillet", *fillet)?;
+                checked.not_negative("outline.polygon.rounding", *rounding)?;
                 for length in corners.as_flattened() {
                     across("outline.polygon.corners", length.abs())?;
                 }

@@ -1,4 +1,4 @@
-use active_interface::polygon_moments;
+use active_interface::{Motion, polygon_moments};
 use motile_base::{Drive, Vec2};
 use motile_scene::{Body, Handle, StepSize};
 
@@ -86,18 +86,14 @@ fn what_makes_no_scene_is_refused_with_its_key() {
             Setup { rigid_bodies: vec![RigidBodySetup::default()], ..grid(coarse) }
         }),
         ("method = layers: it has no rigid walls", {
-            let rigid = RigidSetup::walls(&ChannelShape::Straight { width: 3.0 }, 0.15);
-            Setup { region: channel(6.0), method: layers(), rigid, ..Setup::default() }
+            let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
+            Setup { region: channel(6.0), method: layers(), walls, ..Setup::default() }
         }),
         ("method.grid.corrected = true: solids on the grid", {
             Setup { method: Method::Grid(coarse), ..elastic(3.0, plain()) }
         }),
         ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
         ("method.grid.corrected = true", { Setup { droplets: vec![contrast], ..grid(coarse) } }),
-        (
-            "repulsion.range",
-            Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.0 }), ..Setup::default() },
-        ),
         ("least-gap", Setup { least_gap: Some(f64::NAN), ..Setup::default() }),
         ("droplets[0]: a region of 1.9 x 6 does not hold it: move it", {
             Setup { region: Region::Box { lengths: [1.9, 6.0] }, ..Setup::default() }
@@ -129,7 +125,7 @@ fn exchanges_that_make_no_scene_are_refused() {
         ("particles.exchange.binding =", with(ExchangeSetup::new(0.0, 0.1))),
         ("particles.exchange.diffusion-inside =", with(ExchangeSetup { diffusion_inside: Some(0.0), ..diffusing })),
         ("particles.exchange.spacing-inside =", with(ExchangeSetup { spacing_inside: Some(f64::NAN), ..diffusing })),
-        ("motion =", DropletSetup { motion: MarkerMotion::WithFluid, ..with(diffusing) }),
+        ("motion =", DropletSetup { motion: Motion::WithFluid, ..with(diffusing) }),
     ];
     for (key, droplet) in cases {
         let error = of(droplet).check().unwrap_err().to_string();
@@ -162,9 +158,9 @@ fn gels_that_make_no_scene_are_refused() {
         }),
         ("droplets[0].motion =", {
             let mut setup = with(GelSetup::default());
-            setup.droplets[0].motion = MarkerMotion::WithFluid;
+            setup.droplets[0].motion = Motion::WithFluid;
             let spacing = GridMethod::of_spacing(0.1);
-            setup.method = Method::Grid(GridMethod { corrected: false, filter: false, ..spacing });
+            setup.method = Method::Grid(GridMethod { corrected: false, ..spacing });
             setup
         }),
         ("droplets[0].gel = a gel: solids[0] lies inside", {
@@ -507,7 +503,7 @@ mod file {
         let mut setup = elastic(3.0, plain());
         setup.region = Region::Channel { length: 40.0, width: 5.0, drive: Drive::Flux(-0.25) };
         setup.step = StepSize::Adaptive { tolerance: 1e-4 };
-        setup.repulsion = Some(RepulsionSetup { strength: 2.0, range: 0.1 });
+        setup.repulsion = Some(Repulsion::new(2.0, 0.1).unwrap());
         setup.least_gap = Some(0.01);
         setup.droplets.extend(shapes.into_iter().enumerate().map(|(k, shape)| DropletSetup {
             centre: [4.0 * k as f64 - 16.0, 0.1],
@@ -526,14 +522,14 @@ mod file {
         setup.droplets[2].gel =
             Some(GelSetup { anchoring: interior_fields::Anchoring::Planar, start, ..GelSetup::default() });
         setup.droplets[3].gel = Some(GelSetup { start: DirectorStart::Aster, ..GelSetup::default() });
-        setup.droplets[2..4].iter_mut().for_each(|droplet| droplet.motion = MarkerMotion::default());
+        setup.droplets[2..4].iter_mut().for_each(|droplet| droplet.motion = Motion::default());
         setup.solids.push(SolidSetup {
             hold: Hold::Tethered { stiffness: 20.0 },
             grading: graded,
             mesh: MeshKind::Unstructured,
             mesh_spacing: Some(0.07),
             ..SolidSetup::new(
-                SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], fillet: 0.1 },
+                SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], rounding: 0.1 },
                 Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
             )
         });
@@ -596,6 +592,13 @@ mod file {
             ("method.grid.spacing = 0.07", &["method.grid.spacing = 0.07", "whole number"]),
             ("viscosity = ", &["line 1"]),
             ("method.grid.contrast = \"sharp\"", &["method.grid.contrast", "[method.layers]", "take the entry away"]),
+            ("[repulsion]\nstrength = 1.0\nrange = 0.0", &["repulsion.range = 0", "positive"]),
+            ("[[rigid]]\nspacing = 0.1", &["rigid = [", "[[walls]]"]),
+            ("method.grid.filter = false", &["method.grid.filter = false", "droplets.motion.equidistributed = {"]),
+            (
+                "[[solids]]\noutline.polygon = { corners = [[0.0, 0.0]], fillet = 0.1 }\nmaterial.springs.shear = 1.0",
+                &["fillet", "rounding"],
+            ),
             ("method.grid.layers.nodes = 72", &["method.grid.layers", "give nodes and cells in [method.layers]"]),
             (
                 "[[solids]]\nsurface = \"plain\"\noutline.disc = { centre = [0.0, 0.0], radius = 0.3 }\n\

@@ -58,7 +58,7 @@ fn the_constriction_of_the_thesis() {
 
 #[test]
 fn a_valve_keeps_its_sharp_tips_and_rounds_them_on_request() {
-    let valve = |radius: f64| ChannelShape::Valve { width: 2.0, gap: 0.2, base: 1.2, radius, centre: 0.5 };
+    let valve = |rounding: f64| ChannelShape::Valve { width: 2.0, gap: 0.2, base: 1.2, rounding, centre: 0.5 };
     // The channel less two triangles of base 1.2 and height 0.9.
     let sharp = walls(&valve(0.0).channel(8.0).unwrap(), 0.07, 16.0 - 1.08, 1e-10);
     assert!((highest(&sharp.lower) - Vec2::new(0.5, -0.1)).length() < 1e-12);
@@ -135,9 +135,9 @@ fn bad_shapes_are_refused() {
     assert!(matches!(closed.channel(12.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
     let straight = ChannelShape::Straight { width: 1.0 };
     assert!(matches!(straight.channel(f64::NAN), Err(SolidError::Input(InputError::NotPositive { .. }))));
-    let valve = |gap, radius| ChannelShape::Valve { width: 2.0, gap, base: 1.2, radius, centre: 0.0 }.channel(8.0);
+    let valve = |gap, rounding| ChannelShape::Valve { width: 2.0, gap, base: 1.2, rounding, centre: 0.0 }.channel(8.0);
     assert!(matches!(valve(2.5, 0.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
-    assert!(matches!(valve(0.1, 5.0), Err(SolidError::FilletTooLarge { .. })));
+    assert!(matches!(valve(0.1, 5.0), Err(SolidError::RoundingTooLarge { .. })));
     for (teeth, rise) in [(0, 0.5), (2, 1.0)] {
         let ratchet = ChannelShape::Ratchet { width: 2.0, throat: 1.0, teeth, rise, sharp: true };
         assert!(matches!(ratchet.channel(12.0), Err(SolidError::Input(InputError::OutOfRange { .. }))));

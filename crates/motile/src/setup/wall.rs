@@ -20,13 +20,15 @@ const LEAST_NODES: f64 = 16.0;
 ///
 /// ```
 /// use motile::prelude::*;
+/// use motile::elastic_solids::ChannelShape;
+/// use motile::setup::WallSetup;
 ///
 /// // A wavy channel of width 3 -+ 0.6 in a region of 12 x 5.
 /// let shape = ChannelShape::Sinusoidal { width: 3.0, amplitude: 0.3, waves: 1, phase: 0.0 };
 /// let setup = Setup {
 ///     region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
 ///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
-///     rigid: RigidSetup::walls(&shape, 0.15),
+///     walls: WallSetup::channel(&shape, 0.15),
 ///     ..Setup::default()
 /// };
 /// let Built { mut scene, droplets, .. } = setup.build()?;
@@ -38,7 +40,7 @@ const LEAST_NODES: f64 = 16.0;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RigidSetup {
+pub struct WallSetup {
     /// What it bounds: the sides of channels, islands, closed outlines.
     pub outline: SolidOutline,
     /// Distance of its nodes (length).
@@ -49,10 +51,10 @@ pub struct RigidSetup {
     pub rounding: f64,
 }
 
-impl RigidSetup {
+impl WallSetup {
     /// The sides and islands of a channel, with nodes at that distance (length).
     #[must_use]
-    pub fn walls(channel: &ChannelShape, spacing: f64) -> Vec<Self> {
+    pub fn channel(channel: &ChannelShape, spacing: f64) -> Vec<Self> {
         let wall = |outline| Self { outline, spacing, rounding: 0.0 };
         let mut walls = vec![wall(SolidOutline::WallBelow(*channel)), wall(SolidOutline::WallAbove(*channel))];
         let island = |number| wall(SolidOutline::Island { of: *channel, number });
@@ -107,7 +109,7 @@ fn points(outline: &Outline, count: usize) -> Result<Vec<Vec2>, SetupError> {
     Ok(points)
 }
 
-impl RigidSetup {
+impl WallSetup {
     pub(super) fn check(&self, place: &str, setup: &Setup) -> Result<(), SetupError> {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
@@ -127,8 +129,8 @@ impl Setup {
     /// Outlines that cannot be, more than 3000 nodes of a wall.
     pub fn rigid_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
-        let walls = self.rigid.iter().enumerate();
-        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&format!("rigid[{k}]")))).collect()
+        let walls = self.walls.iter().enumerate();
+        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&format!("walls[{k}]")))).collect()
     }
 
     /// Refuses a droplet that starts beyond a rigid wall.
