@@ -1,16 +1,7 @@
-//! What most programs need: all that descriptions are written with, and what looks at the scenes that are built.
+//! Names that most programs need: a description, its methods, the scene that it builds. All others are in
+//! [`crate::setup`] and in the crates of the parts.
 
 pub use crate::SetupError;
-pub use crate::setup::{
-    AnyFlow, Axis, Built, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup, Grading, GridMethod, Hold,
-    IntegralMethod, LayersMethod, Material, MeshKind, Method, Particles, RigidBodySetup, Setup, ShellSetup,
-    SolidOutline, SolidSetup, Squeezed, Start, WallSetup,
-};
-pub use active_interface::{ActiveDroplet, Curve, Flux};
-pub use elastic_solids::{BendingMeasure, ChannelShape, RigidBody, Shell, Solid};
-pub use ib_core::AnyKernel;
+pub use crate::setup::{Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup};
 pub use motile_base::{Drive, Region, Vec2};
-pub use motile_scene::{
-    Every, Handle, Hydrodynamics, Scene, SceneError, StepSize, System, checkpoint::Checkpoint,
-    integrator::IntegratorKind,
-};
+pub use motile_scene::{Every, Scene, SceneError, StepSize};
