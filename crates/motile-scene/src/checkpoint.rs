@@ -47,8 +47,6 @@ pub struct Checkpoint {
     description: String,
     time: f64,
     steps: u64,
-    minimum_wall_gap: Option<f64>,
-    minimum_gap: Option<f64>,
     domain: Domain,
     /// Of the grid, if there was one (length).
     spacing: Option<f64>,
@@ -145,8 +143,6 @@ impl<H: Hydrodynamics> Scene<H> {
             description: description.into(),
             time: system.time(),
             steps: system.steps() as u64,
-            minimum_wall_gap: system.minimum_wall_gap(),
-            minimum_gap: system.narrowest_so_far(),
             domain: system.hydrodynamics().fluid_view().domain,
             spacing: system.hydrodynamics().fluid_view().spacing,
             properties: system.properties(),
@@ -157,7 +153,7 @@ impl<H: Hydrodynamics> Scene<H> {
             kept,
             control,
             report: self.step_report().clone(),
-            findings: system.findings(),
+            findings: system.findings.clone(),
         }
     }
 
@@ -210,8 +206,7 @@ impl<H: Hydrodynamics> Scene<H> {
 
     fn take(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let records = checkpoint.bodies.iter().map(|part| &part.saved);
-        let gaps = [checkpoint.minimum_wall_gap, checkpoint.minimum_gap];
-        self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize, gaps)?;
+        self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize)?;
         if checkpoint.integrator == self.integrator().name() {
             self.load_integrator(&checkpoint.kept)?;
             self.control = crate::scene::StepControl::load(&checkpoint.control).ok_or_else(|| {
@@ -225,7 +220,7 @@ impl<H: Hydrodynamics> Scene<H> {
             self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;
         }
         // The flow that was computed here is no work of the run.
-        self.system_mut().take_findings(&checkpoint.findings);
+        self.system_mut().findings.clone_from(&checkpoint.findings);
         Ok(())
     }
 }

@@ -68,7 +68,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// The same scene with a short-range repulsion between interfaces, solids and walls (none by default).
     #[must_use]
     pub fn with_repulsion(mut self, repulsion: Repulsion) -> Self {
-        self.system.repulsion = Some(repulsion);
+        self.system.contacts.repulsion = Some(repulsion);
         self
     }
 
@@ -80,7 +80,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// # Errors
     /// A bound that is not finite.
     pub fn with_least_gap(mut self, bound: f64) -> Result<Self, InputError> {
-        self.system.least_gap = Some(finite("the bound on gaps", bound)?);
+        self.system.contacts.least_gap = Some(finite("the bound on gaps", bound)?);
         Ok(self)
     }
 

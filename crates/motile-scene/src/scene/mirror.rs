@@ -55,8 +55,9 @@ impl Mirror {
             if !single[one] {
                 continue;
             }
-            let problem =
-                |problem| Err(SceneError::NotSymmetric { time: system.time(), body: system.name_of(one), problem });
+            let problem = |problem| {
+                Err(SceneError::NotSymmetric { time: system.time(), body: system.bodies.name_of(one), problem })
+            };
             let mut nearest = (f64::INFINITY, Vec2::ZERO);
             let mut image = None;
             for other in (one..bodies.len()).filter(|&other| single[other]) {
@@ -116,7 +117,7 @@ impl Mirror {
                 *value = 0.5 * (*value + image);
             }
             if most > ROUND_OFF {
-                let (time, body) = (system.time(), system.name_of(*one));
+                let (time, body) = (system.time(), system.bodies.name_of(*one));
                 let problem = format!("has come off its mirror image by {most:.1e} of its size");
                 return Err(SceneError::NotSymmetric { time, body, problem });
             }

@@ -34,7 +34,7 @@ impl Warnings {
     /// Looks at the present state; returns what was not warned of before.
     pub fn look<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> &[(f64, Warning)] {
         let (found, time) = (system.warnings(), system.time());
-        let all = &mut system.worst_warnings;
+        let all = &mut system.findings.warnings;
         let known = all.len();
         for warning in found {
             let same = |(_, other): &&mut (f64, Warning)| other.body == warning.body && other.cause == warning.cause;

@@ -1,96 +1,171 @@
-//! The bodies of a system, found by their handles or by their types.
+//! The bodies of a system, their markers, and the fluids that they lie in.
 
-use std::any::Any;
+use super::forces::write_forces;
+use crate::{Body, BodyError, FluidView, Handle, Markers, SceneError, gap::Surfaces, scene::SceneId};
 
-use super::{Known, System, body_error};
-use crate::{Body, BodyFlow, FluidView, Handle, Hydrodynamics, Observe, SceneError};
+/// The bodies of a scene with what they have on the fluid and around them: markers, guests, enclosing interfaces.
+#[derive(Debug)]
+pub(in crate::scene) struct Bodies {
+    pub(super) scene: SceneId,
+    pub(super) list: Vec<Box<dyn Body>>,
+    /// Numbers of a host and of the body that fills it, the later one of the two.
+    pub(super) guests: Vec<[usize; 2]>,
+    /// A body fills one that is not in this scene.
+    pub(super) stray_guest: bool,
+    pub(super) markers: Markers,
+    /// Innermost interface around each body.
+    pub(super) enclosing: Vec<Option<usize>>,
+    /// Innermost interface around each body when it was last looked for before.
+    enclosing_before: Vec<Option<usize>>,
+    /// Viscosity around each body (stress times time) where that is not the exterior fluid's.
+    pub(super) viscosity_around: Vec<Option<f64>>,
+}
 
-impl<H: Hydrodynamics> System<H> {
-    /// The number of a body, if it is one of this system.
-    fn index_of(&self, handle: Handle<dyn Body>) -> Result<usize, SceneError> {
-        if handle.scene() == self.id { Ok(handle.index()) } else { Err(SceneError::ForeignHandle) }
-    }
-
-    /// A body.
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`].
-    pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
-        let body: &dyn Any = self.any_body(handle)?;
-        body.downcast_ref().ok_or(SceneError::ForeignHandle)
-    }
-
-    /// A body whose type does not matter.
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`].
-    pub fn any_body(&self, handle: impl Into<Handle<dyn Body>>) -> Result<&dyn Body, SceneError> {
-        Ok(self.bodies[self.index_of(handle.into())?].as_ref())
-    }
-
-    pub(crate) fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
-        let index = self.index_of(handle.into())?;
-        // Whoever holds the body mutably may change it.
-        self.known = Known::Nothing;
-        self.apart = false;
-        self.unmoved = true;
-        let body: &mut dyn Any = self.bodies[index].as_mut();
-        body.downcast_mut().ok_or(SceneError::ForeignHandle)
-    }
-
-    /// The bodies of type B with their handles, in the order in which they were added.
-    pub fn bodies<B: Body>(&self) -> impl Iterator<Item = (Handle<B>, &B)> {
-        let bodies = self.bodies.iter().enumerate();
-        bodies.filter_map(|(index, body)| {
-            let body: &dyn Any = body.as_ref();
-            Some((Handle::new(self.id, index), body.downcast_ref()?))
-        })
-    }
-
-    /// All bodies whatever their types, in the order in which they were added.
-    pub fn all_bodies(&self) -> impl ExactSizeIterator<Item = (Handle<dyn Body>, &dyn Body)> {
-        self.bodies.iter().enumerate().map(|(index, body)| (Handle::new(self.id, index), body.as_ref()))
-    }
-
-    /// The flow at the markers of a body in the present state.
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`]; [`SceneError::NotEvaluated`] where the flow of the present state is not known, as
-    /// before the first [`System::evaluate`].
-    pub fn flow_at(&self, handle: impl Into<Handle<dyn Body>>) -> Result<BodyFlow<'_>, SceneError> {
-        let index = self.index_of(handle.into())?;
-        if self.known != Known::Flow {
-            return Err(SceneError::NotEvaluated { body: self.bodies[index].name().to_owned() });
+impl Bodies {
+    pub(super) fn new() -> Self {
+        Self {
+            scene: SceneId::unique(),
+            list: Vec::new(),
+            guests: Vec::new(),
+            stray_guest: false,
+            markers: Markers::new(),
+            enclosing: Vec::new(),
+            enclosing_before: Vec::new(),
+            viscosity_around: Vec::new(),
         }
-        let range = self.markers.groups()[index].range.clone();
-        Ok(BodyFlow {
-            all: (&self.markers, &self.guests),
-            index,
-            positions: &self.markers.positions[range.clone()],
-            forces: &self.markers.forces[range.clone()],
-            velocities: &self.markers.velocities[range],
+    }
+
+    pub(super) fn push<B: Body>(&mut self, mut body: B) -> Handle<B> {
+        self.push_guest(&mut body);
+        self.markers.push_body(body.marker_count(), body.kind(), body.surfaces());
+        self.list.push(Box::new(body));
+        self.enclosing.push(None);
+        self.viscosity_around.push(None);
+        Handle::new(self.scene, self.list.len() - 1)
+    }
+
+    /// The number of a body, if it is one of this scene.
+    pub(super) fn index_of(&self, handle: Handle<dyn Body>) -> Result<usize, SceneError> {
+        if handle.scene() == self.scene { Ok(handle.index()) } else { Err(SceneError::ForeignHandle) }
+    }
+
+    /// The name of a body, with its number where another one has the same.
+    pub(in crate::scene) fn name_of(&self, index: usize) -> String {
+        let name = self.list[index].name();
+        let shared = self.list.iter().filter(|body| body.name() == name).count() > 1;
+        if shared { format!("{name} (body {index})") } else { name.to_owned() }
+    }
+
+    /// Some body is a closed curve.
+    pub(super) fn have_curves(&self) -> bool {
+        self.list.iter().any(|body| body.kind().is_closed_curve())
+    }
+
+    /// Calls `act` with the number of each body, the body, and the viscosity around it, until it fails.
+    pub(super) fn try_each(
+        &mut self,
+        time: f64,
+        mut act: impl FnMut(usize, &mut dyn Body, Option<f64>) -> Result<(), BodyError>,
+    ) -> Result<(), SceneError> {
+        self.list.iter_mut().zip(&self.viscosity_around).enumerate().try_for_each(|(index, (body, &outside))| {
+            act(index, body.as_mut(), outside).map_err(|source| failure(time, body.as_ref(), source))
         })
     }
 
-    /// The fluid as a body sees it: with the viscosity of that around it, which is not the exterior one where the body
-    /// lies inside an interface. As of the last [`System::evaluate`].
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`].
-    pub fn fluid_around(&self, handle: impl Into<Handle<dyn Body>>) -> Result<FluidView, SceneError> {
-        let outside = self.viscosity_around[self.index_of(handle.into())?];
-        Ok(self.hydrodynamics.fluid_view().in_fluid(outside).into_owned())
+    /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step;
+    /// `same` where the bodies themselves are those of the groups.
+    fn fit_markers(&mut self, same: bool) {
+        let groups = self.markers.groups();
+        let fits = same
+            && groups.len() == self.list.len()
+            && groups.iter().zip(&self.list).all(|(g, b)| g.range.len() == b.marker_count() && g.kind == b.kind());
+        if !fits {
+            self.markers.clear();
+            for body in &self.list {
+                self.markers.push_body(body.marker_count(), body.kind(), body.surfaces());
+            }
+            self.markers.set_outside(&self.viscosity_around);
+        }
     }
 
-    /// What is seen of a body in the present state, whose flow is computed if it is not known yet.
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`]; those of [`System::evaluate`] and of [`Observe::observables`].
-    pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
-        let index = self.index_of(handle.into())?;
-        self.evaluate()?;
-        let view = self.fluid_around(handle)?;
-        let seen = self.body(handle)?.observables(&view, &self.flow_at(handle)?);
-        seen.map_err(|source| body_error(self.time, self.bodies[index].as_ref(), source))
+    /// Puts the markers where the bodies have them; `same` as in [`Bodies::fit_markers`].
+    pub(super) fn place_markers(&mut self, same: bool) {
+        self.fit_markers(same);
+        self.update_hosts();
+        let mut start = 0;
+        for body in &self.list {
+            let end = start + body.marker_count();
+            body.write_markers(&mut self.markers.positions[start..end]);
+            start = end;
+        }
     }
+
+    /// Writes the forces of all bodies, those of guests on their hosts included.
+    pub(super) fn write_forces(&mut self, view: &FluidView, time: f64) -> Result<(), SceneError> {
+        let failed = write_forces(0, &mut self.list, &self.viscosity_around, &mut self.markers.forces, view);
+        if let Some((index, source)) = failed {
+            return Err(failure(time, self.list[index].as_ref(), source));
+        }
+        self.add_guest_forces();
+        Ok(())
+    }
+
+    /// Writes the explicit rates of all bodies from the velocities at their markers.
+    pub(super) fn write_rates(&mut self, rate: &mut [f64]) {
+        let mut rest = &mut *rate;
+        for index in 0..self.list.len() {
+            self.host_moved(index);
+            let (body, range) = (&mut self.list[index], self.markers.groups()[index].range.clone());
+            let rate = part(&mut rest, body.as_ref());
+            body.rate(&self.markers.velocities[range], rate);
+        }
+        self.add_guest_rates(rate);
+    }
+
+    /// Finds the interfaces that the bodies lie in, and the viscosities there.
+    pub(super) fn find_surroundings(&mut self, surfaces: &Surfaces, periods: [Option<f64>; 2]) {
+        std::mem::swap(&mut self.enclosing, &mut self.enclosing_before);
+        surfaces.surroundings(periods, &mut self.enclosing);
+        for &[host, guest] in &self.guests {
+            self.enclosing[guest] = Some(host);
+        }
+        for index in 0..self.list.len() {
+            let enclosing = std::iter::successors(self.enclosing[index], |&outer| self.enclosing[outer]);
+            self.viscosity_around[index] =
+                enclosing.take(self.list.len()).find_map(|outer| self.list[outer].kind().viscosity_inside());
+        }
+        self.markers.set_outside(&self.viscosity_around);
+    }
+
+    /// Refuses that a body has come into an interface or out of it since it was last looked for.
+    pub(super) fn check_containment(&self, time: f64) -> Result<(), SceneError> {
+        let mut pairs = self.enclosing_before.iter().zip(&self.enclosing);
+        let Some(body) = pairs.position(|(before, now)| before != now) else { return Ok(()) };
+        let place = |around: Option<usize>| match around {
+            Some(outer) => format!("inside {}", self.name_of(outer)),
+            None => "in the exterior fluid".to_owned(),
+        };
+        let [before, now] = [&self.enclosing_before, &self.enclosing].map(|list| place(list[body]));
+        Err(SceneError::Containment { time, body: self.name_of(body), before, now })
+    }
+
+    /// Ends a step of `dt` (time).
+    pub(super) fn end_step(&mut self, view: &FluidView, time: f64, dt: f64) -> Result<(), SceneError> {
+        self.update_hosts();
+        for index in 0..self.list.len() {
+            self.update_host(index);
+            let (body, outside) = (&mut self.list[index], self.viscosity_around[index]);
+            body.end_step(&view.in_fluid(outside), dt).map_err(|source| failure(time, body.as_ref(), source))?;
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn failure(time: f64, body: &dyn Body, source: BodyError) -> SceneError {
+    SceneError::Body { time, body: body.name().to_owned(), source }
+}
+
+/// The part of a flat list that is the next body's, taken off the rest.
+pub(super) fn part<'a>(rest: &mut &'a mut [f64], body: &dyn Body) -> &'a mut [f64] {
+    rest.split_off_mut(..body.state_len()).unwrap_or_default()
 }

@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::{Known, System};
+use super::{Known, System, findings::lower};
 use crate::{
     Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
-    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, REACH, Repulsion, Surfaces, Surroundings, wall_gap},
+    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, Surfaces, wall_gap},
 };
 use motile_base::{Drive, Vec2};
 
@@ -15,9 +15,6 @@ const RESOLVED_CELLS: f64 = 1.0;
 /// The same in channels of given flux: what a droplet displaces has to pass it, and slow swimmers err by more.
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
-/// Gaps below this, in units of what a contact is measured in, close as if they were that wide: what touches at the
-/// start sets no step.
-const THINNEST: f64 = 0.02;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
@@ -31,9 +28,9 @@ impl<H: Hydrodynamics> System<H> {
         }
         self.place_markers();
         let interfaces =
-            self.markers.groups().iter().filter(|group| group.kind.is_closed_curve() && !group.range.is_empty());
+            self.bodies.markers.groups().iter().filter(|group| group.kind.is_closed_curve() && !group.range.is_empty());
         let gaps = interfaces.flat_map(|group| {
-            let positions = &self.markers.positions[group.range.clone()];
+            let positions = &self.bodies.markers.positions[group.range.clone()];
             let others = self.hydrodynamics.walls().and_then(|walls| walls.smallest(positions, domain.periods));
             [straight.map(|walls| wall_gap(positions, walls)), others.map(|(gap, _)| gap)].into_iter().flatten()
         });
@@ -61,7 +58,7 @@ impl<H: Hydrodynamics> System<H> {
     /// the end of each step.
     #[must_use]
     pub fn minimum_wall_gap(&self) -> Option<f64> {
-        self.minimum_wall_gap
+        self.findings.wall_gap
     }
 
     /// The smallest gap between an interface and another body, or between an interface and its own image in a periodic
@@ -72,16 +69,18 @@ impl<H: Hydrodynamics> System<H> {
     pub fn minimum_gap(&self) -> Option<f64> {
         let present =
             self.surfaces().narrowest(&self.hydrodynamics.fluid_view().domain, f64::INFINITY).map(|gap| gap.width);
-        [self.minimum_gap, present].into_iter().flatten().reduce(f64::min)
+        [self.findings.gap, present].into_iter().flatten().reduce(f64::min)
     }
 
     /// The surfaces of the bodies in the present state, laid out anew where that is not known.
     fn surfaces(&self) -> Cow<'_, Surfaces> {
         if self.known >= Known::Surfaces {
-            return Cow::Borrowed(&self.surfaces);
+            return Cow::Borrowed(&self.contacts.surfaces);
         }
         let periods = self.hydrodynamics.fluid_view().domain.periods;
-        Cow::Owned(Surfaces::of(self.bodies.iter().map(|body| (Boundary::of(body.as_ref(), periods), body.kind()))))
+        Cow::Owned(Surfaces::of(
+            self.bodies.list.iter().map(|body| (Boundary::of(body.as_ref(), periods), body.kind())),
+        ))
     }
 
     /// Where an interface is nearest to a solid at the present state.
@@ -89,27 +88,25 @@ impl<H: Hydrodynamics> System<H> {
         let found = self.surfaces().nearest_solid(self.hydrodynamics.fluid_view().domain.periods);
         found.map(|(gap, body, marker, place)| NearestSolid {
             gap,
-            interface: Handle::new(self.id, body),
+            interface: Handle::new(self.bodies.scene, body),
             marker,
             place,
         })
     }
 
-    /// The same over the states that steps have looked at alone.
-    pub(crate) fn narrowest_so_far(&self) -> Option<f64> {
-        self.minimum_gap
-    }
-
     /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
     /// that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
-        if !self.apart {
+        if self.known < Known::Apart {
             // No step has looked at the gaps of this state.
             self.find_gaps();
         }
         let view = self.hydrodynamics.fluid_view();
-        let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&view)).collect();
-        let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
+        let mut warnings: Vec<Warning> = self.bodies.list.iter().flat_map(|body| body.warnings(&view)).collect();
+        let between = self
+            .contacts
+            .narrowest
+            .map(|gap| (gap.width, self.bodies.name_of(gap.body), self.bodies.name_of(gap.other)));
         let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
@@ -138,9 +135,9 @@ impl<H: Hydrodynamics> System<H> {
 
     /// The largest distance of neighbouring nodes of an interface (length).
     fn node_spacing(&self, view: &FluidView) -> f64 {
-        let groups = self.markers.groups().iter().filter(|group| group.kind.is_closed_curve());
+        let groups = self.bodies.markers.groups().iter().filter(|group| group.kind.is_closed_curve());
         let spacings = groups.map(|group| {
-            let markers = &self.markers.positions[group.range.clone()];
+            let markers = &self.bodies.markers.positions[group.range.clone()];
             let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
             perimeter / view.shape_modes.unwrap_or(markers.len()) as f64
         });
@@ -150,133 +147,75 @@ impl<H: Hydrodynamics> System<H> {
     /// The repulsion between interfaces, if it is on.
     #[must_use]
     pub fn repulsion(&self) -> Option<&Repulsion> {
-        self.repulsion.as_ref()
+        self.contacts.repulsion.as_ref()
     }
 
     /// Looks at how the bodies lie before anything is computed for them, unless that is known: neither interfaces nor
     /// solids may be inside other bodies by more than a quarter of the grid spacing.
     pub(super) fn check_bodies(&mut self) -> Result<(), SceneError> {
-        if self.apart {
+        if self.known >= Known::Apart {
             return Ok(());
         }
-        self.check_guests()?;
-        let (time, allowed) = (self.time, self.find_gaps());
+        self.bodies.check_guests()?;
+        let (time, allowed) = (self.clock.time, self.find_gaps());
         let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
-            let ([body, other], [x, y]) = ([body, other].map(|index| self.name_of(index)), place.into());
+            let ([body, other], [x, y]) = ([body, other].map(|index| self.bodies.name_of(index)), place.into());
             Err(SceneError::Overlap { time, body, x, y, other, depth, allowed })
         };
-        if let Some(Gap { body, place, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
+        if let Some(Gap { body, place, other, width }) = self.contacts.narrowest.filter(|gap| gap.width < -allowed) {
             return overlap(body, other, place, -width);
         }
         if let Some(Overlap { body, other, place, depth, .. }) =
-            self.surfaces.first_overlap(&self.hydrodynamics.fluid_view())
+            self.contacts.surfaces.first_overlap(&self.hydrodynamics.fluid_view())
         {
             return overlap(body, other, place, depth);
         }
         self.record_gap();
-        self.apart = true;
+        self.known = Known::Apart;
         Ok(())
     }
 
     /// Looks at the gaps that a step has led to: interfaces must not have come to be inside other bodies or their own
     /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
-        let any = self.bodies.iter().any(|body| body.kind().is_closed_curve());
-        let (time, mut before) = (self.time, std::mem::take(&mut self.enclosing_before));
-        before.clone_from(&self.enclosing);
-        let allowed = if any { self.find_gaps() } else { 0.0 };
-        let changed = (0..before.len()).find(|&body| before[body] != self.enclosing[body]);
-        if let Some(body) = changed {
-            let place = |around: Option<usize>| match around {
-                Some(outer) => format!("inside {}", self.name_of(outer)),
-                None => "in the exterior fluid".to_owned(),
-            };
-            let [before, now] = [place(before[body]), place(self.enclosing[body])];
-            return Err(SceneError::Containment { time, body: self.name_of(body), before, now });
-        }
-        self.enclosing_before = before;
-        if let Some(Gap { body, place, other, width }) = self.narrowest {
-            let names = || [body, other].map(|index| self.name_of(index));
+        let (time, allowed) = (self.clock.time, self.find_gaps());
+        self.bodies.check_containment(time)?;
+        if let Some(Gap { body, place, other, width }) = self.contacts.narrowest {
+            let names = || [body, other].map(|index| self.bodies.name_of(index));
             if width < -allowed {
                 let ([body, other], [x, y]) = (names(), place.into());
                 return Err(SceneError::Crossing { time, body, x, y, other, depth: -width, allowed });
             }
-            if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
+            if let Some(bound) = self.contacts.least_gap.filter(|&bound| width < bound) {
                 let [body, other] = names();
                 return Err(SceneError::Gap { time, body, other, gap: width, bound });
             }
         }
-        if let Some(bound) = self.least_gap
+        if let Some(bound) = self.contacts.least_gap
             && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
         {
             let (body, other) = ("a body".to_owned(), "a wall".to_owned());
             return Err(SceneError::Gap { time, body, other, gap, bound });
         }
-        self.apart = true;
+        self.known = Known::Apart;
         Ok(())
     }
 
-    /// Finds the narrowest gap of the present state, and what the bodies lie in; how deep a body may be inside another
-    /// one (length).
-    fn find_gaps(&mut self) -> f64 {
-        self.find_surroundings();
-        let view = self.hydrodynamics.fluid_view();
-        self.narrowest = self.surfaces.narrowest_near(&view, self.least_gap.unwrap_or_default());
-        self.surfaces.allowed(&view)
-    }
-
-    /// Finds the interfaces that the bodies lie in, and the viscosities there.
-    pub(super) fn find_surroundings(&mut self) {
+    /// Finds the interfaces around the bodies, and the narrowest gap; the depth to which bodies may overlap (length).
+    pub(super) fn find_gaps(&mut self) -> f64 {
         self.lay_out();
-        self.surfaces.surroundings(self.hydrodynamics.fluid_view().domain.periods, &mut self.enclosing);
-        for &[host, guest] in &self.guests {
-            self.enclosing[guest] = Some(host);
-        }
-        for index in 0..self.bodies.len() {
-            let enclosing = std::iter::successors(self.enclosing[index], |&outer| self.enclosing[outer]);
-            self.viscosity_around[index] =
-                enclosing.take(self.bodies.len()).find_map(|outer| self.bodies[outer].kind().viscosity_inside());
-        }
-        self.markers.set_outside(&self.viscosity_around);
+        self.contacts.find_gaps(&mut self.bodies, &self.hydrodynamics.fluid_view())
     }
 
-    /// Finds how fast films close, and how fast a repulsion opens them, at the present state.
-    pub(super) fn measure_films(&mut self) {
-        (self.closing, self.opening) = (None, 0.0);
-        self.lay_out();
-        if !self.markers.groups().iter().any(|group| group.kind.is_closed_curve()) {
-            return;
-        }
-        let view = self.hydrodynamics.fluid_view();
-        let scale = self.surfaces.contact_scale(&view);
-        let reach = self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale);
-        let (domain, walls) = (view.domain, self.hydrodynamics.walls());
-        self.films.find(&self.surfaces, Surroundings { domain, walls, around: &self.enclosing }, reach);
-        self.closing = self.films.closing(&self.surfaces, &self.markers.velocities, THINNEST * scale);
-        if let Some(repulsion) = &self.repulsion {
-            let stiffness = view.interface_stiffness;
-            self.opening = self.films.relaxation(repulsion, view.viscosity, stiffness);
-        }
-    }
-
-    /// Takes the gap that was found last into the smallest one.
+    /// Records the gap that was found last.
     pub(super) fn record_gap(&mut self) {
-        if let Some(Gap { width, .. }) = self.narrowest {
-            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
-        }
+        lower(&mut self.findings.gap, self.contacts.narrowest.map(|gap| gap.width));
     }
 
-    /// The name of a body, with its number where another one has the same.
-    pub(in crate::scene) fn name_of(&self, index: usize) -> String {
-        let name = self.bodies[index].name();
-        let shared = self.bodies.iter().filter(|body| body.name() == name).count() > 1;
-        if shared { format!("{name} (body {index})") } else { name.to_owned() }
-    }
-
+    /// Records the present gap to walls.
     pub(super) fn record_wall_gap(&mut self) {
-        if let Some(gap) = self.wall_gap() {
-            self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
-        }
+        let gap = self.wall_gap();
+        lower(&mut self.findings.wall_gap, gap);
     }
 }
 

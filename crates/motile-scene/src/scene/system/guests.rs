@@ -1,15 +1,14 @@
 //! Bodies that fill others of the scene.
 
-use super::System;
-use crate::{Body, Hydrodynamics, SceneError, body::Guest};
+use super::bodies::Bodies;
+use crate::{Body, SceneError, body::Guest};
 
-impl<H: Hydrodynamics> System<H> {
+impl Bodies {
     /// Takes down whom the next body fills, if anyone.
     pub(super) fn push_guest(&mut self, body: &mut dyn Body) {
-        let next = self.bodies.len();
-        if let Some(guest) = body.as_guest() {
-            let host = guest.host();
-            if host.scene() == self.id && host.index() < next {
+        let next = self.list.len();
+        if let Some(host) = body.as_guest().map(|guest| guest.host()) {
+            if host.scene() == self.scene && host.index() < next {
                 self.guests.push([host.index(), next]);
             } else {
                 self.stray_guest = true;
@@ -25,7 +24,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Shows all guests their hosts in the present state.
     pub(super) fn update_hosts(&mut self) {
         for &numbers in &self.guests {
-            if let Some((host, guest)) = pair(&mut self.bodies, numbers) {
+            if let Some((host, guest)) = pair(&mut self.list, numbers) {
                 guest.update_host(host);
             }
         }
@@ -34,7 +33,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Shows a body its host in the present state, if it fills one.
     pub(super) fn update_host(&mut self, index: usize) {
         let Some(number) = self.guests.iter().position(|&[_, guest]| guest == index) else { return };
-        if let Some((host, guest)) = pair(&mut self.bodies, self.guests[number]) {
+        if let Some((host, guest)) = pair(&mut self.list, self.guests[number]) {
             guest.update_host(host);
         }
     }
@@ -43,7 +42,7 @@ impl<H: Hydrodynamics> System<H> {
     pub(super) fn add_guest_forces(&mut self) {
         for &[host, guest] in &self.guests {
             let range = self.markers.groups()[host].range.clone();
-            if let Some(guest) = self.bodies[guest].as_guest() {
+            if let Some(guest) = self.list[guest].as_guest() {
                 guest.add_host_forces(&mut self.markers.forces[range]);
             }
         }
@@ -52,9 +51,9 @@ impl<H: Hydrodynamics> System<H> {
     /// Adds what guests change in the states of their hosts.
     pub(super) fn add_guest_rates(&mut self, rate: &mut [f64]) {
         for &[host, guest] in &self.guests {
-            let start: usize = self.bodies[..host].iter().map(|body| body.state_len()).sum();
-            let end = start + self.bodies[host].state_len();
-            if let Some(guest) = self.bodies[guest].as_guest() {
+            let start: usize = self.list[..host].iter().map(|body| body.state_len()).sum();
+            let end = start + self.list[host].state_len();
+            if let Some(guest) = self.list[guest].as_guest() {
                 guest.add_host_rate(&mut rate[start..end]);
             }
         }
@@ -64,7 +63,7 @@ impl<H: Hydrodynamics> System<H> {
     pub(super) fn host_moved(&mut self, index: usize) {
         let Some(number) = self.guests.iter().position(|&[_, guest]| guest == index) else { return };
         let range = self.markers.groups()[self.guests[number][0]].range.clone();
-        if let Some((host, guest)) = pair(&mut self.bodies, self.guests[number]) {
+        if let Some((host, guest)) = pair(&mut self.list, self.guests[number]) {
             guest.host_moved(host, &self.markers.velocities[range]);
         }
     }

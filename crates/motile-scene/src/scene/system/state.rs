@@ -1,57 +1,56 @@
 //! The state of all bodies and its rate of change.
 
-use super::{System, body_error};
-use crate::{Body, Hydrodynamics, SceneError, integrator::Dynamics};
+use super::{System, bodies::part};
+use crate::{Hydrodynamics, SceneError, integrator::Dynamics};
 
 impl<H: Hydrodynamics> Dynamics for System<H> {
     fn state_len(&self) -> usize {
-        self.bodies.iter().map(|body| body.state_len()).sum()
+        self.bodies.list.iter().map(|body| body.state_len()).sum()
     }
 
     fn write_state(&self, state: &mut Vec<f64>) {
         state.resize(self.state_len(), 0.0);
         let mut rest = state.as_mut_slice();
-        self.bodies.iter().for_each(|body| body.write_state(part(&mut rest, body.as_ref())));
+        self.bodies.list.iter().for_each(|body| body.write_state(part(&mut rest, body.as_ref())));
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        let (time, mut rest) = (self.time, state);
-        self.bodies.iter_mut().try_for_each(|body| {
-            let state = rest.split_off(..body.state_len()).unwrap_or_default();
-            body.read_state(state).map_err(|source| body_error(time, body.as_ref(), source))
+        let mut rest = state;
+        self.bodies.try_each(self.clock.time, |_, body, _| {
+            body.read_state(rest.split_off(..body.state_len()).unwrap_or_default())
         })
     }
 
     fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
         self.read_state(state)?;
         self.compute_flow()?;
-        self.rate_here(rate);
+        self.bodies.write_rates(rate);
         Ok(())
     }
 
     fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
         self.evaluate()?;
-        self.rate_here(rate);
+        self.bodies.write_rates(rate);
         Ok(())
     }
 
     fn add_implicit(&mut self, mut state: &[f64], factor: f64, mut out: &mut [f64]) {
-        for body in &mut self.bodies {
+        for body in &mut self.bodies.list {
             let (state, out) = (state.split_off(..body.state_len()).unwrap_or_default(), part(&mut out, body.as_ref()));
             body.add_implicit(state, factor, out);
         }
     }
 
     fn solve_implicit(&mut self, factor: f64, mut state: &mut [f64]) {
-        for body in &mut self.bodies {
+        for body in &mut self.bodies.list {
             let state = part(&mut state, body.as_ref());
             body.solve_implicit(factor, state);
         }
     }
 
     fn write_scales(&self, mut scales: &mut [f64]) {
-        self.bodies.iter().for_each(|body| body.write_scales(part(&mut scales, body.as_ref())));
+        self.bodies.list.iter().for_each(|body| body.write_scales(part(&mut scales, body.as_ref())));
     }
 
     fn fastest_decay(&self) -> f64 {
@@ -65,17 +64,15 @@ impl<H: Hydrodynamics> System<H> {
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        self.apart = false;
-        let (time, mut rest) = (self.time, state);
-        self.bodies.iter_mut().zip(lengths).try_for_each(|(body, &length)| {
-            let state = rest.split_off(..length).unwrap_or_default();
-            body.read_state(state).map_err(|source| body_error(time, body.as_ref(), source))
+        let mut rest = state;
+        self.bodies.try_each(self.clock.time, |index, body, _| {
+            body.read_state(rest.split_off(..lengths[index]).unwrap_or_default())
         })
     }
 
     pub(crate) fn write_lengths(&self, lengths: &mut Vec<usize>) {
         lengths.clear();
-        lengths.extend(self.bodies.iter().map(|body| body.state_len()));
+        lengths.extend(self.bodies.list.iter().map(|body| body.state_len()));
     }
 
     /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs
@@ -86,21 +83,10 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    fn rate_here(&mut self, rate: &mut [f64]) {
-        let mut rest = &mut *rate;
-        for index in 0..self.bodies.len() {
-            self.host_moved(index);
-            let (body, range) = (&mut self.bodies[index], self.markers.groups()[index].range.clone());
-            let rate = part(&mut rest, body.as_ref());
-            body.rate(&self.markers.velocities[range], rate);
-        }
-        self.add_guest_rates(rate);
-    }
-
     /// The largest over the bodies of the root mean square of `errors / scales`; both have the length of the state.
     pub(crate) fn error_norm(&self, errors: &[f64], scales: &[f64]) -> f64 {
         let (mut start, mut largest) = (0, 0.0_f64);
-        for body in &self.bodies {
+        for body in &self.bodies.list {
             let end = start + body.state_len();
             let sum: f64 = errors[start..end].iter().zip(&scales[start..end]).map(|(e, s)| (e / s).powi(2)).sum();
             let norm = (sum / (end - start).max(1) as f64).sqrt();
@@ -110,9 +96,4 @@ impl<H: Hydrodynamics> System<H> {
         }
         largest
     }
-}
-
-/// The part of a flat list that is the next body's, taken off the rest.
-fn part<'a>(rest: &mut &'a mut [f64], body: &dyn Body) -> &'a mut [f64] {
-    rest.split_off_mut(..body.state_len()).unwrap_or_default()
 }

@@ -1,0 +1,83 @@
+//! Contacts of bodies with one another and with walls: surfaces, gaps and films.
+
+use super::bodies::Bodies;
+use crate::{
+    FluidView, Hydrodynamics,
+    body::{StepCause, StepLimit},
+    gap::{Films, Gap, REACH, Repulsion, Surfaces, Surroundings},
+};
+
+/// Thinnest gap, in units of the length that contacts are measured in, that sets a step: bodies that touch at the start
+/// close as if they were so far apart.
+const THINNEST: f64 = 0.02;
+
+/// The surfaces of all bodies, the narrowest gap and the films between them, and what keeps them apart.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Contacts {
+    pub(super) surfaces: Surfaces,
+    films: Films,
+    /// The narrowest gap of the present state.
+    pub(super) narrowest: Option<Gap>,
+    /// Time until the first film closes at its present velocity (time), and the number of its body.
+    closing: Option<(f64, usize)>,
+    /// Fastest rate at which a repulsion opens the present films (1/time).
+    opening: f64,
+    /// Narrowest gap that a run goes on with (length).
+    pub(in crate::scene) least_gap: Option<f64>,
+    pub(in crate::scene) repulsion: Option<Repulsion>,
+}
+
+impl Contacts {
+    /// Lays out the surfaces through the markers.
+    pub(super) fn lay_out(&mut self, bodies: &Bodies, [period, _]: [Option<f64>; 2]) {
+        self.surfaces.update(&bodies.markers, period.unwrap_or(0.0));
+    }
+
+    /// Finds the interfaces that the bodies lie in, and the narrowest gap; the depth to which bodies may overlap
+    /// (length).
+    pub(super) fn find_gaps(&mut self, bodies: &mut Bodies, view: &FluidView) -> f64 {
+        bodies.find_surroundings(&self.surfaces, view.domain.periods);
+        self.narrowest = self.surfaces.narrowest_near(view, self.least_gap.unwrap_or_default());
+        self.surfaces.allowed(view)
+    }
+
+    /// Adds the forces of the repulsion, if there is one, to those of the markers.
+    pub(super) fn push_apart(&mut self, bodies: &mut Bodies, flow: &impl Hydrodynamics) {
+        if let Some(repulsion) = self.repulsion {
+            self.find_films(bodies, flow, repulsion.range());
+            self.films.push_apart(&repulsion, &self.surfaces, &mut bodies.markers.forces);
+        }
+    }
+
+    /// Finds how fast films close, and how fast a repulsion opens them.
+    pub(super) fn measure_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics) {
+        (self.closing, self.opening) = (None, 0.0);
+        if !bodies.have_curves() {
+            return;
+        }
+        let view = flow.fluid_view();
+        let scale = self.surfaces.contact_scale(&view);
+        self.find_films(bodies, flow, self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale));
+        self.closing = self.films.closing(&self.surfaces, bodies.markers.velocities(), THINNEST * scale);
+        if let Some(repulsion) = &self.repulsion {
+            self.opening = self.films.relaxation(repulsion, view.viscosity, view.interface_stiffness);
+        }
+    }
+
+    fn find_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics, reach: f64) {
+        let (domain, walls) = (flow.fluid_view().domain, flow.walls());
+        self.films.find(&self.surfaces, Surroundings { domain, walls, around: &bodies.enclosing }, reach);
+    }
+
+    /// Tells `each` the bounds on the time step that films set, with the names of the bodies.
+    pub(super) fn each_limit<'a>(&self, bodies: &'a Bodies, viscosity: f64, each: &mut dyn FnMut(StepLimit, &'a str)) {
+        if let Some((dt, body)) = self.closing {
+            let cause = StepCause::Accuracy;
+            each(StepLimit { dt, reason: "the closing of a film", cause }, bodies.list[body].name());
+        }
+        if let Some(repulsion) = &self.repulsion {
+            let rate = self.opening.max(repulsion.usual_rate(viscosity));
+            each(StepLimit::decay(2.0 / rate, "the repulsion"), "the interfaces");
+        }
+    }
+}
