@@ -17,7 +17,6 @@ use motile::motile_scene::{Body, Hydrodynamics};
 use motile::setup::{Built, DropletSetup, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid, StaggeredField, StokesSolver};
 use motile_examples::positive;
-use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -34,9 +33,8 @@ pub(crate) struct Flags {
     /// Repetitions
     #[arg(long, default_value_t = 200)]
     repetitions: usize,
-    /// Write the table to docs/tables, with the commit and what it depends on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -105,14 +103,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Ok(())
     })?;
     median("whole step of two", &mut || Ok(scene.step(1e-3)?))?;
-    say(&table);
-    if flags.write {
-        let inputs = [&tables::RUNS[..8], &["crates/elastic-solids", "studies/src/elastic_step.rs"]].concat();
-        let mut command = format!("elastic_step --spacing {}", flags.spacing);
-        if let Some(spacing) = flags.mesh_spacing {
-            command += &format!(" --mesh-spacing {spacing}");
-        }
-        tables::write("elastic-step", &format!("{command} --write"), &inputs, &[table])?;
-    }
-    Ok(())
+    let mesh = flags.mesh_spacing.map(|spacing| format!(" --mesh-spacing {spacing}")).unwrap_or_default();
+    let command = format!("elastic_step --spacing {}{mesh}", flags.spacing);
+    flags.keep.tables("elastic-step", &command, &["crates/elastic-solids", "studies/src/elastic_step.rs"], &[table])
 }

@@ -18,9 +18,8 @@ pub(crate) struct Flags {
     /// Time to which they run
     #[arg(long, default_value_t = 60.0, value_parser = positive)]
     time: f64,
-    /// Write the table to docs/tables, with the commit and what it depends on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 const ACTIVITY: f64 = -4.0;
@@ -82,10 +81,5 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             table.push(row.into_iter().chain(values));
         }
     }
-    say(&table);
-    if flags.write {
-        let code = [&tables::RUNS[..8], &["crates/interior-fields/src", "studies/src/exchange.rs"]].concat();
-        tables::write("exchange", "exchange --write", &code, &[table])?;
-    }
-    Ok(())
+    flags.keep.tables("exchange", "exchange", &["crates/interior-fields/src", "studies/src/exchange.rs"], &[table])
 }

@@ -13,7 +13,6 @@ use motile::interior_fields::{DirectorStart, GelInDroplet, GelMaterial};
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Body, Guest, Hydrodynamics};
 use motile::setup::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
-use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -33,9 +32,8 @@ pub(crate) struct Flags {
     /// Run the coarsest grid alone
     #[arg(long)]
     quick: bool,
-    /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -47,19 +45,13 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             swimmers.push(swimmer(alignment, activity, spacing)?);
         }
     }
-    say(&swimmers);
     let mut cost = Table::new("Time of the parts of an evaluation with a gel, one core (ms)", &["h", "part", "ms"]);
     for &spacing in spacings {
         for (part, time) in parts(spacing)? {
             cost.push([spacing.to_string(), part.to_owned(), format!("{time:.3}")]);
         }
     }
-    say(&cost);
-    if flags.write {
-        let inputs = [&tables::RUNS[..8], &["crates/interior-fields", "studies/src/gel.rs"]].concat();
-        tables::write("gel", "gel --write", &inputs, &[swimmers, cost])?;
-    }
-    Ok(())
+    flags.keep.tables("gel", "gel", &["crates/interior-fields", "studies/src/gel.rs"], &[swimmers, cost])
 }
 
 fn setup(alignment: f64, activity: f64, spacing: f64) -> Setup {

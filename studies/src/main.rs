@@ -53,7 +53,8 @@ enum Study {
     Instructions(instructions::Flags),
     Nucleus(nucleus::Flags),
     Exchange(exchange::Flags),
-    Stale(tables::StaleFlags),
+    /// Lists the tables that are older than the last change of what they measure
+    Stale,
     Pages(tables::PagesFlags),
 }
 
@@ -75,7 +76,7 @@ fn main() -> ExitCode {
         Study::Instructions(flags) => instructions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(flags) => exchange::run(flags),
-        Study::Stale(flags) => tables::stale(flags),
+        Study::Stale => tables::stale(),
         Study::Pages(flags) => tables::pages(flags),
     })
 }

@@ -22,9 +22,8 @@ pub(crate) struct Flags {
     /// Time to which they swim before Newton's method takes over
     #[arg(long, default_value_t = 60.0, value_parser = positive)]
     time: f64,
-    /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 /// Activity, viscosity of the droplet, radius and place of the nucleus.
@@ -143,12 +142,6 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }
         }
     }
-    say(&table);
-    say(&branch);
-    if flags.write {
-        let own = ["crates/elastic-solids", "crates/steady-states/src", "studies/src/nucleus.rs"];
-        let code = [&tables::RUNS[..8], &own].concat();
-        tables::write("nucleus", "nucleus --write", &code, &[table, branch])?;
-    }
-    Ok(())
+    let own = ["crates/elastic-solids", "crates/steady-states/src", "studies/src/nucleus.rs"];
+    flags.keep.tables("nucleus", "nucleus", &own, &[table, branch])
 }

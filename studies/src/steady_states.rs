@@ -12,7 +12,6 @@ use clap::{Args, ValueEnum};
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
-use motile_output::run::say;
 
 use crate::tables;
 
@@ -25,13 +24,12 @@ pub(crate) struct Flags {
     /// Nodes, where the table has no list of its own
     #[arg(long, default_value_t = 96)]
     nodes: usize,
-    /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 /// What the tables depend on besides what every run does.
-const INPUTS: [&str; 2] = ["crates/steady-states/src", "studies/src/steady_states"];
+const INPUTS: [&str; 3] = ["tests/src/validation", "crates/steady-states/src", "studies/src/steady_states"];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Which {
@@ -54,7 +52,7 @@ enum Which {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let Flags { table, nodes, write } = *flags;
+    let Flags { table, nodes, keep } = *flags;
     let found = match table {
         Which::Swimmers => swimmers::swimmers(),
         Which::Lateral => swimmers::lateral(),
@@ -65,14 +63,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Which::Length => parameters::length(nodes),
         Which::Contrast => parameters::contrast(nodes),
     }?;
-    found.iter().for_each(say);
-    if write {
-        let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-        let command = format!("steady_states {name} --nodes {nodes} --write");
-        let inputs = [&tables::RUNS[..], &INPUTS].concat();
-        tables::write(&format!("steady-{name}"), &command, &inputs, &found)?;
-    }
-    Ok(())
+    let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+    keep.tables(&format!("steady-{name}"), &format!("steady_states {name} --nodes {nodes}"), &INPUTS, &found)
 }
 
 /// The method with so many nodes.

@@ -26,7 +26,7 @@ use motile_output::run::say;
 use motile_tests::validation::Table;
 
 /// What every run of a droplet depends on.
-pub(crate) const RUNS: [&str; 9] = [
+const RUNS: [&str; 8] = [
     "crates/motile-base",
     "crates/stokes-grid",
     "crates/stokes-layers",
@@ -35,7 +35,6 @@ pub(crate) const RUNS: [&str; 9] = [
     "crates/boundary-integral",
     "crates/active-interface",
     "crates/motile/src/setup",
-    "tests/src/validation",
 ];
 /// What files state before their table.
 const COMMIT: &str = "# commit: ";
@@ -45,10 +44,6 @@ const COMMAND: &str = "# ";
 const BEGIN: &str = "<!-- table ";
 const END: &str = "<!-- end of table -->";
 const MEASURED: &str = "<!-- measured at ";
-
-/// Lists the tables that are older than the last change of what they measure.
-#[derive(Debug, Args)]
-pub(crate) struct StaleFlags {}
 
 /// Fills the tables of the pages from docs/tables.
 #[derive(Debug, Args)]
@@ -68,11 +63,31 @@ fn git(arguments: &[&str]) -> Result<String> {
     Ok(String::from_utf8_lossy(&done.stdout).trim().to_owned())
 }
 
-/// The commit that last changed `inputs`.
+/// The flag of the studies whose tables stand in docs/tables.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct Keep {
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long)]
+    write: bool,
+}
+
+impl Keep {
+    /// Prints the tables that `studies -- COMMAND` has made, and writes them where that was asked for.
+    ///
+    /// # Errors
+    /// Those of [`write()`].
+    pub(crate) fn tables(self, name: &str, command: &str, inputs: &[&str], found: &[Table]) -> Result<()> {
+        found.iter().for_each(say);
+        if self.write { write(name, command, inputs, found) } else { Ok(()) }
+    }
+}
+
+/// The commit that last changed `inputs` or what every run depends on.
 ///
 /// # Errors
 /// Changes of them that are not committed, or that this program was built before.
 pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
+    let inputs = &[&RUNS, inputs].concat()[..];
     let changed = git(&[&["status", "--porcelain", "--"], inputs].concat())?;
     ensure!(changed.is_empty(), "commit first, so that tables can tell what made them:\n{changed}");
     let built = fs::metadata(std::env::current_exe()?)?.modified()?;
@@ -83,14 +98,15 @@ pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
     git(&[&["log", "-1", "--format=%h", "--"], inputs].concat())
 }
 
-/// Writes the tables that `studies -- COMMAND` has made from `inputs` to docs/tables, as NAME.csv, NAME-2.csv ...
+/// Writes the tables that `studies -- COMMAND --write` has made from `inputs` and what every run depends on to docs/tables, as NAME.csv, NAME-2.csv ...
 ///
 /// # Errors
 /// Those of [`commit`]; files that cannot be written.
 pub(crate) fn write(name: &str, command: &str, inputs: &[&str], found: &[Table]) -> Result<()> {
-    let (commit, inputs) = (commit(inputs)?, inputs.join(" "));
+    let (commit, inputs) = (commit(inputs)?, [&RUNS, inputs].concat().join(" "));
     for (k, table) in found.iter().enumerate() {
-        let made = format!("# cargo run --release -p studies -- {command}\n{COMMIT}{commit}\n{INPUTS}{inputs}\n");
+        let made =
+            format!("# cargo run --release -p studies -- {command} --write\n{COMMIT}{commit}\n{INPUTS}{inputs}\n");
         fs::write(file(name, k), made + &table.csv())?;
     }
     Ok(())
@@ -129,7 +145,8 @@ fn changes(commit: &str, inputs: &str) -> Result<Option<usize>> {
     Ok(Some(git(&arguments)?.lines().count()))
 }
 
-pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
+/// Lists the tables that are older than the last change of what they measure.
+pub(crate) fn stale() -> Result<()> {
     let mut tables: Vec<[String; 4]> = Vec::new();
     for path in files("docs/tables", "csv")? {
         let text = fs::read_to_string(&path)?;

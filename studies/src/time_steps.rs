@@ -23,7 +23,6 @@ use motile::setup::{
     AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup,
 };
 use motile_examples::positive;
-use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -52,9 +51,8 @@ pub(crate) struct Flags {
     /// Time to which the stiff walls are simulated
     #[arg(long, default_value_t = 10.0, value_parser = positive)]
     time: f64,
-    /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -66,13 +64,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             Study::Order => orders(),
             Study::Transient => transient(),
         }?;
-        say(&table);
-        if flags.write {
-            let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-            let inputs = [&tables::RUNS[..8], &["crates/elastic-solids", "studies/src/time_steps.rs"]].concat();
-            let command = format!("time_steps --study {name} --write");
-            tables::write(&format!("time-steps-{name}"), &command, &inputs, &[table])?;
-        }
+        let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        let (file, command) = (format!("time-steps-{name}"), format!("time_steps --study {name}"));
+        flags.keep.tables(&file, &command, &["crates/elastic-solids", "studies/src/time_steps.rs"], &[table])?;
     }
     Ok(())
 }

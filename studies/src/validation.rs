@@ -14,7 +14,7 @@ mod recommended;
 mod solids;
 mod two_droplets;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, builder::PossibleValuesParser};
 use motile::active_interface::Motion;
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::motile_base::Region;
@@ -28,53 +28,12 @@ use motile_tests::validation::{Case, StudyError, Table, fixed_shapes, growth, or
 
 use crate::tables;
 
-/// A study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Study {
-    All,
-    FixedShapes,
-    Relaxation,
-    Growth,
-    Steady,
-    WithoutGrid,
-    Transient,
-    Threshold,
-    MarkerSpacing,
-    LongRun,
-    Invariance,
-    Headings,
-    Recommended,
-    ChannelShapes,
-    ChannelSwimmers,
-    ChannelLength,
-    Lateral,
-    Regimes,
-    ContrastShapes,
-    ContrastClose,
-    ContrastIterations,
-    ContrastDecay,
-    ContrastRuns,
-    ContrastCost,
-    InterfaceRelaxation,
-    InterfaceGrowth,
-    InterfaceTransient,
-    InterfaceChannel,
-    InterfaceLateral,
-    InterfaceSeveral,
-    InterfaceLongRuns,
-    TwoDroplets,
-    CurvedWalls,
-    ElasticWalls,
-    Solids,
-    Cost,
-}
-
 /// Compares motile with exact and independently computed values.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
-    /// Which comparison.
-    #[arg(value_enum, default_value = "all")]
-    study: Study,
+    /// The comparison
+    #[arg(default_value = ALL, value_parser = names())]
+    study: String,
     /// Leave out the finest grids and the longest runs.
     #[arg(long)]
     quick: bool,
@@ -91,62 +50,61 @@ type Tables = Result<Vec<Table>, StudyError>;
 /// What runs a study, with or without the finest grids.
 type Run = fn(bool) -> Tables;
 
+/// All studies.
+const STUDIES: [(&str, Run); 35] = [
+    ("fixed-shapes", fixed),
+    ("relaxation", relax),
+    ("growth", grow),
+    ("steady", swim),
+    ("without-grid", integrals),
+    ("transient", start),
+    ("threshold", threshold),
+    ("marker-spacing", marker_spacing),
+    ("long-run", long),
+    ("invariance", invariance),
+    ("headings", headings::headings),
+    ("recommended", recommended::recommended),
+    ("channel-shapes", channels::channel_shapes),
+    ("channel-swimmers", channels::channel_swimmers),
+    ("channel-length", channels::channel_length),
+    ("lateral", channels::sideways),
+    ("regimes", channels::regimes),
+    ("contrast-shapes", contrast::shapes),
+    ("contrast-close", contrast::close),
+    ("contrast-iterations", contrast::iterations),
+    ("contrast-decay", contrast::decay),
+    ("contrast-runs", contrast::runs),
+    ("contrast-cost", contrast::cost),
+    ("interface-relaxation", interfaces::relaxation),
+    ("interface-growth", interfaces::growth),
+    ("interface-transient", interfaces::transients),
+    ("interface-channel", interfaces::channel),
+    ("interface-lateral", interfaces::lateral_modes),
+    ("interface-several", interfaces::several),
+    ("interface-long-runs", interfaces::long_runs),
+    ("two-droplets", two_droplets::two_droplets),
+    ("curved-walls", curved_walls::curved_walls),
+    ("elastic-walls", elastic_walls::elastic_walls),
+    ("solids", solids::solids),
+    ("cost", interfaces::cost),
+];
+/// The name for all of them.
+const ALL: &str = "all";
+
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new([ALL].into_iter().chain(STUDIES.map(|(name, _)| name)))
+}
+
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 35] = [
-        (Study::FixedShapes, fixed),
-        (Study::Relaxation, relax),
-        (Study::Growth, grow),
-        (Study::Steady, swim),
-        (Study::WithoutGrid, integrals),
-        (Study::Transient, start),
-        (Study::Threshold, threshold),
-        (Study::MarkerSpacing, marker_spacing),
-        (Study::LongRun, long),
-        (Study::Invariance, invariance),
-        (Study::Headings, headings::headings),
-        (Study::Recommended, recommended::recommended),
-        (Study::ChannelShapes, channels::channel_shapes),
-        (Study::ChannelSwimmers, channels::channel_swimmers),
-        (Study::ChannelLength, channels::channel_length),
-        (Study::Lateral, channels::sideways),
-        (Study::Regimes, channels::regimes),
-        (Study::ContrastShapes, contrast::shapes),
-        (Study::ContrastClose, contrast::close),
-        (Study::ContrastIterations, contrast::iterations),
-        (Study::ContrastDecay, contrast::decay),
-        (Study::ContrastRuns, contrast::runs),
-        (Study::ContrastCost, contrast::cost),
-        (Study::InterfaceRelaxation, interfaces::relaxation),
-        (Study::InterfaceGrowth, interfaces::growth),
-        (Study::InterfaceTransient, interfaces::transients),
-        (Study::InterfaceChannel, interfaces::channel),
-        (Study::InterfaceLateral, interfaces::lateral_modes),
-        (Study::InterfaceSeveral, interfaces::several),
-        (Study::InterfaceLongRuns, interfaces::long_runs),
-        (Study::TwoDroplets, two_droplets::two_droplets),
-        (Study::CurvedWalls, curved_walls::curved_walls),
-        (Study::ElasticWalls, elastic_walls::elastic_walls),
-        (Study::Solids, solids::solids),
-        (Study::Cost, interfaces::cost),
-    ];
-    for (study, run) in studies {
-        if flags.study == Study::All || flags.study == study {
-            let found = run(flags.quick)?;
-            found.iter().for_each(say);
-            if flags.write || flags.check {
-                let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-                let solids = if matches!(study, Study::Solids | Study::ElasticWalls) {
-                    &["crates/elastic-solids"][..]
-                } else {
-                    &[]
-                };
-                let inputs = [&tables::RUNS[..], solids].concat();
-                if flags.check {
-                    tables::check(&name, &found)?;
-                } else {
-                    tables::write(&name, &format!("validation {name} --write"), &inputs, &found)?;
-                }
-            }
+    for (name, run) in STUDIES.into_iter().filter(|(name, _)| [ALL, *name].contains(&flags.study.as_str())) {
+        let found = run(flags.quick)?;
+        found.iter().for_each(say);
+        let solids = ["solids", "elastic-walls"].contains(&name).then_some("crates/elastic-solids");
+        let inputs: Vec<&str> = ["tests/src/validation"].into_iter().chain(solids).collect();
+        if flags.check {
+            tables::check(name, &found)?;
+        } else if flags.write {
+            tables::write(name, &format!("validation {name}"), &inputs, &found)?;
         }
     }
     Ok(())

@@ -10,7 +10,6 @@ use motile::motile_base::Region;
 use motile::motile_scene::{Every, Warnings};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_examples::positive;
-use motile_output::run::say;
 use motile_tests::validation::Table;
 
 use crate::tables;
@@ -24,9 +23,8 @@ pub(crate) struct Flags {
     /// Number of scenes, from the first on
     #[arg(long, default_value_t = SCENES.len())]
     scenes: usize,
-    /// Write the table to docs/tables, with the commit and what it depends on
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 /// Length and width of a channel or none for a box of 6 x 6, activity, viscosities inside and outside, grid spacing or
@@ -104,14 +102,5 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let scene = [region, activity.to_string(), format!("{inside}/{outside}"), method];
         table.push(scene.into_iter().chain([format!("{found:.5}"), error, causes]));
     }
-    say(&table);
-    if flags.write {
-        tables::write(
-            "warnings",
-            "warnings --write",
-            &[&tables::RUNS[..8], &["studies/src/warnings.rs"]].concat(),
-            &[table],
-        )?;
-    }
-    Ok(())
+    flags.keep.tables("warnings", "warnings", &["studies/src/warnings.rs"], &[table])
 }

@@ -61,7 +61,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
         .collect();
     let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
-    let commit = tables::commit(&[&tables::RUNS[..], &CODE].concat())?;
+    let commit = tables::commit(&CODE)?;
     let runs = directory.join("runs").join(&commit);
     let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, point);
 
@@ -78,7 +78,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let found = report::tables(&points, &machine());
     found.iter().for_each(say);
     if flags.write {
-        tables::write("work-precision", &command(flags), &[&tables::RUNS[..], &CODE].concat(), &found)?;
+        let command = if flags.full { "work_precision --full" } else { "work_precision" };
+        tables::write("work-precision", command, &CODE, &found)?;
     }
     for study in Study::ALL {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
@@ -109,10 +110,6 @@ fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
     Ok(summary)
 }
 
-fn command(flags: &Flags) -> String {
-    format!("work_precision{} --write", if flags.full { " --full" } else { "" })
-}
-
 /// The processor, as the system names it.
 fn machine() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -127,4 +124,4 @@ fn machine() -> String {
 }
 
 /// What the tables depend on beside runs of droplets.
-const CODE: [&str; 2] = ["crates/elastic-solids", "studies/src/work_precision"];
+const CODE: [&str; 3] = ["tests/src/validation", "crates/elastic-solids", "studies/src/work_precision"];
