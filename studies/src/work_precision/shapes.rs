@@ -12,7 +12,7 @@ use motile::motile_base::{Region, Vec2};
 use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene};
 use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
+use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes, solids::slide};
 
 use crate::work_precision::cost::{Cost, march, repeat};
 use crate::work_precision::settings::{Flow, Preset, Settings};
@@ -134,13 +134,4 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let rate = -(end / start).ln();
     let per_time = Cost { seconds: cost.seconds * time, pairs: cost.pairs * time, steps: cost.steps * time, ..cost };
     Ok((rate / (1.0 - THICKNESS / HEIGHT) - 1.0, per_time))
-}
-
-/// Mean displacement of the upper surface along x.
-fn slide(solid: &Solid) -> f64 {
-    let surface = solid.mesh().boundary_loops().iter().find(|boundary| boundary.periods == -1);
-    let displacements: Vec<Vec2> = solid.displacements().collect();
-    surface.map_or(f64::NAN, |surface| {
-        surface.points.iter().map(|&point| displacements[point].x).sum::<f64>() / surface.points.len() as f64
-    })
 }

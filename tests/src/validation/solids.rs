@@ -237,8 +237,9 @@ impl Layer {
     }
 }
 
-/// Mean displacement of the upper surface along x.
-fn slide(solid: &Solid) -> f64 {
+/// Mean displacement of the upper surface along x (length).
+#[must_use]
+pub fn slide(solid: &Solid) -> f64 {
     let surface = solid.mesh().boundary_loops().iter().filter(|boundary| boundary.periods == -1);
     let points: Vec<usize> = surface.flat_map(|boundary| boundary.points.iter().copied()).collect();
     let displacements: Vec<Vec2> = solid.displacements().collect();
