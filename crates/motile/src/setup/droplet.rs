@@ -100,6 +100,35 @@ impl DropletSetup {
         }
     }
 
+    /// The droplet as a circle of that radius R (length), all else as it was.
+    ///
+    /// The concentration c0 of the particles stays, so that their number, 2 pi R c0, grows with R. Below a threshold a
+    /// round droplet does not swim: |activity| has to exceed `2 D (eta_in + eta_ext) / (R c0)`, Cowley (2.20), which a
+    /// large droplet does at less activity (excluded volume aside, which matters near 2 c0 only). The region does not
+    /// grow with the droplet, and on a grid the spacing does not.
+    ///
+    /// ```
+    /// use motile::active_interface::theory::{LinearTheory, RoundDroplet};
+    /// use motile::prelude::*;
+    ///
+    /// let droplet = DropletSetup::active(-0.3).with_radius(2.0);
+    /// let (viscosity_inside, viscosity_outside) = (100.0, 100.0);
+    /// let (radius, tension, activity, concentration, diffusivity) = (2.0, 40.0, -0.3, 100.0, 0.1);
+    /// let round =
+    ///     RoundDroplet { radius, viscosity_inside, viscosity_outside, tension, activity, concentration, diffusivity };
+    /// // -0.4 for a radius of 1.
+    /// assert!((LinearTheory::new(round)?.activity_threshold() + 0.2).abs() < 1e-12);
+    /// let setup = Setup { region: Region::Plane, droplets: vec![droplet], ..Setup::default() };
+    /// let Built { scene, droplets, .. } = setup.build()?;
+    /// let number = scene.body(droplets[0])?.particle_numbers().iter().sum::<f64>();
+    /// assert!((number / (std::f64::consts::TAU * 2.0 * 100.0) - 1.0).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_radius(self, radius: f64) -> Self {
+        Self { shape: DropletShape::Round { radius }, ..self }
+    }
+
     /// Activity zeta delta-mu (force times length); 0 without particles.
     #[must_use]
     pub fn activity(&self) -> f64 {

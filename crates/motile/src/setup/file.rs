@@ -6,7 +6,8 @@ use crate::SetupError;
 impl Setup {
     /// The description in a TOML text. What is left out is as in [`Setup::default`] and
     /// [`crate::setup::DropletSetup::default`], but droplets that are not named are not there. A droplet is active
-    /// unless it says `particles = "none"`.
+    /// unless it says `particles = "none"`. The file `scene.toml` of this crate shows every key with its dimension and
+    /// its default.
     ///
     /// ```
     /// use motile::setup::Setup;

@@ -6,6 +6,7 @@ mod check;
 mod droplet;
 #[cfg(feature = "toml")]
 mod file;
+mod fill;
 mod gel;
 mod inside;
 mod method;

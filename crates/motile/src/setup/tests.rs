@@ -477,6 +477,42 @@ fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
 }
 
 #[test]
+fn droplets_fill_a_part_of_the_area_without_touching() {
+    let small = DropletSetup::active(-2.0).with_radius(0.5);
+    for region in
+        [Region::Box { lengths: [9.0, 7.0] }, Region::Channel { length: 9.0, width: 7.0, drive: Drive::ZeroFlux }]
+    {
+        let droplets = small.filling(&region, 0.6, 3).unwrap();
+        assert_eq!(droplets.len(), (0.6 * 63.0 / (0.25 * std::f64::consts::PI)).round() as usize);
+        assert!(
+            droplets == small.filling(&region, 0.6, 3).unwrap() && droplets != small.filling(&region, 0.6, 4).unwrap()
+        );
+        let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+        let setup = Setup { region, method, droplets, ..Setup::default() };
+        let Built { scene, droplets, .. } = setup.build().unwrap();
+        let areas = droplets.iter().map(|&droplet| scene.body(droplet).unwrap().initial_area());
+        assert!((areas.sum::<f64>() / 63.0 - 0.6).abs() < 0.01);
+        // A film of a twentieth of the radius, but for the 0.0016 by which the corners of 32 markers stand out.
+        let gaps = [scene.system().minimum_gap(), scene.system().minimum_wall_gap()];
+        assert!(gaps.iter().flatten().all(|gap| *gap > 0.023), "{gaps:?}");
+    }
+    let refused = |droplet: &DropletSetup, lengths, fraction| {
+        droplet.filling(&Region::Box { lengths }, fraction, 1).unwrap_err().to_string()
+    };
+    let bent = DropletSetup { shape: DropletShape::Ellipse { half_axes: [1.0, 2.0] }, ..small.clone() };
+    for (error, start) in [
+        (refused(&small, [6.0, 6.0], 0.9), "area fraction = 0.9: no places were found for 41 droplets of radius 0.5"),
+        (refused(&small, [6.0, 6.0], f64::NAN), "area fraction = NaN: it makes NaN droplets"),
+        (refused(&small, [6.0, 6.0], -0.5), "area fraction = -0.5: it makes -"),
+        (refused(&small, [1e9, 1e9], 0.5), "area fraction = 0.5: it makes"),
+        (refused(&bent, [6.0, 6.0], 0.5), "shape = not round"),
+        (small.filling(&Region::Plane, 0.5, 1).unwrap_err().to_string(), "region = plane"),
+    ] {
+        assert!(error.starts_with(start), "{error}");
+    }
+}
+
+#[test]
 fn fingerprints_tell_scenes_apart_but_not_steps() {
     let setup = Setup::default();
     assert_eq!(setup.fingerprint(), Setup { step: StepSize::Fixed(1e-3), ..Setup::default() }.fingerprint());
@@ -609,5 +645,79 @@ mod file {
             let error = Setup::from_toml(text).unwrap_err().to_string();
             assert!(parts.iter().all(|part| error.contains(part)), "{text}: {error}");
         }
+    }
+
+    const ANNOTATED: &str = include_str!("../../scene.toml");
+
+    /// The annotated scene, and it with each of the other values that its lines name in their place.
+    fn annotated() -> Vec<toml::Value> {
+        let scene: toml::Value = ANNOTATED.parse::<toml::Table>().unwrap().into();
+        let others =
+            ANNOTATED.lines().filter_map(|line| line.strip_prefix("#| ")?.split_once(" = ")).map(|(keys, value)| {
+                let mut changed = scene.clone();
+                let place = keys.split('.').fold(&mut changed, |value, key| {
+                    let table = if value.is_array() { &mut value[0] } else { value };
+                    table.as_table_mut().unwrap().entry(key).or_insert_with(|| toml::Table::new().into())
+                });
+                *place = format!("x = {value}").parse::<toml::Table>().unwrap()["x"].clone();
+                changed
+            });
+        [scene.clone()].into_iter().chain(others).collect()
+    }
+
+    /// Calls `visit` with the keys down to each value of a document, without the numbers of lists.
+    fn visit_values(value: &toml::Value, keys: &[String], visit: &mut dyn FnMut(&[String])) {
+        visit(keys);
+        let children: Vec<(String, &toml::Value)> = match value {
+            toml::Value::Table(table) => table.iter().map(|(key, value)| (key.clone(), value)).collect(),
+            toml::Value::Array(list) => list.iter().enumerate().map(|(k, value)| (k.to_string(), value)).collect(),
+            _ => Vec::new(),
+        };
+        for (key, value) in children {
+            visit_values(value, &[keys, &[key]].concat(), visit);
+        }
+    }
+
+    fn value_at<'a>(document: &'a mut toml::Value, keys: &[String]) -> &'a mut toml::Value {
+        keys.iter().fold(document, |value, key| match key.parse::<usize>() {
+            Ok(number) => &mut value[number],
+            Err(_) => &mut value[key.as_str()],
+        })
+    }
+
+    /// Names that an error says could have been given.
+    fn expected(error: &str) -> Vec<&str> {
+        let line = error.lines().next().unwrap();
+        match (line.split_once("expected"), line.split_once("available keys: ")) {
+            (_, Some((_, names))) => names.split(", ").collect(),
+            (Some((_, names)), _) => names.split('`').skip(1).step_by(2).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_annotated_scene_is_one_and_shows_every_key() {
+        let built = Setup::from_toml(ANNOTATED).unwrap().build().unwrap();
+        assert_eq!((built.droplets.len(), built.solids.len(), built.shells.len()), (2, 1, 1));
+        let (mut shown, mut wanted) = (std::collections::BTreeSet::new(), std::collections::BTreeSet::new());
+        for document in annotated() {
+            let read = |document: toml::Value| document.try_into::<Setup>().map_err(|error| error.to_string());
+            read(document.clone()).unwrap();
+            visit_values(&document, &[], &mut |keys| {
+                let mut changed = document.clone();
+                let value = value_at(&mut changed, keys);
+                shown.extend(keys.last().cloned());
+                shown.extend(value.as_str().map(str::to_owned));
+                // A key that does not exist, and a value that does not.
+                let is_table = value.as_table_mut().map(|table| table.insert("zzz".to_owned(), 0.into())).is_some();
+                let refused = [is_table.then(|| read(changed.clone()).unwrap_err()), {
+                    *value_at(&mut changed, keys) = "zzz".into();
+                    read(changed).err()
+                }];
+                wanted.extend(refused.iter().flatten().flat_map(|error| expected(error)).map(str::to_owned));
+            });
+        }
+        let missing: Vec<_> = wanted.difference(&shown).collect();
+        assert!(wanted.len() > 150 && missing.is_empty(), "{} {missing:?}", wanted.len());
     }
 }
