@@ -1,0 +1,87 @@
+//! Tables as CSV files, and summaries as JSON.
+
+use motile::prelude::*;
+use motile_output::{CsvTable, TrajectoryCsv};
+
+use crate::Directory;
+
+/// Header and rows of a CSV file; empty fields are not numbers.
+fn read(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let header = reader.headers().expect("a header").iter().map(str::to_owned).collect();
+    let number = |field: &str| if field.is_empty() { f64::NAN } else { field.parse().expect(field) };
+    let rows = reader.records().map(|row| row.expect("a row").iter().map(number).collect());
+    (header, rows.collect())
+}
+
+#[test]
+fn numbers_come_back_bit_by_bit() {
+    let directory = Directory::new("table");
+    let path = directory.0.join("numbers.csv");
+    let mut table = CsvTable::create(&path, &["time", "a value", "z_y"]).unwrap();
+    let rows = [[0.0, 1.0 / 3.0, f64::NAN], [1e-300, -2.5e17, std::f64::consts::PI], [0.1, f64::INFINITY, -0.0]];
+    rows.iter().for_each(|row| table.push(row).unwrap());
+    table.flush().unwrap();
+    let (header, found) = read(&path);
+    assert_eq!(header, ["time", "a value", "z_y"]);
+    for (found, row) in found.iter().zip(rows) {
+        let written = row.map(|v| if v.is_finite() { v.to_bits() } else { f64::NAN.to_bits() });
+        assert_eq!(found.iter().map(|v| v.to_bits()).collect::<Vec<_>>(), written);
+    }
+    assert_eq!(found.len(), 3);
+}
+
+#[test]
+fn a_trajectory_comes_back() {
+    let directory = Directory::new("trajectory");
+    let Built { mut scene, droplets, .. } = Setup { step: StepSize::Fixed(0.025), ..Setup::default() }.build().unwrap();
+    let path = directory.0.join("trajectory.csv");
+    let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0]).unwrap();
+    scene.run(0.5).observe(Every::Time(0.1), &mut rows).go().unwrap();
+    rows.finish(scene.system_mut()).unwrap();
+    let (header, found) = read(&path);
+    let seen = scene.observe(droplets[0]).unwrap();
+    let last = found.last().unwrap();
+    let value = |name: &str| last[header.iter().position(|known| known == name).expect(name)];
+    assert_eq!([value("x"), value("y")], [seen.centroid.x, seen.centroid.y]);
+    assert_eq!([value("velocity_x"), value("velocity_y")], [seen.velocity.x, seen.velocity.y]);
+    assert_eq!(
+        [value("area"), value("perimeter"), value("speed")],
+        [seen.area, seen.perimeter, seen.velocity.length()]
+    );
+    let times: Vec<f64> = found.iter().map(|row| row[0]).collect();
+    assert!(crate::near(&times, &[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], 1e-9), "{times:?}");
+    assert_eq!(rows.track().last().map(|(time, at)| [*time, at.x, at.y]), Some([last[0], value("x"), value("y")]));
+}
+
+#[cfg(feature = "sweep")]
+#[test]
+fn summaries_and_their_tables_come_back() {
+    use motile_output::run::{Summary, write_results};
+
+    let directory = Directory::new("summary");
+    let mut summary = Summary::default();
+    summary.put("speed", 0.1 + 0.2, "");
+    summary.put("regime", "at rest, \"nearly\"", "");
+    summary.put("steps", 12_000_usize, "");
+    summary.put("warnings", vec!["thin film", "long \\ step"], "");
+    summary.put("beta", f64::NAN, "");
+    let path = directory.0.join("summary.json");
+    summary.write(&path).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&directory.text("summary.json")).unwrap();
+    let expected = serde_json::json!({
+        "speed": 0.1 + 0.2, "regime": "at rest, \"nearly\"", "steps": 12_000,
+        "warnings": ["thin film", "long \\ step"], "beta": null
+    });
+    assert_eq!(found, expected);
+
+    let table = directory.0.join("results.csv");
+    write_results(&table, &[summary.clone(), summary]).unwrap();
+    let mut reader = csv::Reader::from_path(&table).unwrap();
+    let names = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!((rows.len(), names.len()), (2, 5));
+    let field = |name: &str| rows[1].get(names.iter().position(|known| known == name).unwrap()).unwrap();
+    assert_eq!([field("regime"), field("steps"), field("beta")], ["at rest, \"nearly\"", "12000", ""]);
+    assert_eq!(field("speed").parse::<f64>().unwrap(), 0.1 + 0.2);
+}
