@@ -8,8 +8,8 @@ use motile::motile_scene::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
 
 use crate::drawing::raster::colours;
-use crate::picture::{Format, SolidColour};
-use crate::{Look, OutputError, Raster, Snapshot, Track};
+use crate::picture::contents::Format;
+use crate::{Look, OutputError, Raster, Snapshot, SolidColour, Track};
 
 /// Time between two frames, and duration of the last one (hundredths of a second).
 const DELAY: u16 = 8;

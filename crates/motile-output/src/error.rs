@@ -40,6 +40,14 @@ pub enum OutputError {
         /// Width and height (length).
         size: [f64; 2],
     },
+    /// Range of colours that is empty or not finite.
+    #[error("colours cannot range from {low} to {high}: give finite ends, the lower one first")]
+    Range {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
     /// Unbounded domain, which has no rectangle of its own to draw.
     #[error("an unbounded domain cannot be drawn: give a raster of the part that is to be seen")]
     Unbounded,

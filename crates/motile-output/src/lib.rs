@@ -56,7 +56,7 @@ mod trajectory;
 
 pub use animation::Film;
 pub(crate) use colour::ColourScale;
-pub use colour::Rgb;
+pub use colour::{PressureColours, Rgb};
 pub use error::OutputError;
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};

@@ -11,6 +11,9 @@ use crate::{
 };
 use motile::motile_base::Vec2;
 
+/// Distance over which forces are spread on a grid, in grid spacings.
+const SMEAR: f64 = 2.0;
+
 /// Droplet at one time.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -77,6 +80,8 @@ pub struct Snapshot {
     pub solids: Vec<SolidShape>,
     /// Heights of straight rigid walls (length).
     pub walls: Option<[f64; 2]>,
+    /// Distance over which the flow smears the forces of interfaces (length): two grid spacings, 0 without a grid.
+    pub smear: f64,
 }
 
 impl Snapshot {
@@ -93,7 +98,8 @@ impl Snapshot {
             let concentration = at_markers(droplet.concentrations());
             Ok(DropletOutline { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
         };
-        let walls = system.hydrodynamics().fluid_view().domain.walls;
+        let fluid = system.hydrodynamics().fluid_view();
+        let (walls, smear) = (fluid.domain.walls, fluid.spacing.map_or(0.0, |spacing| SMEAR * spacing));
         let rigid = system.hydrodynamics().walls().map(|boundary| rigid_shape(boundary, walls));
         let gel = |(_, gel): (_, &GelInDroplet)| {
             let (nodes, directors) = (gel.nodes().to_vec(), gel.directors().to_vec());
@@ -113,6 +119,7 @@ impl Snapshot {
                 .chain(rigid)
                 .collect(),
             walls,
+            smear,
         })
     }
 

@@ -1,11 +1,15 @@
 //! Evenly spaced streamlines.
 //!
 //! After B. Jobard and W. Lefer, "Creating evenly-spaced streamlines of arbitrary density" (1997): each new line starts
-//! at a fixed distance beside an earlier one, and ends where it comes too near another.
+//! at a fixed distance beside an earlier one, and ends where it comes too near another. Where a flow is its own mirror
+//! image, lines are traced on one side of the mirror line and reflected.
+
+mod mirrors;
 
 use std::collections::VecDeque;
 
 use crate::{OutputError, Raster, Samples};
+use mirrors::Mirrors;
 use motile::motile_base::Vec2;
 
 /// Smallest distances, in units of the spacing, of a line from others and from an earlier part of itself.
@@ -24,6 +28,9 @@ const STAGNANT: f64 = 1e-4;
 /// direction of the flow. The first passes through `anchor` and determines the others, so that lines move along with an
 /// anchor that moves with the flow. In periodic directions lines continue beyond the borders, unwrapped.
 ///
+/// Where the flow is its mirror image (to half a percent) in a level or upright line through the anchor or the middle
+/// of the raster, so are the streamlines, and the first one is on that line or beside it.
+///
 /// # Errors
 /// [`OutputError::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a
 /// million cells of it.
@@ -37,7 +44,8 @@ pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<
     if fastest == 0.0 {
         return Ok(Vec::new());
     }
-    let mut tracer = Tracer { field, spacing, slowest: STAGNANT * fastest, near: Neighbourhood::new(raster, spacing) };
+    let (near, mirrors) = (Neighbourhood::new(raster, spacing), Mirrors::of(field, anchor, spacing));
+    let mut tracer = Tracer { field, spacing, slowest: STAGNANT * fastest, near, mirrors };
     let mut lines: Vec<Vec<Vec2>> = Vec::new();
     // Seeds beside the lines, and, when those are used up, wherever there is room left.
     let mut beside: VecDeque<Vec2> = VecDeque::new();
@@ -45,6 +53,11 @@ pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<
     while let Some(seed) = beside.pop_front().or_else(|| spare.next()) {
         if let Some(line) = tracer.line(seed) {
             beside.extend(seeds_beside(&line, spacing));
+            for image in tracer.mirrors.images(&line) {
+                tracer.near.kept.push(true);
+                image.iter().for_each(|&p| tracer.near.add(p, 0));
+                lines.push(image);
+            }
             lines.push(line);
         }
     }
@@ -86,13 +99,18 @@ struct Tracer<'a> {
     spacing: f64,
     slowest: f64,
     near: Neighbourhood,
+    mirrors: Mirrors,
 }
 
 impl Tracer<'_> {
     /// Streamline through a seed, which joins the neighbourhood; `None` if the seed is too near a line or the line too
     /// short.
     fn line(&mut self, seed: Vec2) -> Option<Vec<Vec2>> {
-        if !self.field.raster.covers(seed) || self.near.any(seed, self.spacing, |_| true) {
+        if !self.field.raster.covers(seed)
+            || !self.mirrors.is_ahead(seed)
+            || self.mirrors.is_near_image(seed, self.spacing)
+            || self.near.any(seed, self.spacing, |_| true)
+        {
             return None;
         }
         self.near.kept.push(true);
@@ -130,10 +148,12 @@ impl Tracer<'_> {
         let mut p = seed;
         for count in 1..(LONGEST * STEPS) as i64 {
             let Some(next) = self.step(p, sign * self.spacing / STEPS) else { break };
+            let next = self.mirrors.along(p, next);
             // Upstream points are numbered -1, -2, ...: points near along the line may be near in space.
             let number = if sign > 0.0 { count } else { -count };
             let (other, own) = (NEAREST_OTHER * self.spacing, NEAREST_SELF * self.spacing);
-            if self.near.any(next, other, |place| place.is_none())
+            if self.mirrors.is_near_image(next, other)
+                || self.near.any(next, other, |place| place.is_none())
                 || self.near.any(next, own, |place| place.is_some_and(|n| (n - number).abs() > apart))
             {
                 break;

@@ -10,18 +10,25 @@ use crate::drawing::shapes::{Pen, Pixel, Rect, Shape, TextStyle, joined};
 #[derive(Debug, Clone)]
 pub(crate) struct Drawing {
     pub(crate) size: [f64; 2],
+    /// Pixels per centimetre on paper; `None` for a drawing without a size there.
+    pub(crate) per_cm: Option<f64>,
     pub(crate) shapes: Vec<Shape>,
 }
 
 impl Drawing {
     /// White drawing of a width and height (pixels).
     pub(crate) fn new(size: [f64; 2]) -> Self {
-        Self { size, shapes: Vec::new() }
+        Self { size, per_cm: None, shapes: Vec::new() }
     }
 
     /// Restricts the elements that follow to a rectangle, or (`None`) lifts the restriction.
     pub(crate) fn clip(&mut self, to: Option<Rect>) {
         self.shapes.push(Shape::Clip(to));
+    }
+
+    /// Restricts the elements that follow to the area inside closed curves.
+    pub(crate) fn clip_inside(&mut self, rings: &[Vec<Pixel>]) {
+        self.shapes.extend(joined(rings, true).map(Shape::ClipInside));
     }
 
     /// Fills the area inside the closed curves `rings` (even-odd rule: a ring within a ring is a hole).

@@ -45,6 +45,12 @@ impl Drawing {
                     image.draw_pixmap(0, 0, part.as_ref(), &quality, place, clip.as_ref());
                 }
                 Shape::Clip(None) => clip = None,
+                Shape::ClipInside(path) => {
+                    clip = Mask::new(width, height);
+                    if let Some(mask) = &mut clip {
+                        mask.fill_path(path, FillRule::Winding, true, transform);
+                    }
+                }
                 Shape::Clip(Some(rect)) => {
                     let sides = [rect.left, rect.top, rect.width, rect.height].map(|v| v as f32);
                     let area = tiny_skia::Rect::from_xywh(sides[0], sides[1], sides[2], sides[3]);
@@ -67,7 +73,8 @@ impl Drawing {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
             return fs::write(path, self.svg()).map_err(OutputError::writing(path));
         }
-        fs::write(path, png(&self.pixels(scale)?)).map_err(OutputError::writing(path))
+        let per_metre = self.per_cm.map(|per_cm| (100.0 * per_cm * scale).round() as u32);
+        fs::write(path, with_size(png(&self.pixels(scale)?), per_metre)).map_err(OutputError::writing(path))
     }
 }
 
@@ -75,6 +82,21 @@ impl Drawing {
 pub(crate) fn png(image: &Pixmap) -> Vec<u8> {
     // Only an image too large for the format fails, and sizes are bounded.
     image.encode_png().unwrap_or_default()
+}
+
+/// Bytes of a PNG file with the size of its pixels, if they have one (per metre), as a chunk `pHYs` after the header
+/// (ISO/IEC 15948).
+fn with_size(mut file: Vec<u8>, per_metre: Option<u32>) -> Vec<u8> {
+    const HEADER_END: usize = 33;
+    let Some(per_metre) = per_metre.filter(|_| file.len() > HEADER_END) else { return file };
+    let per_metre = per_metre.to_be_bytes();
+    let chunk = [b"pHYs".as_slice(), &per_metre, &per_metre, &[1]].concat();
+    let sum = !chunk.iter().fold(u32::MAX, |sum, &byte| {
+        (0..8).fold(sum ^ u32::from(byte), |sum, _| (sum >> 1) ^ (0xedb8_8320 & (sum & 1).wrapping_neg()))
+    });
+    let chunk = [9_u32.to_be_bytes().as_slice(), &chunk, &sum.to_be_bytes()].concat();
+    file.splice(HEADER_END..HEADER_END, chunk);
+    file
 }
 
 /// Colours of the pixels of an image without transparency, row after row from the top.

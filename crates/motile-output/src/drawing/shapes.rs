@@ -98,6 +98,8 @@ pub(crate) enum Shape {
     Image { corner: Pixel, image: Pixmap },
     /// Restriction of the following elements to a rectangle, or its end.
     Clip(Option<Rect>),
+    /// Restriction of the following elements to the area inside a path, in place of the one before.
+    ClipInside(Path),
 }
 
 /// Largest coordinate (pixels), to which others are clamped: far outside of any drawing, and small enough to be

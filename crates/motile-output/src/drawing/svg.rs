@@ -34,6 +34,12 @@ impl Drawing {
                     image.height(),
                     base64(&raster::png(image))
                 ),
+                Shape::ClipInside(path) => {
+                    let close = if std::mem::replace(&mut clipped, true) { "</g>" } else { "" };
+                    clips += 1;
+                    let path = format!("<path d=\"{}\"/>", data(path));
+                    format!("{close}<clipPath id=\"c{clips}\">{path}</clipPath><g clip-path=\"url(#c{clips})\">")
+                }
                 Shape::Clip(to) => {
                     let close = if std::mem::replace(&mut clipped, to.is_some()) { "</g>" } else { "" };
                     let open = to.map(|rect| {
@@ -50,11 +56,13 @@ impl Drawing {
         }
         let [width, height] = self.size.map(short);
         let close = if clipped { "</g>\n" } else { "" };
+        let shown = self.size.map(|side| self.per_cm.map_or(short(side), |per_cm| short(side / per_cm) + "cm"));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" \
              viewBox=\"0 0 {width} {height}\" fill-rule=\"evenodd\" stroke-linejoin=\"round\" \
              stroke-linecap=\"round\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}{close}</svg>\n"
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}{close}</svg>\n",
+            shown[0], shown[1]
         )
     }
 }

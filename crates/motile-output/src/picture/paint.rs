@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 
-use super::{Legends, Picture};
+use super::contents::{Legends, Picture};
+use super::sides::sides;
 use crate::{
-    OutputError, Rgb, Samples,
+    ColourScale, OutputError, Rgb, Samples,
     drawing::{
         Anchor, Drawing, Pen, Pixel, Rect, TextStyle,
         axes::{Axis, AxisScale, Frame},
@@ -29,31 +30,41 @@ const WALL: f64 = 0.07;
 const BARS: f64 = 4.5;
 /// Number of times that triangles of a mesh inside are split in four, to show a smooth field.
 const SPLITS: usize = 2;
-/// Unit of lengths, in which axes are labelled.
-const UNIT: &str = "R_{0}";
+/// Smallest diameter of a droplet on a picture for lines as wide as the size of the type asks for (sizes of the type).
+const SLENDER: f64 = 17.0;
 
 /// Drawing of a picture.
 pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, OutputError> {
     let layout = Layout::new(picture);
-    let drawing = Drawing::new([picture.format.width as f64, layout.height]);
+    let mut drawing = Drawing::new([picture.format.width, layout.height]);
+    drawing.per_cm = picture.format.per_cm;
     let mut painter = Painter { picture, drawing, layout };
     painter.drawing.clip(Some(painter.layout.frame.area));
     painter.pressure()?;
     painter.inside();
-    painter.streamlines()?;
+    if picture.look.streamlines {
+        painter.streamlines()?;
+    }
     painter.gels();
     painter.solids();
     painter.walls();
     painter.tracks();
     painter.interfaces();
-    painter.scale_bar();
+    if picture.look.scale_bar {
+        painter.scale_bar();
+    }
     painter.drawing.clip(None);
     painter.layout.frame.draw_axes(&mut painter.drawing);
-    painter.legends();
+    if picture.look.colour_bars {
+        painter.legends();
+    }
     let (area, em) = (painter.layout.frame.area, painter.layout.em);
+    let title = format!("t = {:.1}   {}", picture.seen.time, picture.look.caption);
     // A long title is set smaller.
-    let size = 1.05 * em * (area.width / text_width(&picture.title, 1.05 * em)).min(1.0);
-    painter.drawing.text([area.left, area.top - 1.15 * em], &picture.title, &TextStyle::new(size, Anchor::Start));
+    let size = 1.05 * em * (area.width / text_width(&title, 1.05 * em)).min(1.0);
+    let y = area.top - 1.15 * em;
+    painter.drawing.text([area.left, y], &title, &TextStyle::new(size, Anchor::Start));
+    painter.drawing.text([0.4 * em, y], &picture.look.panel, &TextStyle::new(1.3 * em, Anchor::Start));
     Ok(painter.drawing)
 }
 
@@ -80,8 +91,11 @@ struct Layout {
     height: f64,
     /// Size of the type (pixels).
     em: f64,
-    /// Unit of the widths of lines in the picture (pixels): the size of the type, less where the picture is low.
+    /// Unit of the widths of lines in the picture (pixels): the size of the type, less where the picture is low or a
+    /// droplet small.
     unit: f64,
+    /// Unit of length in labels, with the space before it.
+    length_unit: String,
 }
 
 impl Layout {
@@ -93,10 +107,13 @@ impl Layout {
             high.y = high.y.max(above + band);
         }
         let shape = (high.x - low.x) / (high.y - low.y);
-        let width = picture.format.width as f64;
-        let em = (width / picture.format.type_sizes).max(9.0);
+        let (width, em, look) = (picture.format.width, picture.format.em, picture.look);
+        let in_unit = |format: fn(&str) -> String| {
+            if look.length_unit.is_empty() { String::new() } else { format(&look.length_unit) }
+        };
+        let of_axes = in_unit(|unit| format!(" ({unit})"));
         let axis = |k: usize, name: &str, ticks: usize| {
-            Axis::new(&format!("{name} ({UNIT})"), [low[k], high[k]], AxisScale::Linear, ticks)
+            Axis::new(&format!("{name}{of_axes}"), [low[k], high[k]], AxisScale::Linear, ticks)
         };
         let rough_height = (width - 8.0 * em) / shape;
         let x = axis(0, "x", 10);
@@ -104,12 +121,31 @@ impl Layout {
         let left = Frame::left_margin(&y, em).round();
         let inner = (width - left - 1.4 * em).round().max(1.0);
         let area = Rect { left, top: (2.4 * em).round(), width: inner, height: (inner / shape).round().max(1.0) };
-        let height = (area.bottom() + Frame::bottom_margin(&x, em) + BARS * em).round();
-        Self { height, frame: Frame { area, x, y, em }, em, unit: em.min(area.height / 13.0) }
+        let bars = if look.colour_bars { BARS } else { 0.0 };
+        let height = (area.bottom() + Frame::bottom_margin(&x, em) + bars * em).round();
+        let mut layout = Self {
+            height,
+            frame: Frame { area, x, y, em },
+            em,
+            unit: em.min(area.height / 13.0),
+            length_unit: in_unit(|unit| format!(" {unit}")),
+        };
+        let units = picture.seen.droplets.iter().map(|droplet| layout.unit_of(&droplet.markers));
+        layout.unit = units.fold(layout.unit, f64::min);
+        layout
     }
 
     fn path(&self, points: &[Vec2], shift: Vec2) -> Vec<Pixel> {
         points.iter().map(|p| p + shift).map(|p| self.frame.place(p.x, p.y)).collect()
+    }
+
+    /// Unit of the widths of lines for a droplet (pixels), in proportion to its diameter where that is small.
+    fn unit_of(&self, markers: &[Vec2]) -> f64 {
+        let next = markers.iter().cycle().skip(1);
+        let area = 0.5 * markers.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>().abs();
+        let diameter = 2.0 * (area / std::f64::consts::PI).sqrt() * self.scale();
+        // Markers that are not finite are not drawn.
+        self.em.min(self.frame.area.height / 13.0).min(diameter / SLENDER)
     }
 
     /// Pixels per unit of length.
@@ -147,8 +183,29 @@ impl Painter<'_> {
         ys.into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
     }
 
+    /// Draws the pressure, with a sharp edge along interfaces of fluid, at which it jumps.
     fn pressure(&mut self) -> Result<(), OutputError> {
-        let field = Samples::new(self.picture.seen.raster, self.picture.seen.pressure())?;
+        let seen = self.picture.seen;
+        let membranes = seen.solids.iter().filter(|solid| solid.area.is_empty()).flat_map(|solid| &solid.edges);
+        let droplets = seen.droplets.iter().map(|droplet| &droplet.markers);
+        let curves: Vec<&[Vec2]> = droplets.chain(membranes).map(Vec::as_slice).collect();
+        let fields = sides(&seen.raster, seen.pressure(), &curves, seen.smear)?;
+        self.shade(&fields.outside);
+        let rings = curves.iter().flat_map(|curve| {
+            let shifts = self.images(&curve.iter());
+            shifts.into_iter().map(|shift| self.layout.path(curve, shift))
+        });
+        let rings: Vec<Vec<Pixel>> = rings.collect();
+        if !rings.is_empty() {
+            self.drawing.clip_inside(&rings);
+            self.shade(&fields.inside);
+            self.drawing.clip(Some(self.layout.frame.area));
+        }
+        Ok(())
+    }
+
+    /// Colours the picture by a field of pressures where it is known.
+    fn shade(&mut self, field: &Samples<f64>) {
         let (scale, levels) = (&self.picture.legends.pressure, self.picture.format.levels);
         let table = scale.table(levels);
         let (area, low, high) = (self.layout.frame.area, self.layout.frame.x.low, self.layout.frame.y.high);
@@ -159,7 +216,6 @@ impl Painter<'_> {
             let level = (value - scale.low) / (scale.high - scale.low) * levels as f64;
             level.is_finite().then(|| table[(level.max(0.0) as usize).min(levels - 1)])
         });
-        Ok(())
     }
 
     /// Draws the densities of particles inside, linear within the triangles of their mesh.
@@ -181,7 +237,8 @@ impl Painter<'_> {
     }
 
     fn streamlines(&mut self) -> Result<(), OutputError> {
-        let (seen, unit) = (self.picture.seen, self.layout.unit);
+        // Streamlines are not of a droplet: they keep half the width that the size of the type asks for.
+        let (seen, unit) = (self.picture.seen, self.layout.unit.max(0.5 * self.layout.em));
         let velocity = Samples::new(seen.raster, seen.velocity())?;
         // An anchor that moves with the droplet keeps the lines from flickering in animations.
         let anchor = seen.droplets.first().map_or(seen.raster.origin.into(), |droplet| droplet.centroid);
@@ -261,7 +318,7 @@ impl Painter<'_> {
             if let Some(scale) = &picture.legends.solids {
                 for shift in self.images(&solid.triangles.iter().flatten()) {
                     let place = |p: Vec2| frame.place(p.x + shift.x, p.y + shift.y);
-                    let values = solid.triangles.iter().zip(solid.values(picture.solids));
+                    let values = solid.triangles.iter().zip(solid.values(picture.look.solids));
                     triangles.extend(values.map(|(at, value)| (at.map(place), scale.colour(*value))));
                 }
             }
@@ -303,7 +360,7 @@ impl Painter<'_> {
         let (right, y) = (area.right() - 1.2 * em, area.bottom() - 1.0 * em);
         let bar = [[right - length * scale, y], [right, y]];
         self.outlined(&bar, Rgb::INK, [0.2 * em, 0.5 * em], 0.8);
-        let label = format!("{} {UNIT}", number(length));
+        let label = number(length) + &self.layout.length_unit;
         let at = [right - 0.5 * length * scale, y - 0.95 * em];
         let [width, height] = [text_width(&label, 0.88 * em) + 0.5 * em, 1.1 * em];
         let paper = Rect { left: at[0] - 0.5 * width, top: at[1] - 0.5 * height, width, height };
@@ -326,8 +383,9 @@ impl Painter<'_> {
     }
 
     fn interfaces(&mut self) {
-        let (seen, legends, unit) = (self.picture.seen, self.picture.legends, self.layout.unit);
+        let (seen, legends) = (self.picture.seen, self.picture.legends);
         for droplet in &seen.droplets {
+            let unit = self.layout.unit_of(&droplet.markers);
             let closed = |values: &[f64]| values.iter().chain(values.first()).copied().collect::<Vec<f64>>();
             let colours: Option<Vec<Rgb>> = legends.concentration.as_ref().map(|scale| {
                 closed(&droplet.concentration).into_iter().map(|c| scale.colour(c / legends.unit)).collect()
@@ -339,6 +397,20 @@ impl Painter<'_> {
                 if let Some(colours) = &colours {
                     self.drawing.stroke_coloured(&path, colours, 0.42 * unit);
                 }
+            }
+        }
+    }
+
+    /// Draws triangles at the ends of a colour bar that values exceed.
+    fn exceeded(&mut self, scale: &ColourScale, bar: Rect) {
+        let pen = Pen::new(Rgb::INK, (0.07 * self.layout.em).max(1.0));
+        let ends = [(bar.left, -0.8, scale.low), (bar.right(), 0.8, scale.high)];
+        for ((x, out, value), exceeded) in ends.into_iter().zip(scale.exceeded) {
+            if exceeded {
+                let tip = [x + out * bar.height, bar.top + 0.5 * bar.height];
+                let ring = vec![[x, bar.top], tip, [x, bar.bottom()]];
+                self.drawing.fill(std::slice::from_ref(&ring), scale.colour(value), 1.0);
+                self.drawing.stroke(&ring, &pen);
             }
         }
     }
@@ -356,6 +428,7 @@ impl Painter<'_> {
             let table = scale.table(levels);
             let colour = |x: f64| table[(((x - bar.left) / bar.width * levels as f64) as usize).min(levels - 1)];
             self.drawing.shade(bar, |x, _| Some(colour(x)));
+            self.exceeded(scale, bar);
             let ticks = ((bar.width / (3.2 * em)) as usize).clamp(2, 6);
             let x = Axis::new(scale.label, [scale.low, scale.high], AxisScale::Linear, ticks);
             Frame { area: bar, x, y: Axis::bare(), em }.draw_axes(&mut self.drawing);

@@ -100,7 +100,7 @@ impl WatchedRun {
             let caption = caption(setup, &particles, &view.region);
             let concentration = Some(particles.concentration);
             let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
-            let look = Look { caption, concentration, streamline_spacing, solids };
+            let look = Look { caption, concentration, streamline_spacing, solids, ..Look::default() };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }

@@ -53,3 +53,44 @@ fn a_fluid_at_rest_has_no_streamlines_and_a_bad_spacing_is_refused() {
         assert!(streamlines(&field, spacing, Vec2::ZERO).is_err());
     }
 }
+
+/// Each streamline of a flow with mirror lines has its image among the others, and lines keep apart.
+#[test]
+fn streamlines_have_the_mirror_lines_of_the_flow() {
+    let pi = std::f64::consts::PI;
+    // A swimmer's flow along x in a box, its axis off the middle; and a strain, whose lines cross none of its axes.
+    let swimmer = sampled(true, |p| {
+        let (x, y) = (pi * p.x, pi * (p.y - 0.13));
+        Vec2::new(y.cos() * (1.0 + 0.5 * x.sin()), 0.4 * y.sin() * (x.cos() + 0.6 * (2.0 * x).sin()))
+    });
+    let strain = sampled(false, |p| Vec2::new(p.x, -p.y));
+    for (field, anchor, axes) in [(swimmer, Vec2::new(0.2, 0.13), vec![1]), (strain, Vec2::ZERO, vec![0, 1])] {
+        let spacing = 0.11;
+        let lines = streamlines(&field, spacing, anchor).unwrap();
+        let near = Neighbourhood::new(&field.raster, spacing);
+        for &axis in &axes {
+            for line in &lines {
+                let reflect = |mut p: Vec2| {
+                    p[axis] = 2.0 * anchor[axis] - p[axis];
+                    p
+                };
+                let image: Vec<Vec2> = line.iter().map(|&p| reflect(p)).collect();
+                let same = |other: &&Vec<Vec2>| {
+                    other.len() == image.len()
+                        && other.iter().zip(&image).all(|(&p, &q)| (near.nearest_image(p, q) - q).length() < 1e-9)
+                };
+                assert!(lines.iter().any(|other| same(&other)), "axis {axis}: the line from {} has no image", line[0]);
+            }
+        }
+        let ends = |k: usize| lines[k].iter().copied().step_by(4);
+        for (a, b) in (0..lines.len()).flat_map(|a| (0..a).map(move |b| (a, b))) {
+            let gap = ends(a)
+                .flat_map(|p| ends(b).map(move |q| (p, q)))
+                .map(|(p, q)| (near.nearest_image(p, q) - q).length());
+            assert!(gap.fold(f64::INFINITY, f64::min) > 0.3 * spacing, "{} {}", lines[a][0], lines[b][0]);
+        }
+        // They fill the picture.
+        let total: f64 = lines.iter().flat_map(|l| l.windows(2)).map(|w| (w[1] - w[0]).length()).sum();
+        assert!(total * spacing > 0.6 * 4.0 && total * spacing < 1.6 * 4.0, "{total}");
+    }
+}

@@ -1,10 +1,12 @@
-//! Plots as PNG files.
+//! Plots and pictures as PNG files, and pictures as SVG files.
 
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
+use motile::prelude::*;
 use motile_output::plot::{Figure, Plot, SERIES_COLOURS, Series};
+use motile_output::{Look, Raster, Snapshot};
 
 use crate::{Directory, svg};
 
@@ -13,7 +15,6 @@ pub(crate) struct Image {
     pub(crate) size: [usize; 2],
     pixels: Vec<[u8; 3]>,
     /// Pixels per metre, if the file tells.
-    #[expect(dead_code, reason = "plots have no size on paper")]
     pub(crate) per_metre: Option<[u32; 2]>,
 }
 
@@ -53,4 +54,77 @@ fn a_plot_shows_its_lines_where_its_vectors_have_them() {
         let seen = line.iter().filter(|at| image.at(at.map(|v| 2.0 * v)) == colour.0).count();
         assert!(seen >= 56, "{k}: {seen}");
     }
+}
+
+/// A picture of a droplet in a box of 6 x 4, with these settings, as both kinds of files.
+fn picture(directory: &Directory, look: &Look) -> (Image, String) {
+    let region = Region::Box { lengths: [6.0, 4.0] };
+    let method = Method::Grid(GridMethod::of_spacing(0.25));
+    let mut scene = Setup { region, method, ..Setup::default() }.build().expect("a scene").scene;
+    let raster = Raster::of(scene.system(), 0.25).expect("a raster");
+    let seen = Snapshot::take(scene.system_mut(), raster).expect("a snapshot");
+    let [png, text] = ["picture.png", "picture.svg"].map(|name| directory.0.join(name));
+    look.write_picture(&seen, &[], &png).expect("a picture");
+    look.write_picture(&seen, &[], &text).expect("a picture");
+    (Image::read(&png), directory.text("picture.svg"))
+}
+
+#[test]
+fn a_picture_has_its_size_on_paper() {
+    let directory = Directory::new("size");
+    let look = Look { width: 8.5, resolution: 100.0, font_size: 9.0, ..Look::default() };
+    let (image, text) = picture(&directory, &look);
+    assert_eq!((image.size[0], image.per_metre), (850, Some([10_000; 2])));
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let height = format!("{}cm", image.size[1] as f64 / 100.0);
+    let root = document.root_element();
+    assert_eq!([root.attribute("width"), root.attribute("height")], [Some("8.5cm"), Some(height.as_str())]);
+    assert_eq!(root.attribute("viewBox"), Some(format!("0 0 850 {}", image.size[1]).as_str()));
+    // Capitals of tick labels, which are 0.88 of the type, are 0.714 as high as it; a point is 2.54/72 cm.
+    let zero = document.descendants().find(|node| node.attribute("aria-label") == Some("0")).unwrap();
+    let heights: Vec<f64> = svg::lines(zero).concat().iter().map(|p| p[1]).collect();
+    let [top, bottom] = [f64::min, f64::max].map(|pick| heights.iter().copied().reduce(pick).unwrap());
+    let expected = 0.88 * 0.714 * 9.0 * 2.54 / 72.0 * 100.0;
+    assert!((bottom - top - expected).abs() < 0.06 * expected, "{top} {bottom} {expected}");
+}
+
+#[test]
+fn a_picture_has_what_is_switched_on() {
+    let directory = Directory::new("switches");
+    let words = |look: &Look| {
+        let (image, text) = picture(&directory, look);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let texts = svg::texts(&document);
+        let faint = document.descendants().filter(|node| node.attribute("stroke-opacity") == Some("0.72")).count();
+        (image.size[1], faint, texts)
+    };
+    let has = |texts: &[(String, [f64; 2])], label: &str| texts.iter().any(|(text, _)| text == label);
+    let all = Look { panel: "b)".into(), caption: "a droplet".into(), length_unit: "µm".into(), ..Look::default() };
+    let (height, lines, texts) = words(&all);
+    for label in ["b)", "t = 0.0   a droplet", "1 µm", "x (µm)", "y (µm)", "pressure p", "concentration c"] {
+        assert!(has(&texts, label), "{label}: {texts:?}");
+    }
+    let title = texts.iter().find(|(text, _)| text.starts_with('t')).unwrap();
+    let panel = texts.iter().find(|(text, _)| text == "b)").unwrap();
+    assert!(panel.1[0] < title.1[0] - 50.0 && (panel.1[1] - title.1[1]).abs() < 8.0, "{panel:?} {title:?}");
+    assert!(lines > 10);
+    let none = Look { streamlines: false, scale_bar: false, colour_bars: false, length_unit: String::new(), ..all };
+    let (lower, lines, texts) = words(&none);
+    assert!(lower < height && lines == 0 && has(&texts, "x"));
+    assert!(["1", "1 µm", "pressure p"].iter().filter(|label| has(&texts, label)).count() <= 1, "{texts:?}");
+}
+
+/// Ends of the colour bar that pressures exceed are triangles, in the colours of the ends.
+#[test]
+fn exceeded_ends_of_colours_are_triangles() {
+    let directory = Directory::new("ends");
+    let triangles = |range| {
+        let (_, text) = picture(&directory, &Look { pressure_range: Some(range), ..Look::default() });
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let filled = document.descendants().filter(|node| node.attribute("fill").is_some_and(|fill| fill != "none"));
+        let paths = filled.filter(|node| node.has_tag_name("path") && node.attribute("aria-label").is_none());
+        let corners = paths.filter(|node| svg::lines(*node)[0].len() == 3);
+        corners.map(|node| node.attribute("fill").map(str::to_owned)).collect::<Vec<_>>().len()
+    };
+    assert_eq!([triangles([-1e6, 1e6]), triangles([-1e6, 1e-3]), triangles([-1e-3, 1e-3])], [0, 1, 2]);
 }

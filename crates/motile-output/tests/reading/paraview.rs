@@ -113,7 +113,7 @@ fn cells_of_an_image_lie_where_they_were_sampled() {
 
 #[test]
 fn lines_and_triangles_have_their_points_and_corners() {
-    let points: Vec<Vec2> = (0..7).map(|k| f64::from(k)).map(|k| Vec2::new(0.1 * k, (0.7 * k).sin())).collect();
+    let points: Vec<Vec2> = (0..7).map(f64::from).map(|k| Vec2::new(0.1 * k, (0.7 * k).sin())).collect();
     let file = VtkFile::closed_lines(&[points[..3].to_vec(), points[3..].to_vec()])
         .point_vectors("force", points.iter().map(|p| 2.0 * p))
         .cell_scalars("droplet", [0.0, 1.0]);
@@ -190,4 +190,25 @@ fn a_run_comes_back() {
         }
     }
     assert!(worst < 0.02 * seen && seen > 1e-3 * largest, "{worst} {seen} {largest}");
+}
+
+/// A run that goes on from a checkpoint continues the numbers of the files, also where the checkpoint is of the time of
+/// one, which is not written again.
+#[test]
+fn a_resumed_run_continues_its_files() {
+    let directory = Directory::new("resumed");
+    let setup = Setup { step: StepSize::Fixed(0.025), ..Setup::default() };
+    let mut saved = None;
+    for end in [0.1, 0.2] {
+        let mut scene = setup.build().unwrap().scene;
+        saved.iter().for_each(|saved| scene.resume(saved).unwrap());
+        let raster = Raster::of(scene.system(), 0.5).unwrap();
+        let mut files = ParaView::create(&directory.0, raster).unwrap();
+        scene.run(end).observe(Every::Time(0.05), &mut files).go().unwrap();
+        saved = Some(scene.checkpoint(""));
+    }
+    let found = listed(&directory.text("fields.pvd"));
+    let times: Vec<f64> = found.iter().map(|(time, _)| *time).collect();
+    assert!(near(&times, &[0.0, 0.05, 0.1, 0.15, 0.2], 1e-12), "{times:?}");
+    assert_eq!(found[4].1, "fields_0004.vti");
 }

@@ -109,7 +109,7 @@ fn read(document: &Document<'_>, line: &[[f64; 2]], scales: [AxisScale; 2]) -> V
 fn data_come_back_by_the_labels_of_linear_axes() {
     for (wide, high) in [(1.0, 3e-5), (4e7, 1.0), (0.02, 40.0), (3e-4, 7e6), (1e-3, 1e5)] {
         let points: Vec<[f64; 2]> =
-            (0..=20).map(|k| f64::from(k)).map(|k| [wide * k / 20.0, high * (0.3 * k).sin()]).collect();
+            (0..=20).map(f64::from).map(|k| [wide * k / 20.0, high * (0.3 * k).sin()]).collect();
         let plot = Plot::new("a sine").x_axis("x", AxisScale::Linear).y_axis("y", AxisScale::Linear);
         let plot = plot.series(Series::line("", points.iter().map(|p| (p[0], p[1]))));
         let text = Figure::new(1).panel(plot).svg().unwrap();

@@ -1,7 +1,10 @@
 use super::*;
 use crate::drawing::raster::colours;
-use crate::{DropletOutline, InteriorField, Raster, Rgb};
+use crate::{DropletOutline, InteriorField, Raster, Rgb, SolidShape};
 use motile::motile_base::FlowSample;
+
+const STILL: Format =
+    Format { width: 1200.0, em: 21.0, per_cm: None, levels: 256, streamline_spacing: 1.0, follows: true };
 
 /// A pressure that is 0 in the left and 1 in the right half of a square box around the origin, without flow.
 fn halves() -> Snapshot {
@@ -17,6 +20,7 @@ fn halves() -> Snapshot {
         inside: Vec::new(),
         solids: Vec::new(),
         walls: None,
+        smear: 0.0,
     }
 }
 
@@ -47,10 +51,12 @@ fn the_pressure_fills_its_halves() {
 
 #[test]
 fn droplets_across_the_border_show_on_both_sides_and_all_of_them_show() {
-    let format = Format { width: 800, ..Format::FRAME };
+    let format = Format { width: 800.0, em: 21.6, ..Format::FRAME };
     let ink = |droplets: &[f64]| {
         let droplets = droplets.iter().map(|&x| circle(x)).collect();
-        count(&draw(&Snapshot { droplets, ..halves() }, &[], &format), Rgb::INK)
+        let seen = Snapshot { droplets, ..halves() };
+        let scale = Look::default().legends(std::slice::from_ref(&seen)).concentration.expect("a scale");
+        count(&draw(&seen, &[], &format), scale.colour(0.5))
     };
     // Without droplets there is no legend for them either.
     let (inside, across, far) = (ink(&[1.5]), ink(&[3.0]), ink(&[3.0 - 60.0]));
@@ -66,8 +72,8 @@ fn droplets_across_the_border_show_on_both_sides_and_all_of_them_show() {
 #[test]
 fn a_single_droplet_is_in_the_middle_of_a_still() {
     let seen = Snapshot { droplets: vec![circle(2.0)], ..halves() };
-    let image = draw(&seen, &[], &Format::STILL);
-    let other = draw(&Snapshot { droplets: vec![circle(2.0), circle(2.0)], ..halves() }, &[], &Format::STILL);
+    let image = draw(&seen, &[], &STILL);
+    let other = draw(&Snapshot { droplets: vec![circle(2.0), circle(2.0)], ..halves() }, &[], &STILL);
     assert_ne!(image, other);
 }
 
@@ -93,8 +99,9 @@ fn values_that_are_not_numbers_do_no_harm() {
         inside: Vec::new(),
         solids,
         walls: Some([0.0, 2.0]),
+        smear: 0.1,
     };
-    draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &Format::STILL);
+    draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &STILL);
     let look = Look::default();
     let short = Snapshot { flow: Vec::new(), ..seen };
     let drawn = look.draw(&short, &look.legends(&[]), &[], &Format::FRAME);
@@ -132,4 +139,63 @@ fn the_field_inside_is_as_bright_as_it_is_dense() {
     assert!(count(&graded, scale.colour(2.0)) > 0.04 * inside, "{}", count(&graded, scale.colour(2.0)));
     assert!(count(&graded, scale.colour(1.0)) < 0.3 * inside);
     assert!(Look::default().legends(&[halves()]).inside.is_none());
+}
+
+/// A jump of the pressure that the samples smear is sharp along the interface: no colours between those of both sides.
+#[test]
+fn the_pressure_has_no_steps_along_an_interface() {
+    let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true; 2]).unwrap();
+    let smeared = |p: &Vec2| -10.0 * ((p.length() - 1.0) / 0.2).clamp(-1.0, 1.0);
+    let sample = |p: &Vec2| FlowSample { pressure: smeared(p), ..FlowSample::default() };
+    let flow = raster.points().iter().map(sample).collect();
+    let seen = Snapshot { raster, flow, droplets: vec![circle(0.0)], smear: 0.25, ..halves() };
+    let look = Look { colour_bars: false, ..Look::default() };
+    let legends = look.legends(std::slice::from_ref(&seen));
+    let drawing = look.draw(&seen, &legends, &[], &STILL).unwrap();
+    let image: Vec<Rgb> = colours(&drawing.pixels(1.0).unwrap()).collect();
+    let table = legends.pressure.table(256);
+    let [outside, inside] = [table[0], table[255]].map(|colour| count(&image, colour));
+    assert!(
+        (inside / outside - std::f64::consts::PI / (36.0 - std::f64::consts::PI)).abs() < 0.02,
+        "{inside} {outside}"
+    );
+    let between: f64 = table[20..110].iter().chain(&table[146..236]).map(|&colour| count(&image, colour)).sum();
+    // Some mixtures of lines and type with the paper look alike.
+    assert!(between < 300.0, "{between}");
+}
+
+/// Widths of the lines around droplets, which are in proportion to their diameters on the page.
+#[test]
+fn small_droplets_have_thin_lines() {
+    let widths = |side: f64| {
+        let raster = Raster::new([-0.5 * side; 2], [side; 2], [60, 60], [true; 2]).unwrap();
+        let seen = Snapshot { raster, droplets: vec![circle(0.0), circle(2.5)], ..halves() };
+        let drawing = Look::default().draw(&seen, &Look::default().legends(&[]), &[], &STILL).unwrap().svg();
+        let ink = drawing.split("stroke=\"#22262e\" stroke-width=\"").skip(1);
+        let all = ink.map(|rest| rest.split('"').next().and_then(|width| width.parse().ok()).expect("a width"));
+        all.collect::<Vec<f64>>()
+    };
+    let widest = |side: f64| {
+        let all = widths(side);
+        let scale_bar = 0.2 * STILL.em;
+        all.into_iter().filter(|width| (width - scale_bar).abs() > 0.02).fold(0.0, f64::max)
+    };
+    let (large, small) = (widest(15.0), widest(30.0));
+    assert!((large / small - 2.0).abs() < 0.05, "{large} {small}");
+    assert!((widest(6.0) - 0.56 * STILL.em).abs() < 0.02, "{}", widest(6.0));
+}
+
+#[test]
+fn sizes_and_ranges_that_cannot_be_are_refused() {
+    let refused = |look: Look| look.write_picture(&halves(), &[], "/nowhere/none.png").unwrap_err().to_string();
+    for (look, words) in [
+        (Look { width: 0.0, ..Look::default() }, "width (cm)"),
+        (Look { font_size: f64::NAN, ..Look::default() }, "size (pt)"),
+        (Look { resolution: 1e5, ..Look::default() }, "resolution (pixels per cm)"),
+        (Look { pressure_range: Some([1.0, 1.0]), ..Look::default() }, "colours cannot range from 1 to 1"),
+        (Look { pressure_range: Some([0.0, f64::INFINITY]), ..Look::default() }, "give finite ends"),
+    ] {
+        let told = refused(look);
+        assert!(told.contains(words), "{told}");
+    }
 }
