@@ -5,8 +5,8 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::active_interface::observables::Observables;
+use motile::motile_base::{Drive, Region, Vec2};
 use motile::motile_scene::{Every, Warnings};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_examples::positive;
@@ -59,6 +59,9 @@ const SCENES: [Scene; 20] = [
 /// The nodes and markers of resolved runs.
 const RESOLVED: Method = Method::Integral(IntegralMethod { nodes: 112, cells: 448 });
 
+/// A twentieth of the usual mean tension of a swimmer times its radius (force times length).
+const SMALLEST_STRESSLET: f64 = 5.0;
+
 fn setup(&(channel, activity, [inside, outside], spacing): &Scene) -> Setup {
     let region = channel.map_or(Region::Box { lengths: [6.0; 2] }, |[length, width]| Region::Channel {
         length,
@@ -66,41 +69,74 @@ fn setup(&(channel, activity, [inside, outside], spacing): &Scene) -> Setup {
         drive: Drive::ZeroGradient,
     });
     let viscosity = (inside != outside).then_some(inside);
+    // There is no mobility correction beside another viscosity.
+    let grid = if inside == outside { GridMethod::of_spacing } else { GridMethod::uncorrected };
     Setup {
         region,
-        method: spacing.map_or(Method::default(), |spacing| Method::Grid(GridMethod::of_spacing(spacing))),
+        method: spacing.map_or(Method::default(), |spacing| Method::Grid(grid(spacing))),
         viscosity: outside,
         droplets: vec![DropletSetup { viscosity, ..DropletSetup::active(activity) }],
         ..Setup::default()
     }
 }
 
-/// The speed in the end, and the causes of the warnings on the way.
-fn speed(setup: &Setup, time: f64) -> Result<(f64, Vec<String>)> {
+/// The observables in the end, and the causes of the warnings on the way.
+fn end(setup: &Setup, time: f64) -> Result<(Observables, Vec<String>)> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut warnings = Warnings::default();
     scene.run(time).observe(Every::Steps(1), &mut warnings).go()?;
     let droplet = *droplets.first().context("no droplet")?;
     let causes = warnings.worst().iter().map(|(_, warning)| warning.cause.to_string()).collect();
-    Ok((scene.observe(droplet)?.velocity.length(), causes))
+    Ok((scene.observe(droplet)?, causes))
+}
+
+/// Errors of the observables relative to them; of the stresslet, which has two components, to its magnitude, or to a
+/// twentieth of the tension times the radius if that is more; of the squirmer parameter to one if it is less.
+fn errors(found: &Observables, exact: &Observables) -> Result<Vec<(&'static str, f64)>> {
+    let names = ["speed", "aspect_ratio_moments", "perimeter", "concentration_max", "active_fraction", "beta"];
+    let mut errors = Vec::new();
+    for name in names {
+        let value = |seen: &Observables| seen.get(name).with_context(|| format!("no {name}"));
+        let (found, exact) = (value(found)?, value(exact)?);
+        let unit = if name == "beta" { exact.abs().max(1.0) } else { exact.abs() };
+        errors.push((name, (found - exact) / unit));
+    }
+    // In the axes of the region.
+    let [a, b] = [found, exact].map(|seen| {
+        let [xx, xy] = seen.moments.stresslet()[0];
+        Vec2::from_angle(2.0 * seen.heading()).rotate(Vec2::new(xx, xy))
+    });
+    errors.push(("stresslet", (a - b).length() / b.length().max(SMALLEST_STRESSLET)));
+    Ok(errors)
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let columns = ["region", "activity", "viscosities", "method", "speed", "error", "warned of"];
-    let mut table = Table::new("Warnings of scenes at default settings, and the errors of their speeds", &columns);
+    let columns = ["region", "activity", "viscosities", "method", "speed", "error", "largest", "of", "warned of"];
+    let title = "Warnings of scenes at default settings, the error of the speed, and the largest of all observables";
+    let mut table = Table::new(title, &columns);
     for scene in SCENES.iter().take(flags.scenes) {
         let (channel, activity, [inside, outside], spacing) = scene;
         let setup = setup(scene);
-        let (exact, _) = speed(&Setup { method: RESOLVED, ..setup.clone() }, flags.time)?;
-        let (found, causes) = match speed(&setup, flags.time) {
-            Ok((speed, causes)) => (speed, causes.join(", ")),
-            Err(error) => (f64::NAN, error.to_string()),
+        let (exact, _) = end(&Setup { method: RESOLVED, ..setup.clone() }, flags.time)?;
+        let per_cent = |error: f64| format!("{:+.2} %", 100.0 * error);
+        let results = match end(&setup, flags.time) {
+            Ok((found, causes)) => {
+                let errors = errors(&found, &exact)?;
+                let mut largest = errors[0];
+                for error in &errors {
+                    if error.1.abs() > largest.1.abs() {
+                        largest = *error;
+                    }
+                }
+                let (speed, error) = (format!("{:.5}", found.speed()), per_cent(errors[0].1));
+                [speed, error, per_cent(largest.1), largest.0.to_owned(), causes.join(", ")]
+            }
+            Err(error) => [String::new(), String::new(), String::new(), String::new(), error.to_string()],
         };
         let region = channel.map_or("box".to_owned(), |[length, width]| format!("channel {length} x {width}"));
         let method = spacing.map_or("integrals".to_owned(), |spacing| format!("grid {spacing}"));
-        let error = format!("{:+.2} %", 100.0 * (found / exact - 1.0));
         let scene = [region, activity.to_string(), format!("{inside}/{outside}"), method];
-        table.push(scene.into_iter().chain([format!("{found:.5}"), error, causes]));
+        table.push(scene.into_iter().chain(results));
     }
     flags.keep.tables("warnings", "warnings", &["studies/src/warnings.rs"], &[table])
 }

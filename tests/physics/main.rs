@@ -22,6 +22,7 @@ mod particles_inside;
 mod recommended;
 mod relaxation;
 mod solids;
+mod stresslets;
 mod swimmers;
 #[cfg(feature = "rayon")]
 mod threads;

@@ -18,6 +18,11 @@ fn causes(setup: &Setup, time: f64) -> Vec<String> {
     causes
 }
 
+/// The causes but that of stresslets, which a tenth of the radius resolves in wide channels alone.
+fn but_stresslets(setup: &Setup, time: f64) -> Vec<String> {
+    causes(setup, time).into_iter().filter(|cause| cause != "stresslet not resolved").collect()
+}
+
 fn channel(width: f64, method: Method, activity: f64) -> Setup {
     let region = Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient };
     Setup { region, method, droplets: vec![DropletSetup::active(activity)], ..Setup::default() }
@@ -36,24 +41,24 @@ fn what_is_resolved_gives_no_warning() {
 
 #[test]
 fn thin_films_edges_and_small_droplets_are_told() {
-    assert_eq!(causes(&channel(2.1, grid(0.1), -1.0), 0.2), ["thin film"]);
+    assert_eq!(but_stresslets(&channel(2.1, grid(0.1), -1.0), 0.2), ["thin film"]);
     // A closed channel of width 2.6 is 4 % off at gaps of three spacings, an open one 0.3 %.
-    assert!(causes(&channel(2.6, grid(0.1), -1.5), 0.2).is_empty());
+    assert!(but_stresslets(&channel(2.6, grid(0.1), -1.5), 0.2).is_empty());
     let Region::Channel { length, width, .. } = channel(2.6, grid(0.1), -1.5).region else { return };
     let closed = Region::Channel { length, width, drive: Drive::ZeroFlux };
     let closed = |spacing| Setup { region: closed, ..channel(width, grid(spacing), -1.5) };
-    assert_eq!(causes(&closed(0.1), 0.2), ["thin film"]);
-    assert!(causes(&closed(0.05), 0.2).is_empty());
+    assert_eq!(but_stresslets(&closed(0.1), 0.2), ["thin film"]);
+    assert!(but_stresslets(&closed(0.05), 0.2).is_empty());
     let edge = "edge of the concentration not resolved";
-    assert_eq!(causes(&channel(5.0, grid(0.1), -8.0), 1.0), [edge]);
+    assert_eq!(but_stresslets(&channel(5.0, grid(0.1), -8.0), 1.0), [edge]);
     let still = Particles { diffusion: 0.0, ..Particles::default() };
     let still = DropletSetup { particles: Some(still), ..DropletSetup::default() };
-    assert_eq!(causes(&Setup { droplets: vec![still], ..Setup::default() }, 0.2), [edge]);
+    assert_eq!(but_stresslets(&Setup { droplets: vec![still], ..Setup::default() }, 0.2), [edge]);
     let small = DropletSetup { shape: DropletShape::Round { radius: 0.4 }, ..DropletSetup::passive(10.0) };
     let small = Setup { droplets: vec![small], method: grid(0.1), ..Setup::default() };
-    assert_eq!(causes(&small, 0.2), ["droplet not resolved"]);
+    assert_eq!(but_stresslets(&small, 0.2), ["droplet not resolved"]);
     let unbalanced = Setup { droplets: vec![DropletSetup::contractile(-10.0, 9.0)], ..Setup::default() };
-    assert!(causes(&unbalanced, 0.1).contains(&"tension without a plateau".to_owned()));
+    assert!(but_stresslets(&unbalanced, 0.1).contains(&"tension without a plateau".to_owned()));
 }
 
 /// A film between droplets is seen before the first step and after one was moved by hand.

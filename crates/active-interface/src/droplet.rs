@@ -1,6 +1,7 @@
 //! The active droplet.
 
 mod body;
+mod stresslet_error;
 
 use std::sync::Arc;
 

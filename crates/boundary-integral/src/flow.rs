@@ -99,6 +99,7 @@ impl Hydrodynamics for BoundaryIntegral {
             domain: Domain::from(*self.region()),
             viscosity: self.interfaces.flow.viscosity(),
             spacing: None,
+            second_order: true,
             shape_modes: Some(self.settings().nodes),
             interface_stiffness: self.interfaces.stiffness(),
         }

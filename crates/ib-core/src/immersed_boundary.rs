@@ -200,6 +200,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             domain: domain(self.grid()),
             viscosity: self.solver.viscosity(),
             spacing: Some(self.grid().spacing()),
+            second_order: self.correction.is_some(),
             shape_modes: None,
             interface_stiffness: self.stiffness,
         }

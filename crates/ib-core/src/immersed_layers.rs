@@ -265,6 +265,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
             domain: domain(grid),
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),
+            second_order: true,
             shape_modes: Some(self.interfaces.flow.settings().nodes),
             interface_stiffness: self.interfaces.stiffness(),
         }

@@ -48,6 +48,8 @@ pub struct FluidView {
     pub viscosity: f64,
     /// Grid spacing (length); `None` where there is no grid.
     pub spacing: Option<f64>,
+    /// `true` where velocities of interfaces err by the second order of the spacing or less, `false` for the first.
+    pub second_order: bool,
     /// Fourier modes along an interface that the flow resolves; `None` where the markers themselves are the resolution.
     pub shape_modes: Option<usize>,
     /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker

@@ -8,7 +8,7 @@ use motile_scene::{
     mirror_points,
 };
 
-use super::{Account, Inside, MINIMUM_MARKERS};
+use super::{Account, Inside, MINIMUM_MARKERS, stresslet_error::StressletError};
 use crate::{
     ActiveDroplet, InterfaceError, Motion,
     concentration::Repair,
@@ -201,11 +201,19 @@ impl Body for ActiveDroplet {
             let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
             ("droplet not resolved", least / radius, message)
         });
+        let stresslet = self.stresslet_error(view).filter(|found| found.excess > 1.0).map(|found| {
+            let StressletError { magnitude, error, excess } = found;
+            let message = format!(
+                "its stresslet, {magnitude:.2e}, may err by {error:.1e} (force times length): use a finer grid, or \
+                 boundary integrals"
+            );
+            ("stresslet not resolved", excess, message)
+        });
         let warning = |(cause, excess, message): (&'static str, f64, String)| {
             let (body, cause) = (self.name.clone(), cause.into());
             Warning { body, cause, excess, message }
         };
-        self.interface.warnings().chain(coarse).map(warning).collect()
+        self.interface.warnings().chain(coarse).chain(stresslet).map(warning).collect()
     }
 
     fn save(&self) -> SavedState {

@@ -19,6 +19,7 @@ impl Hydrodynamics for Converging {
             domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: None },
             viscosity: 1.0,
             spacing: (!self.smooth).then_some(0.1),
+            second_order: true,
             interface_stiffness: 1.0,
             shape_modes: self.smooth.then_some(41),
         }

@@ -14,7 +14,14 @@ use crate::{Mesher, NeoHookean};
 
 fn fluid_view() -> FluidView {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
-    FluidView { domain, viscosity: 10.0, spacing: Some(0.2), shape_modes: None, interface_stiffness: 1.0 }
+    FluidView {
+        domain,
+        viscosity: 10.0,
+        spacing: Some(0.2),
+        second_order: true,
+        shape_modes: None,
+        interface_stiffness: 1.0,
+    }
 }
 
 fn block() -> TriangleMesh {

@@ -8,6 +8,7 @@ fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
         viscosity: 3.0,
         spacing: Some(0.1),
         shape_modes: None,
+        second_order: true,
         interface_stiffness: 0.5,
     };
     let mut found = Vec::new();

@@ -31,7 +31,14 @@ impl Hydrodynamics for Profile {
     fn fluid_view(&self) -> FluidView {
         let walls = self.walls.then_some([-1.0, 2.0]);
         let domain = Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls };
-        FluidView { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
+        FluidView {
+            domain,
+            viscosity: 1.0,
+            spacing: None,
+            second_order: true,
+            interface_stiffness: 1.0,
+            shape_modes: None,
+        }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -22,7 +22,14 @@ impl Hydrodynamics for Wind {
     fn fluid_view(&self) -> FluidView {
         let domain =
             Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
-        FluidView { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
+        FluidView {
+            domain,
+            viscosity: 1.0,
+            spacing: None,
+            second_order: true,
+            interface_stiffness: 1.0,
+            shape_modes: None,
+        }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
