@@ -169,14 +169,13 @@ impl<'a> Diagram<'a> {
 
     fn write(&mut self, point: &BranchPoint, special: &[SpecialPoint]) -> Result<()> {
         let Flags { parameter, from, to, ref observable, .. } = *self.flags;
-        for SpecialPoint { kind, critical } in special {
-            let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
+        for SpecialPoint { kind, value: at, critical, .. } in special {
             let frequency = critical.mode.value.im;
             let note = format!("{} at {} = {at:.7}, frequency {frequency:.5}", kind.name(), parameter.name());
             self.progress.note(&note);
             let antisymmetric = critical.mode.symmetry == Symmetry::Antisymmetric;
             let speed = critical.state.measured()?.speed;
-            self.special.push(&[f64::from(*kind as u8), at, speed, frequency, f64::from(u8::from(antisymmetric))])?;
+            self.special.push(&[f64::from(*kind as u8), *at, speed, frequency, f64::from(u8::from(antisymmetric))])?;
             self.special.flush()?;
         }
         let seen = point.state.measured()?;

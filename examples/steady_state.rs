@@ -54,7 +54,7 @@ fn solve(flags: &Flags) -> Result<()> {
     let core_offset = state.profile().nuclei.first().map(|place| (*place - centroid).to_array().to_vec());
     summary.put("core_offset", core_offset, "of the nucleus from the centroid (R0)");
     summary.put("stresslet", stresslet, "along the motion");
-    summary.put("aspect_ratio", aspect_ratio, "from area moments, along x over across");
+    summary.put("aspect_ratio", aspect_ratio, "from area moments, along the motion over across");
     summary.put("c_max", concentration[0], "largest concentration (c0)");
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
     summary.put("stable", spectrum.unstable() == 0, "no disturbance grows");

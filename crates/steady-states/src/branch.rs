@@ -30,11 +30,22 @@ impl SpecialKind {
 
 /// Special point of a branch: a fold, a branch point or a Hopf point.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SpecialPoint {
     /// Kind of the point.
     pub kind: SpecialKind,
+    /// Value of the branch's parameter.
+    pub value: f64,
     /// State and its critical mode.
     pub critical: Critical,
+}
+
+impl SpecialPoint {
+    /// Special point of a branch along a parameter; its value is not a number where the description lacks that.
+    #[must_use]
+    pub fn new(kind: SpecialKind, critical: Critical, parameter: Parameter) -> Self {
+        Self { kind, value: parameter.get(critical.state.setup()).unwrap_or(f64::NAN), critical }
+    }
 }
 
 /// Point of a branch.

@@ -318,7 +318,7 @@ impl Follower {
         let next = BranchPoint { value: self.value(), spectrum: state.spectrum()?, state };
         if let Some(last) = branch.points.last().filter(|_| with_crossings) {
             for point in crossings(parameter, last, &next) {
-                if !branch.special.iter().chain(&special).any(|old| is_same(old, &point, parameter)) {
+                if !branch.special.iter().chain(&special).any(|old| is_same(old, &point)) {
                     special.push(point);
                 }
             }
@@ -380,6 +380,6 @@ impl Follower {
         let size = |mode: &Eigenmode| mode.value.norm();
         let mode = state.spectrum()?.modes.into_iter().min_by(|a, b| size(a).total_cmp(&size(b)));
         let mode = mode.ok_or(SteadyError::Singular { what: "a fold", remedy: "give more nodes" })?;
-        Ok(SpecialPoint { kind: SpecialKind::Fold, critical: Critical { state, mode } })
+        Ok(SpecialPoint::new(SpecialKind::Fold, Critical { state, mode }, self.settings.parameter))
     }
 }

@@ -15,6 +15,9 @@ use crate::{Profile, SteadyError};
 /// Relative accuracy to which the flow is solved for, near round-off, so that differences of rates keep their digits.
 pub(crate) const TOLERANCE: f64 = 1e-13;
 
+/// Velocity over D/R that counts as none: far above round-off, which the tension over D times the viscosity magnifies.
+const NO_FLOW: f64 = 1e-8;
+
 /// Base curve, by its points and outward unit normals: shapes are offsets from it along these.
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
@@ -162,6 +165,12 @@ impl Model {
             zeros: vec![Vec2::ZERO; nodes],
             flux: vec![0.0; nodes],
         })
+    }
+
+    /// True where the flow of the loaded state is round-off.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let speed = self.diffusion / self.radius;
+        self.velocities.iter().all(|velocity| velocity.length() < NO_FLOW * speed)
     }
 
     /// Number of nodes.

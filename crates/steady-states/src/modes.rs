@@ -85,6 +85,11 @@ impl Modes {
         }
     }
 
+    /// True for a coordinate of a disc.
+    pub(crate) fn is_of_disc(&self, index: usize) -> bool {
+        self.nucleus(index).is_some()
+    }
+
     /// Wave number of a coefficient; 1 for the centre of a disc.
     pub(crate) fn wave(&self, index: usize) -> usize {
         if self.nucleus(index).is_some() { 1 } else { self.kind(index).2 }

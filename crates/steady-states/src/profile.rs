@@ -353,11 +353,20 @@ impl Profile {
     }
 }
 
-/// Centroid (length) of the area inside a curve, and its aspect ratio: square root of its second moments along x over
-/// those along y, about the centroid.
+/// Centroid (length) of the area inside a curve, and its second moments xx, xy and yy about that (length to the fourth
+/// power).
 pub(crate) struct AreaMoments {
     pub(crate) centroid: Vec2,
-    pub(crate) aspect_ratio: f64,
+    second: [f64; 3],
+}
+
+impl AreaMoments {
+    /// Aspect ratio: square root of the second moment along a unit vector over that across it.
+    pub(crate) fn aspect_ratio(&self, along: Vec2) -> f64 {
+        let [xx, xy, yy] = self.second;
+        let moment = |u: Vec2| u.x * u.x * xx + 2.0 * u.x * u.y * xy + u.y * u.y * yy;
+        (moment(along) / moment(along.perp())).sqrt()
+    }
 }
 
 impl Profile {
@@ -372,9 +381,10 @@ impl Profile {
         let area = integral(&|x, t| 0.5 * x.perp_dot(t));
         let centroid =
             Vec2::new(integral(&|x, t| 0.5 * x.x * x.x * t.y), integral(&|x, t| -0.5 * x.y * x.y * t.x)) / area;
-        let along = integral(&|x, t| (x.x - centroid.x).powi(3) * t.y / 3.0);
-        let across = integral(&|x, t| -(x.y - centroid.y).powi(3) * t.x / 3.0);
-        Ok(AreaMoments { centroid, aspect_ratio: (along / across).sqrt() })
+        let xx = integral(&|x, t| (x.x - centroid.x).powi(3) * t.y / 3.0);
+        let xy = integral(&|x, t| 0.5 * (x.x - centroid.x).powi(2) * (x.y - centroid.y) * t.y);
+        let yy = integral(&|x, t| -(x.y - centroid.y).powi(3) * t.x / 3.0);
+        Ok(AreaMoments { centroid, second: [xx, xy, yy] })
     }
 
     /// Series at twice the nodes, for integrals of products of three.

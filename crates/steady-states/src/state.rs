@@ -19,6 +19,8 @@ use crate::{Profile, SteadyError};
 
 /// Markers for each node in observables, which are of second order in the spacing of markers.
 const REFINEMENT: usize = 16;
+/// Distance of the curve outside of the interface, over the radius, along which the flow is sampled.
+const BESIDE: f64 = 1e-5;
 /// Tail of the Fourier series from which on a state is not resolved: measured values would err by a part in a thousand.
 const LONGEST_TAIL: f64 = 0.01;
 
@@ -46,11 +48,11 @@ pub struct SteadyState {
 pub struct Measured {
     /// Speed (length per time).
     pub speed: f64,
-    /// Stresslet S_uu along the direction u of motion (force times length), as the far field has it: the traceless
-    /// part of the force dipole, with the double layer of the viscosity contrast. Zero at rest; not a number for a
-    /// droplet with a disc inside, whose share is not known.
+    /// Stresslet S_uu along the direction u of motion (force times length), that of the flow far away: the traceless
+    /// part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them. Zero at rest.
     pub stresslet: f64,
-    /// Aspect ratio: square root of the second moment of the area along x over that along y.
+    /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
+    /// [`Observables::aspect_ratio_moments`]; along x at rest.
     pub aspect_ratio: f64,
     /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension).
     pub concentration: [f64; 2],
@@ -263,33 +265,66 @@ impl SteadyState {
         system.load(&self.point)?;
         let moments = self.profile.moments()?;
         let step = TAU / self.profile.nodes() as f64;
-        let model = &system.model;
-        let contrast = model.viscosities[1] - model.viscosities[0];
         let tangents = self.profile.tangents()?;
-        let mut dipole = [[0.0; 2]; 2];
-        for (k, x) in self.profile.positions.iter().enumerate() {
-            let (r, f, v, n) =
-                (*x - moments.centroid, model.forces[k], model.velocities[k], -tangents[k].perp() * step);
-            let (r, f, v, n) = (r.to_array(), f.to_array(), v.to_array(), n.to_array());
-            for i in 0..2 {
-                for j in 0..2 {
-                    dipole[i][j] += f[i] * r[j] + contrast * (v[j] * n[i] + v[i] * n[j]);
-                }
-            }
-        }
-        // The component of the traceless, symmetric part along the motion.
         let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
+        let [xx, xy] = if self.profile.nuclei.is_empty() {
+            self.force_dipole(&system, moments.centroid, &tangents)
+        } else {
+            self.traction_dipole(&mut system, moments.centroid, &tangents)?
+        };
+        // The component of the traceless, symmetric part along the motion.
         let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
-        let (xx, xy) = (0.5 * (dipole[0][0] - dipole[1][1]), 0.5 * (dipole[0][1] + dipole[1][0]));
+        let model = &system.model;
         Ok(Measured {
             speed: self.velocity().length(),
-            stresslet: if self.profile.nuclei.is_empty() { cos * xx + sin * xy } else { f64::NAN },
-            aspect_ratio: moments.aspect_ratio,
+            stresslet: cos * xx + sin * xy,
+            aspect_ratio: moments.aspect_ratio(heading),
             concentration: self.profile.extrema()?.map(|c| c / model.concentration),
             perimeter: tangents.iter().map(|t| t.length() * step).sum(),
             centroid: moments.centroid,
             least_curvature: self.profile.least_curvature()?,
         })
+    }
+
+    /// Components xx and xy of the stresslet about a centre, from the interface's forces and the double layer of the
+    /// viscosity contrast.
+    fn force_dipole(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
+        let model = &system.model;
+        let contrast = model.viscosities[1] - model.viscosities[0];
+        let step = TAU / tangents.len() as f64;
+        let (mut xx, mut xy) = (0.0, 0.0);
+        for (k, x) in self.profile.positions.iter().enumerate() {
+            let (r, f, v, n) = (*x - centre, model.forces[k], model.velocities[k], -tangents[k].perp() * step);
+            xx += 0.5 * (f.x * r.x - f.y * r.y) + contrast * (v.x * n.x - v.y * n.y);
+            xy += 0.5 * (f.x * r.y + f.y * r.x) + contrast * (v.x * n.y + v.y * n.x);
+        }
+        [xx, xy]
+    }
+
+    /// The same for whatever is inside: the integral of `eta (v n + n v) - (sigma n) r` over a curve right outside of
+    /// the interface, sigma the stress and eta the viscosity of the fluid there (Batchelor, J. Fluid Mech. 41, 545
+    /// (1970)). It does not depend on the curve.
+    fn traction_dipole(&self, system: &mut System, centre: Vec2, tangents: &[Vec2]) -> Result<[f64; 2], SteadyError> {
+        let (viscosity, radius) = (system.model.viscosities[1], system.model.radius);
+        let step = TAU / tangents.len() as f64;
+        let beside = |(x, t): (&Vec2, &Vec2)| *x - BESIDE * radius * t.perp().normalize();
+        let outside: Vec<Vec2> = self.profile.positions.iter().zip(tangents).map(beside).collect();
+        let samples = system.model.sample(&outside)?;
+        let density = vec![0.0; outside.len()];
+        let curve = Profile { positions: outside, density, nuclei: Vec::new() };
+        let (mut xx, mut xy) = (0.0, 0.0);
+        for ((x, tangent), sample) in curve.positions.iter().zip(curve.tangents()?).zip(samples) {
+            let FlowSample { velocity: v, pressure, gradient: [[ux, uy], [vx, vy]] } = sample;
+            let (r, n) = (*x - centre, -tangent.perp() * step);
+            let shear = viscosity * (uy + vx);
+            let traction = Vec2::new(
+                (2.0 * viscosity * ux - pressure) * n.x + shear * n.y,
+                shear * n.x + (2.0 * viscosity * vy - pressure) * n.y,
+            );
+            xx += viscosity * (v.x * n.x - v.y * n.y) - 0.5 * (traction.x * r.x - traction.y * r.y);
+            xy += viscosity * (v.x * n.y + v.y * n.x) - 0.5 * (traction.x * r.y + traction.y * r.x);
+        }
+        Ok([xx, xy])
     }
 
     /// Flow at points (length), inside the droplet or outside of it, at any distance from the interface: velocity, its
@@ -325,7 +360,7 @@ impl SteadyState {
     /// spacing.
     ///
     /// # Errors
-    /// A flow that cannot be solved for; a droplet with a disc inside, whose force moments are not known.
+    /// A flow that cannot be solved for; a droplet with a disc inside, whose second force moments are not known.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
         if !self.profile.nuclei.is_empty() {
             return Err(SteadyError::Unsupported {

@@ -263,6 +263,13 @@ impl System {
         let size = n + frames + 2 + usize::from(along.is_some());
         let mut matrix = DMatrix::zeros(size, size);
         matrix.view_mut((0, 0), (n, n)).copy_from(jacobian);
+        // Where nothing flows a disc may be anywhere, which the equations leave open: it stays where it is.
+        if self.model.is_at_rest() {
+            for (row, _) in range.clone().enumerate().filter(|(_, index)| self.modes.is_of_disc(*index)) {
+                matrix.row_mut(row).fill(0.0);
+                matrix[(row, row)] = self.model.diffusion_rate();
+            }
+        }
         for (k, generator) in generators.iter().enumerate() {
             matrix.view_mut((0, n + k), (n, 1)).copy_from(&-generator);
             matrix.view_mut((n + k, 0), (1, n)).copy_from(&generator.transpose());

@@ -170,3 +170,26 @@ fn a_droplet_at_rest_that_may_be_shifted_across_a_channel_has_no_branch_points_b
     let branch = viscosity.follow(&rest, |_, _| true).unwrap();
     assert!(branch.special.is_empty(), "{:?}", branch.special.len());
 }
+
+/// A droplet at rest may be shifted across a channel: that neutral mode takes no crossing of another for its own.
+#[test]
+fn every_special_point_of_a_droplet_at_rest_in_a_channel_is_a_crossing() {
+    for (length, width) in [(12.0, 5.0), (6.0, 4.0)] {
+        let region = Region::Channel { length, width, drive: Drive::ZeroGradient };
+        let rest = SteadyState::uniform(&setup(region, -0.3, 32)).unwrap();
+        let branch = Continuation { largest_step: 0.1, ..Continuation::new(Parameter::Activity, -0.3, -0.9) }
+            .follow(&rest, |_, _| true)
+            .unwrap();
+        let of = |symmetry| branch.special.iter().filter(|point| point.critical.mode.symmetry == symmetry).count();
+        assert!(of(Symmetry::Symmetric) >= 1 && of(Symmetry::Antisymmetric) >= 1, "{}", branch.special.len());
+        for point in &branch.special {
+            let growing = |activity: f64| {
+                let spectrum = SteadyState::uniform(&setup(region, activity, 32)).unwrap().spectrum().unwrap();
+                spectrum.of(point.critical.mode.symmetry).filter(|z| z.re > 1e-6).count()
+            };
+            let sides = [1.0 - 1e-3, 1.0 + 1e-3].map(|factor| growing(factor * point.value));
+            println!("{length} {width}: {} {} {sides:?}", point.value, point.critical.mode.symmetry.name());
+            assert!(sides[0] != sides[1], "{length} {width}: {} {sides:?}", point.value);
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use motile::prelude::*;
 use motile::setup::{DropletSetup, DropletShape, Exclusion, Particles, RigidBodySetup};
 use num_complex::Complex64;
-use steady_states::SteadyState;
+use steady_states::{Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
 
 const OUTSIDE: f64 = 10.0;
 
@@ -155,4 +155,46 @@ fn discs_that_are_not_inside_are_refused() {
     let empty = SteadyState::uniform(&scene).unwrap().profile().clone().with_nuclei(Vec::new());
     let lack = SteadyState::near(&scene, &empty, Vec2::ZERO, true).unwrap_err().to_string();
     assert!(lack.contains("nuclei"), "{lack}");
+}
+
+/// The stresslet of all that is inside is that of the flow far away, u = x (x . S x)/(2 pi eta r^4); the forces of the
+/// interface alone do not tell it.
+#[test]
+fn the_stresslet_of_a_droplet_with_a_nucleus_is_that_of_the_flow_far_away() {
+    for ratio in [1.0, 3.0] {
+        let scene = Setup {
+            viscosity: 100.0,
+            droplets: vec![DropletSetup { viscosity: Some(100.0 * ratio), ..DropletSetup::active(-2.0) }],
+            rigid_bodies: vec![RigidBodySetup { centre: [0.0, 0.4], ..RigidBodySetup::disc(0.5) }],
+            ..setup(64, ratio, -2.0, 0.5)
+        };
+        let state = SteadyState::find(&scene).expect("a swimmer");
+        let seen = state.measured().expect("measured");
+        let forward = state.velocity().normalize();
+        let flow = |r: f64| {
+            let place = |side: f64| seen.centroid + side * r * forward;
+            let samples = state.sample(&[place(1.0), place(-1.0)]).expect("a flow");
+            // The source dipole's velocity is the same on both sides, the stresslet's is opposite.
+            0.5 * (samples[0].velocity - samples[1].velocity).dot(forward) * std::f64::consts::TAU * 100.0 * r
+        };
+        let (near, far) = (flow(50.0), flow(400.0));
+        println!("{ratio}: {} {near} {far}", seen.stresslet);
+        assert!((far / seen.stresslet - 1.0).abs() < 1e-3, "{ratio}: {} {near} {far}", seen.stresslet);
+    }
+}
+
+/// Both thresholds of a droplet with a nucleus, each once, although the nucleus may rest anywhere.
+#[test]
+fn thresholds_around_a_nucleus_are_found_once() {
+    // The rate of mode 1 is a straight line in the activity.
+    let rate = |activity: f64| rates(1, &setup(32, 1.0, activity, 0.5))[0].re;
+    let exact = -0.1 - 0.1 * rate(-0.1) / (rate(-0.1) - rate(-0.2));
+    let rest = SteadyState::uniform(&setup(32, 1.0, 0.8 * exact, 0.5)).expect("at rest");
+    let range = Continuation::new(Parameter::Activity, 0.8 * exact, 1.5 * exact);
+    let branch = Continuation { largest_step: 0.2, ..range }.follow(&rest, |_, _| true).expect("a branch");
+    let found: Vec<_> = branch.special.iter().map(|point| (point.critical.mode.symmetry, point.value)).collect();
+    println!("{exact} {found:?}");
+    assert_eq!(found.iter().map(|point| point.0).collect::<Vec<_>>(), [Symmetry::Symmetric, Symmetry::Antisymmetric]);
+    assert!(found.iter().all(|point| (point.1 / exact - 1.0).abs() < 1e-6), "{exact} {found:?}");
+    assert!(branch.special.iter().all(|point| point.kind == SpecialKind::BranchPoint));
 }

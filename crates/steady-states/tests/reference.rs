@@ -202,3 +202,20 @@ fn stresses_hold_the_shape() {
         }
     }
 }
+
+/// The aspect ratio is along the motion, as in runs: a swimmer up a square box is as long as one along it.
+#[test]
+fn the_aspect_ratio_is_along_the_motion() {
+    let of = |angle: f64| {
+        let droplets = vec![DropletSetup { angle, ..DropletSetup::active(-2.0) }];
+        let region = Region::Box { lengths: [3.0; 2] };
+        let setup = Setup { method: nodes(48), region, droplets, ..Setup::default() };
+        let state = SteadyState::find(&setup).expect("a swimmer");
+        (state.measured().expect("measured").aspect_ratio, state.observables().expect("seen").aspect_ratio_moments)
+    };
+    let [along, up] = [0.0, std::f64::consts::FRAC_PI_2].map(of);
+    assert!((along.0 - 1.0).abs() > 1e-3, "{along:?}");
+    for (measured, seen) in [along, up] {
+        assert!((measured - along.0).abs() < 1e-6 && (seen - along.0).abs() < 1e-4, "{along:?} {measured} {seen}");
+    }
+}

@@ -32,7 +32,7 @@ fn onset(critical: Critical, diffusion: f64) -> Result<f64> {
     let threshold = activity(&critical);
     let range = Continuation::new(Parameter::Activity, 0.0, 3.0 * threshold);
     let swimmers = Continuation { largest_step: 0.02, most_points: 3, ..range };
-    let point = SpecialPoint { kind: SpecialKind::BranchPoint, critical };
+    let point = SpecialPoint::new(SpecialKind::BranchPoint, critical, Parameter::Activity);
     let branch = swimmers.switch(&point, true, |_, _| true)?;
     let at = |k: usize| {
         let point = branch.points.get(k).context("no branch")?;
@@ -114,7 +114,7 @@ pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
             let branch = settings.follow(&start, |_, _| true)?;
             let (mut hopf, mut other) = (Vec::new(), Vec::new());
             for point in &branch.special {
-                let (at, mode) = (activity(&point.critical), &point.critical.mode);
+                let (at, mode) = (point.value, &point.critical.mode);
                 match point.kind {
                     SpecialKind::Hopf => hopf.push(format!("{at:.4} ({:.4})", mode.value.im)),
                     kind => other.push(format!("{at:.4} ({}, {})", kind.name(), mode.symmetry.name())),

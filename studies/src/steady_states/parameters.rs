@@ -149,9 +149,8 @@ pub(super) fn contrast(count: usize) -> Result<Vec<Table>> {
             ratios.push(std::iter::once(format!("{:.4}", point.value)).chain(cells));
         }
         for special in &branch.special {
-            let at = parameter.get(special.critical.state.setup()).unwrap_or(f64::NAN);
             let cells = described(&special.critical.state, Some(&special.critical.mode))?;
-            ratios.push(std::iter::once(format!("{at:.4} ({})", special.kind.name())).chain(cells));
+            ratios.push(std::iter::once(format!("{:.4} ({})", special.value, special.kind.name())).chain(cells));
         }
     }
     let header = [&["inside", "outside", "activity", "A"], &HEADER[..]].concat();
