@@ -1,6 +1,6 @@
 //! Rigid walls and obstacles at rest, of any shape.
 
-use motile_base::{PeriodicSeries, Vec2, all_points_finite, not_negative, positive, within};
+use motile_base::{PeriodicSeries, Vec2, all_points_finite, not_negative, polygon, positive, within};
 use motile_scene::gap::Boundary;
 use num_complex::Complex64;
 use stokes_layers::{LayerCurve, LayerError};
@@ -104,8 +104,7 @@ impl RigidWall {
     /// # Errors
     /// As [`RigidWall::line_below`].
     pub fn obstacle(mut points: Vec<Vec2>, nodes: usize) -> Result<Self, LayerError> {
-        let next = points.iter().cycle().skip(1);
-        if points.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() < 0.0 {
+        if polygon::area(&points) < 0.0 {
             reverse(&mut points);
         }
         Self::checked(points, Vec2::ZERO, nodes)

@@ -1,6 +1,6 @@
 //! Rigid bodies that move freely in the flow.
 
-use motile_base::{Vec2, all_points_finite, at_least, positive};
+use motile_base::{Vec2, all_points_finite, at_least, polygon::area_and_arm, positive};
 use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe};
 
 use crate::SolidError;
@@ -113,19 +113,13 @@ pub(crate) fn closed_outline(points: &[Vec2]) -> Result<(Vec<Vec2>, f64, Vec2), 
     at_least("the points of an outline", points.len(), LEAST_MARKERS)?;
     all_points_finite("the points of an outline", points)?;
     let mut points = points.to_vec();
-    let first = points[0];
-    let pairs = points.iter().zip(points.iter().cycle().skip(1));
-    let (area, moment) = pairs.fold((0.0, Vec2::ZERO), |(area, moment), (a, b)| {
-        let part = 0.5 * (*a - first).perp_dot(*b - first);
-        (area + part, moment + part / 3.0 * (*a + *b - 2.0 * first))
-    });
+    let (area, arm) = area_and_arm(&points);
+    let centre = points[0] + arm;
     positive("the area of an outline", area.abs())?;
     if area < 0.0 {
         points.reverse();
     }
-    let centre = first + moment / area;
-    let area = area.abs();
-    Ok((points, area, centre))
+    Ok((points, area.abs(), centre))
 }
 
 impl Body for RigidBody {

@@ -44,16 +44,19 @@
 //! assert_eq!(error.to_string(), "the radius is -1: give a positive finite number");
 //! ```
 
+pub mod boxes;
 mod complex;
 mod drive;
 mod explanation;
 mod flow;
 mod input;
+pub mod polygon;
 mod real;
 mod region;
 mod series;
 pub mod spectrum;
 mod sums;
+mod transform;
 mod vec2;
 
 pub use complex::ComplexTransform;

@@ -1,56 +1,20 @@
 //! Transforms of real numbers.
 
-use std::fmt;
-use std::sync::Arc;
-
 use num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use crate::{InputError, check_length, same_length};
+use crate::{InputError, same_length, transform::transform};
 
-/// A plan for the discrete Fourier transform of N real numbers to N/2 + 1 complex ones and its inverse,
-///
-/// `F[m] = sum over k of f[k] exp(-2 pi I m k / N)`, `F[N - m] = conj(F[m])`,
-///
-/// not normalised: one after the other multiplies by N.
-#[derive(Clone)]
-pub struct RealTransform {
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
-    scratch: Vec<Complex64>,
-}
-
-impl fmt::Debug for RealTransform {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RealTransform").field("len", &self.len()).finish_non_exhaustive()
-    }
+transform! {
+    /// A plan for the discrete Fourier transform of N real numbers to N/2 + 1 complex ones and its inverse,
+    ///
+    /// `F[m] = sum over k of f[k] exp(-2 pi I m k / N)`, `F[N - m] = conj(F[m])`,
+    ///
+    /// not normalised: one after the other multiplies by N.
+    RealTransform, RealFftPlanner, [RealToComplex, ComplexToReal], get_scratch_len
 }
 
 impl RealTransform {
-    /// A plan for `len` numbers.
-    ///
-    /// # Errors
-    /// More than 67,108,864.
-    pub fn new(len: usize) -> Result<Self, InputError> {
-        check_length(len)?;
-        let mut planner = RealFftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
-        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
-        Ok(Self { forward, inverse, scratch: vec![Complex64::ZERO; scratch] })
-    }
-
-    /// N, the numbers it transforms.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.forward.len()
-    }
-
-    /// Whether it is a plan for no numbers.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// N/2 + 1, the complex numbers of a spectrum.
     #[must_use]
     pub fn spectrum_len(&self) -> usize {

@@ -1,13 +1,9 @@
 //! Exact geometry of the polygon through the markers.
 
-use motile_base::{Vec2, all_points_finite, at_least};
+pub(crate) use motile_base::polygon::{area as raw_area, edges};
+use motile_base::{Vec2, all_points_finite, at_least, polygon::area_and_arm};
 
 use crate::InterfaceError;
-
-/// Edges of a closed polygon, as pairs of end points.
-pub(crate) fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-    points.iter().zip(points.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
-}
 
 /// Area, centroid and second moments of area of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,11 +21,6 @@ pub struct AreaMoments {
     pub yy: f64,
 }
 
-pub(crate) fn raw_area(points: &[Vec2]) -> f64 {
-    let Some(&origin) = points.first() else { return 0.0 };
-    0.5 * edges(points).map(|(a, b)| (a - origin).perp_dot(b - origin)).sum::<f64>()
-}
-
 pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
     edges(points).map(|(a, b)| (b - a).length()).sum()
 }
@@ -37,18 +28,15 @@ pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
 /// Area moments as exact sums over the triangles that the first point makes with the edges.
 pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
     let origin = points.first().copied().unwrap_or_default();
-    let (mut area, mut first) = (0.0, Vec2::ZERO);
+    let (area, centre) = area_and_arm(points);
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for (a, b) in edges(points) {
         let (a, b) = (a - origin, b - origin);
         let twice = a.perp_dot(b);
-        area += twice / 2.0;
-        first += (a + b) * (twice / 6.0);
         xx += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;
         yy += twice * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
         xy += twice * (2.0 * (a.x * a.y + b.x * b.y) + a.x * b.y + b.x * a.y) / 24.0;
     }
-    let centre = first / area;
     AreaMoments {
         area,
         centroid: origin + centre,
