@@ -16,7 +16,10 @@ pub use surface_curve::{SurfaceCurve, SurfacePoint};
 
 use crate::{Body, Domain, FluidView, MarkerKind, Markers};
 use boundary::shifts;
-use motile_base::Vec2;
+use motile_base::{
+    Vec2,
+    boxes::{BoxTree, Frame},
+};
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
 pub(crate) const REACH: f64 = 4.0;
@@ -41,6 +44,10 @@ pub(crate) struct Gap {
 pub struct Surfaces {
     kinds: Vec<MarkerKind>,
     boundaries: Vec<Boundary>,
+    /// Numbers of the bodies that have a surface, the boxes around them, and the tree of these.
+    numbers: Vec<usize>,
+    frames: Vec<Frame>,
+    tree: BoxTree,
     /// The first corner of each body.
     firsts: Vec<usize>,
     /// The corners of all bodies, in the order of the sides that start there; none for bodies without markers.
@@ -62,13 +69,30 @@ impl Surfaces {
     pub fn of(bodies: impl IntoIterator<Item = (Boundary, MarkerKind)>) -> Self {
         let (mut boundaries, kinds): (Vec<Boundary>, _) = bodies.into_iter().unzip();
         boundaries.iter_mut().for_each(Boundary::sort);
-        Self { boundaries, kinds, ..Self::default() }
+        let mut surfaces = Self { boundaries, kinds, ..Self::default() };
+        surfaces.sort();
+        surfaces
+    }
+
+    /// Puts boxes around the bodies.
+    fn sort(&mut self) {
+        self.frames.clear();
+        self.frames.extend(self.boundaries.iter().filter_map(Boundary::frame));
+        self.numbers.clear();
+        self.numbers.extend((0..self.boundaries.len()).filter(|&body| !self.boundaries[body].is_empty()));
+        self.tree.build_by_place(&self.frames);
+    }
+
+    /// Calls `visit` with the bodies whose boxes come within `reach` (length) of an image of `frame`, and with some
+    /// others, in no particular order.
+    fn each_near(&self, frame: &Frame, periods: [Option<f64>; 2], reach: f64, visit: &mut impl FnMut(usize)) {
+        self.tree.each_near(frame, periods, reach, &mut |place| visit(self.numbers[place]));
     }
 
     /// Lays out the surfaces of bodies with their markers where they are now, and the period in x (length; 0 where
     /// there is none).
     pub(crate) fn update(&mut self, markers: &Markers, period: f64) {
-        let Self { kinds, boundaries, firsts, corners } = self;
+        let Self { kinds, boundaries, firsts, corners, .. } = self;
         boundaries.resize_with(markers.groups().len(), Boundary::default);
         kinds.clear();
         firsts.clear();
@@ -87,6 +111,7 @@ impl Surfaces {
             }
             boundary.sort();
         }
+        self.sort();
     }
 
     /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
@@ -135,29 +160,37 @@ impl Surfaces {
         let mut narrowest: Option<Gap> = None;
         for (body, from) in self.boundaries.iter().enumerate() {
             let Some(frame) = from.frame() else { continue };
-            for (other, boundary) in self.boundaries.iter().enumerate() {
-                let Some(large) = boundary.frame() else { continue };
-                if !(self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve()) {
-                    continue;
+            self.each_near(&frame, domain.periods, reach, &mut |other| {
+                if self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve() {
+                    self.narrow([body, other], domain, reach, &mut narrowest);
                 }
-                let periods = if other == body { [None; 2] } else { domain.periods };
-                for shift in shifts(domain.periods, other == body).into_iter().flatten() {
-                    if !frame.moved(shift).is_near(&large, periods, reach) {
-                        continue;
-                    }
-                    let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
-                    for place in from.corners() {
-                        let distance = boundary.distance_within(place + shift, periods, reach);
-                        if let Some(width) = distance.map(|distance| sign * distance)
-                            && narrowest.is_none_or(|least| width < least.width)
-                        {
-                            narrowest = Some(Gap { body, place, other, width });
-                        }
-                    }
+            });
+        }
+        narrowest
+    }
+
+    /// Looks for a narrower gap, from the corners of one body to the boundary of another one or of its own images. Of
+    /// equal ones that between the first bodies counts.
+    fn narrow(&self, [body, other]: [usize; 2], domain: &Domain, reach: f64, narrowest: &mut Option<Gap>) {
+        let [from, boundary] = [body, other].map(|index| &self.boundaries[index]);
+        let [Some(frame), Some(large)] = [from, boundary].map(Boundary::frame) else { return };
+        let periods = if other == body { [None; 2] } else { domain.periods };
+        for shift in shifts(domain.periods, other == body).into_iter().flatten() {
+            if !frame.moved(shift).is_near(&large, periods, reach) {
+                continue;
+            }
+            let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
+            for place in from.corners() {
+                let distance = boundary.distance_within(place + shift, periods, reach);
+                if let Some(width) = distance.map(|distance| sign * distance)
+                    && narrowest.is_none_or(|least| {
+                        width < least.width || width == least.width && [body, other] < [least.body, least.other]
+                    })
+                {
+                    *narrowest = Some(Gap { body, place, other, width });
                 }
             }
         }
-        narrowest
     }
 }
 

@@ -1,11 +1,14 @@
 //! The boundary of a body, and distances to it.
 
-use motile_base::Vec2;
+use motile_base::{
+    Vec2,
+    boxes::{BoxTree, Frame, nearest_image},
+};
 
 /// The boundary of a body: straight sides in any order, each with the inside of the body to its left.
 ///
-/// Signed distances are exact, at corners too, and found by looking at few of the sides: [`Boundary::sort`] puts boxes
-/// around them, and boxes around those.
+/// Signed distances are exact, at corners too, and found by looking at few of the sides: [`Boundary::sort`] builds a
+/// [`BoxTree`] of them.
 ///
 /// ```
 /// use motile_base::Vec2;
@@ -23,73 +26,11 @@ use motile_base::Vec2;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Boundary {
     sides: Vec<[Vec2; 2]>,
-    /// Boxes around [`GROUP`] sides each, then around as many of these boxes, and so on to the one around all.
-    levels: Vec<Vec<Frame>>,
+    tree: BoxTree,
 }
 
-/// Sides in a box, and boxes in a box.
-const GROUP: usize = 8;
 /// Squared distances that differ by less than this part are equal.
 const TIE: f64 = 1e-12;
-
-/// A box with sides along the axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Frame {
-    centre: Vec2,
-    half: Vec2,
-}
-
-impl Frame {
-    fn around(points: impl Iterator<Item = Vec2>) -> Self {
-        let far = Vec2::splat(f64::INFINITY);
-        let (low, high) = points.fold((far, -far), |(low, high), point| (low.min(point), high.max(point)));
-        Self { centre: 0.5 * (low + high), half: 0.5 * (high - low) }
-    }
-
-    fn corners(&self) -> [Vec2; 2] {
-        [self.centre - self.half, self.centre + self.half]
-    }
-
-    /// The square of the distance of a point from the nearest image of the box; zero inside.
-    fn squared_distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
-        let away = nearest(point - self.centre, periods).abs() - self.half;
-        away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
-    }
-
-    /// Whether the box comes within `reach` of an image of another one.
-    pub(crate) fn is_near(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
-        let grown = Self { centre: other.centre, half: self.half + other.half };
-        grown.squared_distance(self.centre, periods) <= reach * reach
-    }
-
-    /// Whether the box lies in an image of another one that is `reach` larger on all sides.
-    pub(crate) fn is_inside(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
-        let between = nearest(self.centre - other.centre, periods).abs();
-        (0..2).all(|k| between[k] + self.half[k] <= other.half[k] + reach)
-    }
-
-    /// The longer of its sides (length).
-    pub(crate) fn size(&self) -> f64 {
-        2.0 * self.half.max_element()
-    }
-
-    /// The same box elsewhere.
-    pub(crate) fn moved(&self, by: Vec2) -> Self {
-        Self { centre: self.centre + by, half: self.half }
-    }
-}
-
-/// The difference that is shortest over the periods.
-pub(super) fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
-    for (axis, period) in periods.into_iter().enumerate() {
-        if let Some(period) = period
-            && difference[axis].abs() > 0.5 * period
-        {
-            difference[axis] -= period * (difference[axis] / period).round();
-        }
-    }
-    difference
-}
 
 /// The nearest place of a boundary so far.
 #[derive(Debug, Clone, Copy)]
@@ -109,7 +50,7 @@ impl Nearest {
     /// Looks at a side, and where it is so long that another image of it may be nearer, at that too.
     fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
         let along = side[1] - side[0];
-        let from_middle = nearest(point - 0.5 * (side[0] + side[1]), periods);
+        let from_middle = nearest_image(point - 0.5 * (side[0] + side[1]), periods);
         let other = |k: usize| {
             let period = periods[k]?;
             (from_middle[k].abs() + 0.5 * along[k].abs() > 0.5 * period).then(|| -period.copysign(from_middle[k]))
@@ -161,7 +102,7 @@ impl Boundary {
     /// Removes all sides, keeping the memory.
     pub fn clear(&mut self) {
         self.sides.clear();
-        self.levels.iter_mut().for_each(Vec::clear);
+        self.tree.clear();
     }
 
     /// Whether there are no sides.
@@ -172,30 +113,12 @@ impl Boundary {
 
     /// Prepares for questions after sides have been added.
     pub fn sort(&mut self) {
-        let Self { sides, levels } = self;
-        let frames = sides.chunks(GROUP).map(|group| Frame::around(group.iter().flatten().copied()));
-        if levels.is_empty() {
-            levels.push(Vec::new());
-        }
-        levels[0].clear();
-        levels[0].extend(frames);
-        let mut level = 0;
-        while levels[level].len() > 1 {
-            if levels.len() == level + 1 {
-                levels.push(Vec::new());
-            }
-            let (below, above) = levels.split_at_mut(level + 1);
-            above[0].clear();
-            let groups = below[level].chunks(GROUP);
-            above[0].extend(groups.map(|group| Frame::around(group.iter().flat_map(Frame::corners))));
-            level += 1;
-        }
-        levels.truncate(level + 1);
+        self.tree.build(self.sides.iter().map(|&side| Frame::around(side)));
     }
 
     /// The box around all of it; `None` without sides.
     pub(crate) fn frame(&self) -> Option<Frame> {
-        self.levels.last()?.first().copied()
+        self.tree.frame()
     }
 
     /// The sides, each with its start and end.
@@ -231,37 +154,13 @@ impl Boundary {
 
     /// The nearest place to `point` below `reach` (length).
     pub(super) fn nearest_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<Nearest> {
-        if self.frame()?.squared_distance(point, periods) > reach * reach {
-            return None;
-        }
         let mut found = Nearest { squared: reach * reach, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
-        self.search(self.levels.len().checked_sub(1)?, 0, point, periods, &mut found);
-        (found.squared < reach * reach).then_some(found)
-    }
-
-    /// Looks at what is in a box of a level, nearest boxes first.
-    fn search(&self, level: usize, frame: usize, point: Vec2, periods: [Option<f64>; 2], found: &mut Nearest) {
-        let start = frame * GROUP;
-        let Some(below) = level.checked_sub(1) else {
-            let end = (start + GROUP).min(self.sides.len());
-            return (start..end).for_each(|side| found.look(side, &self.sides[side], point, periods));
-        };
-        let frames = &self.levels[below];
-        let end = (start + GROUP).min(frames.len());
-        let mut away = [f64::INFINITY; GROUP];
-        for (away, frame) in away.iter_mut().zip(&frames[start..end]) {
-            *away = frame.squared_distance(point, periods);
-        }
-        for _ in start..end {
-            let (next, &squared) =
-                away.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).unwrap_or((0, &f64::INFINITY));
+        self.tree.search(point, periods, found.squared, &mut |side| {
+            found.look(side, &self.sides[side], point, periods);
             // Sides that are equally far may say more of the sign.
-            if squared > found.squared * (1.0 + 4.0 * TIE) {
-                return;
-            }
-            away[next] = f64::INFINITY;
-            self.search(below, start + next, point, periods, found);
-        }
+            found.squared * (1.0 + 4.0 * TIE)
+        });
+        (found.squared < reach * reach).then_some(found)
     }
 
     /// The smallest signed distance of points, such as the markers of an interface, and the number of that point;

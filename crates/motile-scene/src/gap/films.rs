@@ -28,6 +28,8 @@ pub(crate) struct Films {
     /// Half of the lengths of the two sides of each corner (length).
     weights: Vec<f64>,
     contacts: Vec<Contact>,
+    /// Bodies close to the one that is looked at.
+    near: Vec<usize>,
     /// Energy per length at the corners (force).
     energies: Vec<f64>,
 }
@@ -50,11 +52,18 @@ impl Films {
         }
         self.contacts.clear();
         for (body, kind) in surfaces.kinds.iter().enumerate() {
-            for (other, other_kind) in surfaces.kinds.iter().enumerate() {
-                if kind.is_closed_curve() || other_kind.is_closed_curve() {
+            let Some(frame) = surfaces.boundaries[body].frame() else { continue };
+            // Sums of forces are those of the order of the bodies.
+            let mut near = std::mem::take(&mut self.near);
+            near.clear();
+            surfaces.each_near(&frame, surroundings.domain.periods, reach, &mut |other| near.push(other));
+            near.sort_unstable();
+            for &other in &near {
+                if kind.is_closed_curve() || surfaces.kinds[other].is_closed_curve() {
                     self.find_between(surfaces, [body, other], surroundings, reach);
                 }
             }
+            self.near = near;
             if kind.is_closed_curve() {
                 self.find_walls(surfaces, body, surroundings, reach);
             }
@@ -115,7 +124,7 @@ impl Films {
 
     /// Adds the forces of a repulsion to `forces`, those of the markers (force).
     pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
-        let Self { weights, contacts, energies } = self;
+        let Self { weights, contacts, energies, .. } = self;
         energies.clear();
         energies.resize(weights.len(), 0.0);
         let mut push = |corner: usize, force: Vec2| {

@@ -1,12 +1,14 @@
 //! Bodies that lie in one another before anything is computed for them.
 
-use super::boundary::Frame;
 use super::{Boundary, Surfaces};
 use crate::FluidView;
-use motile_base::Vec2;
+use motile_base::{Vec2, boxes::Frame};
 
-/// How deep a body may be inside another one, in grid spacings: films that drain at rest come to this by the round-off
-/// of a grid.
+/// Depth to which an interface may be inside another one, in units of [`Surfaces::contact_scale`]: sides of length s
+/// leave a curve of radius R by s/(8R) of their length, which is this at R = 6 s.
+const CURVES: f64 = 0.02;
+/// The like of an interface and a solid, or of two solids: films that drain at rest on a surface that only a grid
+/// resolves come to this.
 const CONTACT: f64 = 0.25;
 /// Sides of a body, and depths below each over the size of the body, from which its inside is looked at.
 const SIDES: usize = 16;
@@ -52,18 +54,27 @@ impl Surfaces {
     #[must_use]
     pub fn first_overlap(&self, view: &FluidView) -> Option<Overlap> {
         let periods = view.domain.periods;
-        let allowed = self.allowed(view);
-        let pairs = (0..self.boundaries.len()).flat_map(|body| (0..body).map(move |other| [body, other]));
-        let mut overlaps = pairs.filter_map(|[body, other]| {
-            let (place, depth) = self.overlap(body, other, periods, allowed).filter(|(_, depth)| *depth > allowed)?;
-            Some(Overlap { body, other, place, depth, allowed })
-        });
-        overlaps.next()
+        // What lies closer inside an interface than contact is at the same place.
+        let film = CONTACT * self.contact_scale(view);
+        self.boundaries.iter().enumerate().find_map(|(body, boundary)| {
+            let mut first: Option<Overlap> = None;
+            self.each_near(&boundary.frame()?, periods, 0.0, &mut |other| {
+                let allowed = self.allowed(view, [body, other]);
+                if other < first.map_or(body, |first| first.other)
+                    && let Some((place, depth)) = self.overlap(body, other, periods, film)
+                    && depth > allowed
+                {
+                    first = Some(Overlap { body, other, place, depth, allowed });
+                }
+            });
+            first
+        })
     }
 
-    /// How deep a body may be inside another one (length).
-    pub(crate) fn allowed(&self, view: &FluidView) -> f64 {
-        CONTACT * self.contact_scale(view)
+    /// Depth to which a body may be inside another one (length).
+    pub(crate) fn allowed(&self, view: &FluidView, bodies: [usize; 2]) -> f64 {
+        let interfaces = bodies.iter().all(|&body| self.kinds[body].is_closed_curve());
+        (if interfaces { CURVES } else { CONTACT }) * self.contact_scale(view)
     }
 
     /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface
@@ -75,11 +86,17 @@ impl Surfaces {
 
     /// The innermost interface that each body lies in.
     pub(crate) fn surroundings(&self, periods: [Option<f64>; 2], around: &mut Vec<Option<usize>>) {
-        let size = |index: &usize| self.boundaries[*index].frame().map_or(f64::INFINITY, |frame| frame.size());
         around.clear();
-        around.extend((0..self.kinds.len()).map(|inner| {
-            let outer = (0..self.kinds.len()).filter(|&outer| self.lies_in(inner, outer, periods));
-            outer.min_by(|a, b| size(a).total_cmp(&size(b)))
+        around.extend(self.boundaries.iter().enumerate().map(|(inner, boundary)| {
+            let (frame, mut innermost) = (boundary.frame()?, None);
+            // A part of the inner one may have crossed: [`Boundary::lies_in`].
+            self.each_near(&frame, periods, frame.size(), &mut |outer| {
+                let size = self.boundaries[outer].frame().map_or(f64::INFINITY, |frame| frame.size());
+                if innermost.is_none_or(|least| (size, outer) < least) && self.lies_in(inner, outer, periods) {
+                    innermost = Some((size, outer));
+                }
+            });
+            innermost.map(|(_, outer)| outer)
         }));
     }
 

@@ -100,7 +100,10 @@ const FIRST: f64 = 0.05;
 const LEAST: f64 = 1e-6;
 
 impl<H: Hydrodynamics> Scene<H> {
-    /// A run up to time `until`, to be given a time step and observers.
+    /// A run up to time `until` (time), to be given a time step and observers.
+    ///
+    /// A scene without bodies, or whose bodies have no markers, has nothing to resolve: where steps are a part of the
+    /// stability limit, as by default, it takes a single one to the end or to the next exact report.
     pub fn run(&mut self, until: f64) -> Run<'_, H> {
         Run::new(self, until)
     }

@@ -62,13 +62,15 @@ fn bodies_at_the_same_place_overlap_though_no_corner_is_inside() {
 #[test]
 fn bodies_beside_and_inside_one_another_do_not() {
     for kinds in [[INTERFACE; 2], [INTERFACE, MarkerKind::Points], [MarkerKind::Points; 2]] {
-        for apart in [1.99, 2.0, 3.0, 4.01] {
+        // The polygons of two interfaces touch at less than the distance of the circles.
+        let contact = if kinds == [INTERFACE; 2] { 1.999 } else { 1.99 };
+        for apart in [contact, 2.0, 3.0, 6.0 - contact] {
             assert_eq!(depth([(circle(0.0, 1.0), kinds[0]), (circle(apart, 1.0), kinds[1])]), None, "{kinds:?}");
         }
     }
     for kind in [INTERFACE, MarkerKind::Points] {
         // In the middle, at the edge, through the edge.
-        for place in [0.0, 0.5, 0.51, 6.3] {
+        for place in [0.0, 0.5, 0.501, 6.3] {
             assert_eq!(depth([(circle(0.0, 1.0), INTERFACE), (circle(place, 0.5), kind)]), None, "{place}");
         }
         let found = depth([(circle(0.0, 1.0), INTERFACE), (circle(0.6, 0.5), kind)]).unwrap();
@@ -78,7 +80,7 @@ fn bodies_beside_and_inside_one_another_do_not() {
     assert!(depth([(circle(0.0, 1.0), MarkerKind::Points), (circle(0.3, 0.5), INTERFACE)]).unwrap() > 0.4);
 }
 
-/// A quarter of the grid spacing; without a grid, of the longest side of an interface.
+/// A quarter of the grid spacing; without a grid, of the longest side of an interface. Between interfaces a fiftieth.
 #[test]
 fn contact_is_a_quarter_of_a_spacing() {
     for kind in [INTERFACE, MarkerKind::Points] {
@@ -86,8 +88,12 @@ fn contact_is_a_quarter_of_a_spacing() {
         assert_eq!(pair(2.0 - 0.024), None);
         assert!((pair(2.0 - 0.026).unwrap() - 0.026).abs() < 1e-4);
     }
+    let pair = |apart: f64| depth([(circle(0.0, 1.0), INTERFACE), (circle(apart, 1.0), INTERFACE)]);
+    assert_eq!(pair(2.0 - 0.0019), None);
+    assert!((pair(2.0 - 0.0021).unwrap() - 0.0021).abs() < 1e-4);
     let surfaces = Surfaces::of([(circle(0.0, 1.0), INTERFACE), (circle(3.0, 2.0), MarkerKind::Points)]);
     let free = FluidView { spacing: None, ..fluid_view() };
-    assert!((surfaces.allowed(&fluid_view()) - 0.025).abs() < 1e-16);
-    assert!((surfaces.allowed(&free) - 0.5 * (TAU / 192.0).sin()).abs() < 1e-14);
+    assert!((surfaces.allowed(&fluid_view(), [0, 1]) - 0.025).abs() < 1e-16);
+    assert!((surfaces.allowed(&fluid_view(), [0, 0]) - 0.002).abs() < 1e-16);
+    assert!((surfaces.allowed(&free, [1, 0]) - 0.5 * (TAU / 192.0).sin()).abs() < 1e-14);
 }

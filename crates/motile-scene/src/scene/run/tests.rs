@@ -125,14 +125,25 @@ fn a_run_needs_a_bound_on_its_steps() {
         scene.run(scene.time() + 1.0).step_size(step).go().unwrap();
         assert!(scene.body(point).unwrap().positions()[0].length() < 1e-2, "{step:?}");
     }
-    // A bound that a body states, and a scene in which nothing moves.
+    // A bound that a body states.
     let mut scene = empty();
     let point = scene.add(drawn().with_stiffness(100.0).unwrap());
     scene.run(1.0).go().unwrap();
     assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
-    let mut scene = empty();
-    scene.run(2.0).go().unwrap();
-    assert_eq!((scene.steps(), scene.time()), (1, 2.0));
+}
+
+#[test]
+fn a_scene_without_bodies_or_markers_takes_one_step() {
+    for bodies in 0..3 {
+        let mut scene = empty();
+        for _ in 0..bodies {
+            scene.add(MarkerBody::new("none", Vec::new(), |_, _| {}));
+        }
+        let seen = times(&mut scene, 2.0, StepSize::default(), &[Every::Steps(1), Every::Time(1.5)]);
+        assert_eq!((seen, scene.steps()), (vec![vec![0.0, 1.5, 2.0]; 2], 2));
+        scene.run(4.0).go().unwrap();
+        assert_eq!((scene.steps(), scene.time()), (3, 4.0));
+    }
 }
 
 /// Explicit Euler, which says nothing of its errors.

@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use crate::{
     FluidView, Hydrodynamics,
     body::{StepCause, StepLimit},
-    gap::{Films, Gap, REACH, Repulsion, Surfaces, Surroundings},
+    gap::{Films, Gap, Overlap, REACH, Repulsion, Surfaces, Surroundings},
 };
 
 /// Thinnest gap, in units of the length that contacts are measured in, that sets a step: bodies that touch at the start
@@ -33,12 +33,17 @@ impl Contacts {
         self.surfaces.update(&bodies.markers, period.unwrap_or(0.0));
     }
 
-    /// Finds the interfaces that the bodies lie in, and the narrowest gap; the depth to which bodies may overlap
-    /// (length).
-    pub(super) fn find_gaps(&mut self, bodies: &mut Bodies, view: &FluidView) -> f64 {
+    /// Finds the interfaces that the bodies lie in, and the narrowest gap.
+    pub(super) fn find_gaps(&mut self, bodies: &mut Bodies, view: &FluidView) {
         bodies.find_surroundings(&self.surfaces, view.domain.periods);
         self.narrowest = self.surfaces.narrowest_near(view, self.least_gap.unwrap_or_default());
-        self.surfaces.allowed(view)
+    }
+
+    /// The narrowest gap where it is an overlap of more than the depth that is allowed (length), and that depth.
+    pub(super) fn overlap(&self, view: &FluidView) -> Option<Overlap> {
+        let Gap { body, other, place, width } = self.narrowest?;
+        let allowed = self.surfaces.allowed(view, [body, other]);
+        (width < -allowed).then_some(Overlap { body, other, place, depth: -width, allowed })
     }
 
     /// Adds the forces of the repulsion, if there is one, to those of the markers.

@@ -150,25 +150,19 @@ impl<H: Hydrodynamics> System<H> {
         self.contacts.repulsion.as_ref()
     }
 
-    /// Looks at how the bodies lie before anything is computed for them, unless that is known: neither interfaces nor
-    /// solids may be inside other bodies by more than a quarter of the grid spacing.
+    /// Looks at how the bodies lie before anything is computed for them, unless that is known: they may not overlap by
+    /// more than [`Surfaces::allowed`].
     pub(super) fn check_bodies(&mut self) -> Result<(), SceneError> {
         if self.known >= Known::Apart {
             return Ok(());
         }
         self.bodies.check_guests()?;
-        let (time, allowed) = (self.clock.time, self.find_gaps());
-        let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
-            let ([body, other], [x, y]) = ([body, other].map(|index| self.bodies.name_of(index)), place.into());
-            Err(SceneError::Overlap { time, body, x, y, other, depth, allowed })
-        };
-        if let Some(Gap { body, place, other, width }) = self.contacts.narrowest.filter(|gap| gap.width < -allowed) {
-            return overlap(body, other, place, -width);
-        }
-        if let Some(Overlap { body, other, place, depth, .. }) =
-            self.contacts.surfaces.first_overlap(&self.hydrodynamics.fluid_view())
-        {
-            return overlap(body, other, place, depth);
+        self.find_gaps();
+        let view = self.hydrodynamics.fluid_view();
+        if let Some(overlap) = self.contacts.overlap(&view).or_else(|| self.contacts.surfaces.first_overlap(&view)) {
+            let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;
+            let [body, other] = [body, other].map(|index| self.bodies.name_of(index));
+            return Err(SceneError::Overlap { time: self.clock.time, body, x, y, other, depth, allowed });
         }
         self.record_gap();
         self.known = Known::Apart;
@@ -176,20 +170,22 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Looks at the gaps that a step has led to: interfaces must not have come to be inside other bodies or their own
-    /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
+    /// images by more than [`Surfaces::allowed`], and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
-        let (time, allowed) = (self.clock.time, self.find_gaps());
+        self.find_gaps();
+        let time = self.clock.time;
         self.bodies.check_containment(time)?;
-        if let Some(Gap { body, place, other, width }) = self.contacts.narrowest {
-            let names = || [body, other].map(|index| self.bodies.name_of(index));
-            if width < -allowed {
-                let ([body, other], [x, y]) = (names(), place.into());
-                return Err(SceneError::Crossing { time, body, x, y, other, depth: -width, allowed });
-            }
-            if let Some(bound) = self.contacts.least_gap.filter(|&bound| width < bound) {
-                let [body, other] = names();
-                return Err(SceneError::Gap { time, body, other, gap: width, bound });
-            }
+        let names = |bodies: [usize; 2]| bodies.map(|index| self.bodies.name_of(index));
+        if let Some(overlap) = self.contacts.overlap(&self.hydrodynamics.fluid_view()) {
+            let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;
+            let [body, other] = names([body, other]);
+            return Err(SceneError::Crossing { time, body, x, y, other, depth, allowed });
+        }
+        if let Some((Gap { body, other, width: gap, .. }, bound)) = self.contacts.narrowest.zip(self.contacts.least_gap)
+            && gap < bound
+        {
+            let [body, other] = names([body, other]);
+            return Err(SceneError::Gap { time, body, other, gap, bound });
         }
         if let Some(bound) = self.contacts.least_gap
             && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
@@ -201,10 +197,10 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Finds the interfaces around the bodies, and the narrowest gap; the depth to which bodies may overlap (length).
-    pub(super) fn find_gaps(&mut self) -> f64 {
+    /// Finds the interfaces around the bodies, and the narrowest gap.
+    pub(super) fn find_gaps(&mut self) {
         self.lay_out();
-        self.contacts.find_gaps(&mut self.bodies, &self.hydrodynamics.fluid_view())
+        self.contacts.find_gaps(&mut self.bodies, &self.hydrodynamics.fluid_view());
     }
 
     /// Records the gap that was found last.

@@ -85,8 +85,20 @@ fn crossing_out_of_an_interface_is_the_error() {
     let error = scene.run(1.0).go().unwrap_err();
     let SceneError::Crossing { body, other, depth, .. } = error else { panic!("{error}") };
     assert_eq!((body.as_str(), other.as_str()), ("inner", "outer"));
-    // The gap was 0.2, and an overlap of 0.025 is allowed.
-    assert!((scene.time() - 0.2).abs() < 0.05 && depth > 0.025, "{} {depth}", scene.time());
+    // The gap was 0.2.
+    assert!((scene.time() - 0.2).abs() < 0.05 && depth > 0.002, "{} {depth}", scene.time());
+}
+
+/// Each step takes them 0.01 closer.
+#[test]
+fn droplets_driven_into_one_another_end_the_run_where_they_cross() {
+    let mut scene = scene();
+    scene.add(ring("left", Vec2::new(-0.5, 0.0), 0.4, None, 0.1 * Vec2::X));
+    scene.add(ring("right", Vec2::new(0.5, 0.0), 0.4, None, -0.1 * Vec2::X));
+    let error = scene.run(2.0).go().unwrap_err();
+    let SceneError::Crossing { depth, .. } = error else { panic!("{error}") };
+    assert!((scene.time() - 1.0).abs() < 0.01 && depth < 0.011, "{} {depth}", scene.time());
+    assert!(scene.system().minimum_gap().unwrap() > -0.002);
 }
 
 #[test]
