@@ -13,7 +13,7 @@ mod spectral;
 use std::sync::Arc;
 
 use motile_base::{InputError, PeriodicSeries, Vec2};
-use motile_scene::{FluidView, write_points};
+use motile_scene::{FluidView, points};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -271,7 +271,7 @@ impl ActiveInterface {
 
     pub(crate) fn write_state(&self, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.markers().len());
-        write_points(self.markers(), positions);
+        points::write(self.markers(), positions);
         numbers.copy_from_slice(&self.state.numbers);
     }
 
@@ -327,7 +327,7 @@ impl ActiveInterface {
             let _ = series.truncate_vectors(motions, *modes);
         }
         let (positions, rates) = rate.split_at_mut(2 * count);
-        write_points(motions, positions);
+        points::write(motions, positions);
         rates.fill(0.0);
         if let Some(transport) = self.scheme.transport.as_mut() {
             let rates = &mut rates[..count];

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::{InputError, PeriodicSeries, Vec2, all_points_finite, not_negative, positive, same_length};
-use motile_scene::{Body, BodyError, FluidView, MarkerKind, StepLimit, mirror_points, read_points, write_points};
+use motile_scene::{Body, BodyError, FluidView, MarkerKind, StepLimit, points};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -265,15 +265,15 @@ impl Body for Shell {
     }
 
     fn write_state(&self, state: &mut [f64]) {
-        write_points(&self.positions, state);
+        points::write(&self.positions, state);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        read_points(state, &mut self.positions)
+        points::read(state, &mut self.positions)
     }
 
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
-        mirror_points(markers, state, image);
+        points::mirror(markers, state, image);
         true
     }
 
@@ -283,7 +283,7 @@ impl Body for Shell {
             // As long as the series, so that the call cannot fail.
             let _ = self.series.truncate_vectors(&mut self.motions, modes);
         }
-        write_points(&self.motions, rate);
+        points::write(&self.motions, rate);
     }
 
     /// Stable step of the shortest wave that moves, of wave number q: on a flat membrane between the two fluids it

@@ -53,7 +53,7 @@ pub enum InputError {
         minimum: usize,
     },
     /// Slices of different length.
-    #[error("{name} has {found} entries where {expected} are needed")]
+    #[error("{name} has {found} entries: give {expected}")]
     WrongLength {
         /// The slice.
         name: &'static str,
@@ -63,7 +63,7 @@ pub enum InputError {
         found: usize,
     },
     /// An entry of a list that must be finite is not.
-    #[error("entry {index} of {name} is {value}: all entries must be finite")]
+    #[error("entry {index} of {name} is {value}: give finite numbers")]
     EntryNotFinite {
         /// The list.
         name: &'static str,
@@ -117,7 +117,7 @@ pub fn at_least(name: &'static str, found: usize, minimum: usize) -> Result<usiz
     if found >= minimum { Ok(found) } else { Err(InputError::TooFew { name, found, minimum }) }
 }
 
-/// Whether a slice has the length that is needed.
+/// Refuses a slice of another length than needed.
 ///
 /// # Errors
 /// [`InputError::WrongLength`].
@@ -125,7 +125,7 @@ pub fn same_length(name: &'static str, expected: usize, found: usize) -> Result<
     if expected == found { Ok(()) } else { Err(InputError::WrongLength { name, expected, found }) }
 }
 
-/// Whether all entries are finite.
+/// Refuses entries that are not finite.
 ///
 /// # Errors
 /// [`InputError::EntryNotFinite`].
@@ -136,7 +136,7 @@ pub fn all_finite(name: &'static str, values: &[f64]) -> Result<(), InputError> 
     }
 }
 
-/// Whether all points are finite.
+/// Refuses points that are not finite.
 ///
 /// # Errors
 /// [`InputError::EntryNotFinite`].

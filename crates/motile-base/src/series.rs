@@ -34,7 +34,7 @@ impl PeriodicSeries {
         self.coefficients.len()
     }
 
-    /// Whether there are no samples.
+    /// True without samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.coefficients.is_empty()

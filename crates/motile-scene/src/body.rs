@@ -1,4 +1,4 @@
-//! What a body is: markers that put forces on the fluid and move with it.
+//! Bodies: markers that put forces on the fluid and move with it.
 
 mod marker_body;
 mod step_limit;
@@ -15,12 +15,12 @@ use serde::{Deserialize, Serialize};
 use crate::{BodyError, BodyFlow, FluidView, Handle, MarkerKind, gap::SurfaceCurve, saved_state::SavedState};
 use motile_base::Vec2;
 
-/// What can be seen of a body beyond its markers: the speed of a droplet, say.
+/// A body with observables beyond its markers, such as the speed of a droplet.
 pub trait Observe: Body {
-    /// All that is seen of it at one time.
+    /// Observables at one time.
     type Observables;
 
-    /// What is seen of it in its present state, from the flow at its markers in that state.
+    /// Observables of the present state, from the flow at the markers in that state.
     ///
     /// # Errors
     /// A state in which it cannot be computed.
@@ -32,7 +32,7 @@ pub trait Observe: Body {
 pub struct StepInfo {
     /// Its length (time).
     pub dt: f64,
-    /// Whether the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it
+    /// True where the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it
     /// off the explicit one.
     pub stabilised: bool,
 }
@@ -47,7 +47,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// A name for messages.
     fn name(&self) -> &str;
 
-    /// What its markers are.
+    /// Kind of the markers.
     fn kind(&self) -> MarkerKind;
 
     /// Number of markers; may change in [`Body::end_step`] only.
@@ -110,8 +110,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// reason there is.
     fn step_limits(&self, _view: &FluidView, _limits: &mut dyn FnMut(StepLimit)) {}
 
-    /// What a user should know of the present state though a run can go on from it, from the flow of the last
-    /// evaluation; by default nothing.
+    /// Doubts about the accuracy of the present state, from the flow of the last evaluation; by default none.
     fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
         Vec::new()
     }
@@ -141,7 +140,7 @@ pub trait Body: Any + fmt::Debug + Send {
         false
     }
 
-    /// What the body is made of, besides its state: named numbers that stay what they are over a run, such as its
+    /// Parameters of the body: named numbers that stay the same over a run, such as its
     /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
     /// out if it may change.
     fn properties(&self) -> Vec<(String, f64)> {
@@ -197,14 +196,14 @@ pub trait Guest {
     fn add_host_rate(&self, _rate: &mut [f64]) {}
 }
 
-/// What a user should know of a state though a run can go on from it: results may be off by more than a per cent.
+/// A doubt about the accuracy of a state from which a run goes on: results may be off by more than a per cent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// Name of the body that it is about.
     pub body: String,
-    /// What is amiss, in a few words: the same for all warnings of one kind.
+    /// Cause in a few words, one for all warnings of a kind.
     pub cause: Cow<'static, str>,
-    /// How far beyond its limit the quantity is that it is about: 1 at the limit, more beyond.
+    /// Quantity in question over its limit: 1 at the limit, more beyond.
     pub excess: f64,
     /// The value, the limit and the remedy.
     pub message: String,
@@ -214,33 +213,4 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}: {}", self.body, self.cause, self.message)
     }
-}
-
-/// Writes points to a state, or velocities to a rate, as x and y of the first, of the second, and so on: a list of
-/// twice as many entries.
-pub fn write_points(points: &[Vec2], state: &mut [f64]) {
-    for (pair, point) in state.chunks_exact_mut(2).zip(points) {
-        pair.copy_from_slice(&point.to_array());
-    }
-}
-
-/// Writes the mirror images in y = 0 of the points of a state, point k as number `markers[k]`.
-pub fn mirror_points(markers: &[usize], state: &[f64], image: &mut [f64]) {
-    for (pair, &marker) in state.chunks_exact(2).zip(markers) {
-        image[2 * marker..2 * marker + 2].copy_from_slice(&[pair[0], -pair[1]]);
-    }
-}
-
-/// Reads marker positions (length) from a state that [`write_points`] wrote.
-///
-/// # Errors
-/// A coordinate that is not finite; the points are then as before.
-pub fn read_points(state: &[f64], points: &mut [Vec2]) -> Result<(), BodyError> {
-    if let Some(index) = state.iter().position(|value| !value.is_finite()) {
-        return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });
-    }
-    for (point, pair) in points.iter_mut().zip(state.chunks_exact(2)) {
-        *point = Vec2::new(pair[0], pair[1]);
-    }
-    Ok(())
 }

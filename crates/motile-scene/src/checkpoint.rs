@@ -1,4 +1,4 @@
-//! Scenes on disk.
+//! Checkpoints: the state of a scene on disk.
 
 mod error;
 mod file;
@@ -97,7 +97,7 @@ fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)])
     Ok(())
 }
 
-/// What kind of markers a body has, as it stands in a file.
+/// Number of a kind of markers in files.
 fn kind(kind: MarkerKind) -> u8 {
     match kind {
         MarkerKind::Interface { viscosity_inside: None } => 0,
@@ -110,7 +110,7 @@ fn kind(kind: MarkerKind) -> u8 {
 }
 
 impl Checkpoint {
-    /// What the one who saved it said it is.
+    /// Description that it was saved with.
     #[must_use]
     pub fn description(&self) -> &str {
         &self.description

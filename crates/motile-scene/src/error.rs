@@ -1,4 +1,4 @@
-//! What can go wrong in a scene.
+//! Errors of scenes, bodies and flows.
 
 use motile_base::InputError;
 use stokes_grid::StokesError;
@@ -47,9 +47,9 @@ pub enum FlowError {
         x: f64,
         /// Its y coordinate.
         y: f64,
-        /// How far beyond (length).
+        /// Distance beyond the wall (length).
         depth: f64,
-        /// What is allowed (length).
+        /// Depth that is allowed (length).
         allowed: f64,
     },
     /// An iteration did not converge.
@@ -71,9 +71,9 @@ pub enum FlowError {
     /// The method cannot do what the scene asks.
     #[error("{what} is not possible here: {remedy}")]
     Unsupported {
-        /// What was asked for.
+        /// Request.
         what: &'static str,
-        /// What to do instead.
+        /// Alternative.
         remedy: &'static str,
     },
 }
@@ -111,7 +111,7 @@ pub enum BodyError {
     NonFinite {
         /// The quantity.
         what: &'static str,
-        /// Which one.
+        /// Number of the entry.
         index: usize,
         /// Its value.
         value: f64,
@@ -138,7 +138,7 @@ pub enum BodyError {
         what: &'static str,
         /// Relative change.
         change: f64,
-        /// What is allowed.
+        /// Relative change that is allowed.
         bound: f64,
     },
     /// A number or list that cannot be used, or a saved state of something else.
@@ -153,26 +153,26 @@ motile_base::debug_as_explanation!(BodyError);
 
 /// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
 ///
-/// Causes are in the chain of sources and not repeated in the text; [`SceneError::explanation`] tells all.
+/// The text carries the direct cause; [`SceneError::explanation`] tells those of that as well.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The flow could not be computed.
-    #[error("at time {time} the flow could not be computed")]
+    #[error("at time {time} the flow could not be computed: {source}")]
     Flow {
         /// Time at the start of the step.
         time: f64,
-        /// Why.
+        /// Cause.
         source: FlowError,
     },
     /// A body went wrong.
-    #[error("at time {time} {body} went wrong")]
+    #[error("at time {time} {body} went wrong: {source}")]
     Body {
         /// Time at the start of the step.
         time: f64,
         /// The body's name.
         body: String,
-        /// Why.
+        /// Cause.
         source: BodyError,
     },
     /// Bodies that overlap before anything is computed for them.
@@ -187,13 +187,13 @@ pub enum SceneError {
         body: String,
         /// x coordinate of where it is deepest (length).
         x: f64,
-        /// The same, y coordinate (length).
+        /// y coordinate of where it is deepest (length).
         y: f64,
         /// The body that it is in, or its own image; or the interface that it is in and has crossed.
         other: String,
-        /// How deep (length).
+        /// Depth (length).
         depth: f64,
-        /// What is allowed (length).
+        /// Depth that is allowed (length).
         allowed: f64,
     },
     /// A body has come into an interface or out of it in a step.
@@ -203,9 +203,9 @@ pub enum SceneError {
         time: f64,
         /// The body.
         body: String,
-        /// What it was inside of.
+        /// Its surroundings before the step.
         before: String,
-        /// What it is inside of.
+        /// Its surroundings after the step.
         now: String,
     },
     /// An interface and another body, or its own image in a periodic domain, have come to overlap.
@@ -224,9 +224,9 @@ pub enum SceneError {
         y: f64,
         /// The body that it is in.
         other: String,
-        /// How deep (length).
+        /// Depth (length).
         depth: f64,
-        /// What is allowed (length).
+        /// Depth that is allowed (length).
         allowed: f64,
     },
     /// A gap is narrower than the bound that was set.
@@ -253,7 +253,7 @@ pub enum SceneError {
         time: f64,
         /// The body.
         body: String,
-        /// How it differs from a mirror image.
+        /// Difference from a mirror image.
         problem: String,
     },
     /// A time step above the stable one.
@@ -263,9 +263,9 @@ pub enum SceneError {
         dt: f64,
         /// The largest stable one (time).
         limit: f64,
-        /// What limits it.
+        /// Reason for the limit.
         reason: &'static str,
-        /// Which body.
+        /// Name of the body.
         body: String,
     },
     /// A stability limit so short that a run would never end.
@@ -278,9 +278,9 @@ pub enum SceneError {
         dt: f64,
         /// The shortest that the run takes (time).
         least: f64,
-        /// What limits it.
+        /// Reason for the limit.
         reason: &'static str,
-        /// Which body.
+        /// Name of the body.
         body: String,
     },
     /// A step size that is a part of the stability limit, where no body states a finite one.
@@ -289,7 +289,7 @@ pub enum SceneError {
          `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
     )]
     NoStepLimit {
-        /// When (time).
+        /// Time of the state.
         time: f64,
     },
     /// Adaptive steps with an integrator whose errors cannot be estimated.
@@ -300,24 +300,24 @@ pub enum SceneError {
     },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
-        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot \
-         be followed any further with this tolerance and resolution; refine the grid and the markers, or look at the \
-         last state for what goes wrong"
+        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: take a larger \
+         tolerance, or refine the grid and the markers{}",
+        source.as_ref().map_or_else(String::new, |source| format!("; the last attempt ended because {source}"))
     )]
     Stagnation {
-        /// When (time).
+        /// Time of the state.
         time: f64,
         /// The step that would be needed (time).
         dt: f64,
         /// The bound (time).
         least: f64,
-        /// What made the last step fail, unless it was its error alone.
+        /// Error in which the last attempt ended, unless it was only too inaccurate.
         source: Option<Box<SceneError>>,
     },
     /// A run has taken all the steps it was allowed.
     #[error("at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones")]
     TooManySteps {
-        /// When (time).
+        /// Time of the state.
         time: f64,
         /// The number allowed.
         most: usize,
@@ -325,15 +325,15 @@ pub enum SceneError {
     /// The run was told to stop.
     #[error("stopped at time {time}: the state is that of the last complete step, from which the run can go on")]
     Stopped {
-        /// When (time).
+        /// Time of the state.
         time: f64,
     },
     /// A checkpoint could not be saved.
-    #[error("at time {time} no checkpoint could be saved")]
+    #[error("at time {time} no checkpoint could be saved: {source}")]
     Checkpoint {
-        /// When (time).
+        /// Time of the state.
         time: f64,
-        /// Why.
+        /// Cause.
         source: Box<CheckpointError>,
     },
     /// A time, time step or other number that makes no sense, or a saved state of something else.
@@ -342,7 +342,7 @@ pub enum SceneError {
     /// A checkpoint that is not of this scene.
     #[error("the checkpoint is of another scene: {problem}")]
     ForeignCheckpoint {
-        /// How it differs.
+        /// Difference.
         problem: String,
     },
     /// A handle of another scene.
@@ -364,7 +364,7 @@ pub enum SceneError {
     OtherProperty {
         /// The body, or the scene.
         of: String,
-        /// What differs.
+        /// Name of the property.
         property: String,
         /// Its value in the checkpoint, if it has one there.
         saved: Option<f64>,
@@ -372,11 +372,11 @@ pub enum SceneError {
         present: Option<f64>,
     },
     /// An observer failed.
-    #[error("an observer failed at time {time}")]
+    #[error("an observer failed at time {time}: {source}")]
     Observer {
-        /// When.
+        /// Time of the state.
         time: f64,
-        /// Why.
+        /// Cause.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
 }

@@ -1,4 +1,4 @@
-//! Gaps between bodies, between bodies and walls, and what keeps them open.
+//! Gaps between bodies and to walls, and the repulsion that keeps them open.
 
 mod boundary;
 mod films;
@@ -142,7 +142,7 @@ impl Surfaces {
         gaps.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Whether a body lies inside an interface, or inside one of its images.
+    /// True where a body lies inside an interface, or inside one of its images.
     fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
         let around = inner != outer && self.kinds[outer].holds_fluid();
         around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
@@ -208,7 +208,7 @@ impl Boundary {
     }
 }
 
-/// What is measured of a body: corners of its boundary, or markers where it has none.
+/// Boundary of a body and the points that gaps are measured from: its corners, or markers where it has none.
 #[derive(Debug)]
 pub(crate) struct Outline {
     boundary: Boundary,

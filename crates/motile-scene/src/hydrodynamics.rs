@@ -59,7 +59,7 @@ pub struct FluidView {
 }
 
 impl FluidView {
-    /// The same for a body that lies in fluid of that viscosity (stress times time), if it is not the exterior fluid.
+    /// View of a body in fluid of that viscosity (stress times time); `None` for the exterior fluid.
     pub(crate) fn in_fluid(&self, viscosity: Option<f64>) -> Cow<'_, Self> {
         match viscosity {
             Some(viscosity) => Cow::Owned(Self { viscosity, ..self.clone() }),
@@ -108,7 +108,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// The fluid as bodies see it.
     fn fluid_view(&self) -> FluidView;
 
-    /// What drives the flow along a channel; by default nothing is said of it.
+    /// Mean pressure gradient or flux that drives the flow along a channel; by default none is stated.
     fn drive(&self) -> Option<Drive> {
         None
     }
@@ -135,8 +135,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// Work done since the start.
     fn work(&self) -> FlowWork;
 
-    /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration
-    /// starts; by default nothing.
+    /// State on which the next evaluation depends besides its arguments, such as the last solution, from which an
+    /// iteration starts; by default nothing.
     fn save(&self) -> SavedState {
         SavedState::default()
     }

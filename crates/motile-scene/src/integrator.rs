@@ -1,4 +1,4 @@
-//! Time steps.
+//! Integrators: advance of the bodies' states by a time step.
 
 mod chebyshev;
 mod error_estimate;
@@ -96,7 +96,7 @@ impl<I: Integrator> From<I> for Box<dyn Integrator> {
 
 /// Advances the state of all bodies by one step.
 pub trait Integrator: Any + std::fmt::Debug + Send {
-    /// What it is called in messages and checkpoints.
+    /// Name in messages and checkpoints.
     fn name(&self) -> &'static str;
 
     /// Advances the states of `system` by `dt` (time): reads them with [`Dynamics::write_state`], computes rates
@@ -112,7 +112,7 @@ pub trait Integrator: Any + std::fmt::Debug + Send {
     /// `dt < interval / r`. No dimension; 2 for the midpoint rule, for which bodies estimate their limits.
     fn stability_interval(&self) -> f64;
 
-    /// Whether bodies are to make their stiff couplings implicit by adding and subtracting a diffusion
+    /// True where bodies are to make their stiff couplings implicit by adding and subtracting a diffusion
     /// ([`crate::body::StepInfo::stabilised`]); an integrator with a long interval of stability does better without.
     fn stabilised(&self) -> bool {
         true

@@ -33,12 +33,11 @@ mod error;
 pub mod gap;
 mod hydrodynamics;
 pub mod integrator;
+pub mod points;
 mod saved_state;
 mod scene;
 
-pub use body::{
-    Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning, mirror_points, read_points, write_points,
-};
+pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{
     BodyFlow, Domain, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers, Substrate,

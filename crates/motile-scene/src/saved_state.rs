@@ -1,4 +1,4 @@
-//! What bodies, integrators and flows keep from step to step, as plain numbers.
+//! States that bodies, integrators and flows keep from step to step, as plain numbers.
 
 use motile_base::{InputError, all_finite, same_length};
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ pub struct Record {
     pub numbers: Vec<f64>,
 }
 
-/// What a saved state of another length is called.
+/// Name of a saved state of another length in messages.
 const FOREIGN: &str = "a saved state, of another body or scene,";
 
 impl SavedState {

@@ -58,21 +58,21 @@ impl<H: Hydrodynamics> Scene<H> {
         }
     }
 
-    /// The same scene, from its present state on, advanced by another integrator: an [`IntegratorKind`] or one of
+    /// Sets the integrator from the present state on (the midpoint rule otherwise): an [`IntegratorKind`] or one of
     /// one's own. Handles stay valid.
     #[must_use]
     pub fn advanced_by(self, integrator: impl Into<Box<dyn Integrator>>) -> Self {
         Self { integrator: integrator.into(), control: StepControl::default(), ..self }
     }
 
-    /// The same scene with a short-range repulsion between interfaces, solids and walls (none by default).
+    /// Adds a short-range repulsion between interfaces, solids and walls (none by default).
     #[must_use]
     pub fn with_repulsion(mut self, repulsion: Repulsion) -> Self {
         self.system.contacts.repulsion = Some(repulsion);
         self
     }
 
-    /// The same scene with a bound on gaps (length): a step after which an interface is closer to another body, to its
+    /// Bounds gaps from below (length): a step after which an interface is closer to another body, to its
     /// own image or to a wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that
     /// they drain as the kernel and not as the fluid has it. By default gaps are measured ([`System::minimum_gap`],
     /// [`System::minimum_wall_gap`]) and only overlaps are errors.
@@ -84,7 +84,7 @@ impl<H: Hydrodynamics> Scene<H> {
         Ok(self)
     }
 
-    /// The same scene, held to be its own mirror image in y = 0 from now on: after each step a body and its mirror
+    /// Holds the scene to be its own mirror image in y = 0 from now on: after each step a body and its mirror
     /// image, which may be itself, are taken to the mean of the two, positions and inner state. An exact solution stays
     /// symmetric; round-off does not where the symmetric path is unstable, and so both paths can be computed. Bodies
     /// that are added later are held as well.
@@ -118,8 +118,8 @@ impl<H: Hydrodynamics> Scene<H> {
         self.system.body_mut(handle)
     }
 
-    /// What is seen of a body in the present state, whose flow is computed if it is not known yet: all observables of
-    /// a droplet, say.
+    /// Observables of a body in the present state, such as those of a droplet; the flow is computed if it is not known
+    /// yet.
     ///
     /// # Errors
     /// [`SceneError::ForeignHandle`] for a handle of another scene; those of the flow and of the body.
@@ -133,7 +133,7 @@ impl<H: Hydrodynamics> Scene<H> {
         &self.system
     }
 
-    /// The same, to evaluate and sample the flow.
+    /// The bodies, the fluid and the time, to evaluate and sample the flow.
     pub fn system_mut(&mut self) -> &mut System<H> {
         &mut self.system
     }
@@ -172,7 +172,7 @@ impl<H: Hydrodynamics> Scene<H> {
         self.least_limit(|_| true)
     }
 
-    /// The same for what is stable alone.
+    /// The largest stable step (time), its reason and its body; see [`Scene::step_limit`].
     pub(crate) fn stable_step(&self) -> Option<(f64, &'static str, &str)> {
         self.least_limit(|cause| cause != StepCause::Accuracy)
     }
@@ -259,13 +259,13 @@ impl<H: Hydrodynamics> Scene<H> {
         self.integrator.as_ref()
     }
 
-    /// How long the steps of runs are unless they are told otherwise.
+    /// Length of the steps of runs that are given no other.
     #[must_use]
     pub fn step_size(&self) -> StepSize {
         self.step_size
     }
 
-    /// The same scene with another step size for its runs (default: half the stability limit).
+    /// Sets the step size of runs (half the stability limit otherwise).
     #[must_use]
     pub fn with_step_size(mut self, step: StepSize) -> Self {
         self.step_size = step;

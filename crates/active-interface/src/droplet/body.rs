@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use motile_base::{Vec2, at_least};
 use motile_scene::{
     Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit, Warning, checkpoint::SavedState,
-    mirror_points,
+    points,
 };
 
 use super::{Account, Inside, MINIMUM_MARKERS, stresslet_error::StressletError};
@@ -93,7 +93,7 @@ impl Body for ActiveDroplet {
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         let (positions, rest) = state.split_at(2 * markers.len());
         let (positions_of_image, rest_of_image) = image.split_at_mut(positions.len());
-        mirror_points(markers, positions, positions_of_image);
+        points::mirror(markers, positions, positions_of_image);
         let (numbers, inside) = rest.split_at(self.particle_numbers().len());
         // Segment k goes from marker k to the next, its image the other way around.
         for (number, first) in numbers.iter().zip(markers.iter().cycle().skip(1)) {

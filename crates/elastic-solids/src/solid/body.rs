@@ -5,7 +5,7 @@ use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepLimit,
     checkpoint::SavedState,
     gap::{SurfaceCurve, SurfacePoint},
-    mirror_points,
+    points,
 };
 
 use crate::{Solid, SolidError, skin::Skin};
@@ -80,7 +80,7 @@ impl Body for Solid {
     }
 
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
-        mirror_points(markers, state, image);
+        points::mirror(markers, state, image);
         true
     }
 

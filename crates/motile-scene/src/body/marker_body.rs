@@ -2,10 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::{
-    Body, BodyError, FluidView, MarkerKind,
-    body::{StepLimit, mirror_points, read_points, write_points},
-};
+use crate::{Body, BodyError, FluidView, MarkerKind, body::StepLimit, points};
 use motile_base::{InputError, Vec2, all_points_finite, not_negative};
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.
@@ -74,22 +71,22 @@ impl MarkerBody {
         Self { name, kind: MarkerKind::Points, positions, rates: Vec::new(), forces, motion: None, stiffness: None }
     }
 
-    /// The same body as an interface or other kind of markers.
+    /// Sets the kind of the markers (points otherwise).
     #[must_use]
     pub fn with_kind(mut self, kind: MarkerKind) -> Self {
         self.kind = kind;
         self
     }
 
-    /// The same body whose markers move as `motion` has it: from positions (length) and velocities of the fluid there
-    /// (length per time) it writes how they move (length per time; the velocities of the fluid before the call).
+    /// Sets how the markers move (with the fluid otherwise): from positions (length) and velocities of the fluid there
+    /// (length per time) `motion` writes their velocities (length per time; those of the fluid before the call).
     #[must_use]
     pub fn with_motion(mut self, motion: impl FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send + 'static) -> Self {
         self.motion = Some(Box::new(motion));
         self
     }
 
-    /// The same body with a bound on the time step for forces that change by at most `stiffness` (force per length)
+    /// Bounds the time step for forces that change by at most `stiffness` (force per length)
     /// times a displacement, both as root sums of squares over the markers: k for markers that are each tethered by a
     /// spring k, 4k for a chain of such springs.
     ///
@@ -105,13 +102,13 @@ impl MarkerBody {
         Ok(self)
     }
 
-    /// Where the markers are (length).
+    /// Positions of the markers (length).
     #[must_use]
     pub fn positions(&self) -> &[Vec2] {
         &self.positions
     }
 
-    /// The same, to be moved between steps.
+    /// Positions of the markers (length), to be changed between steps.
     pub fn positions_mut(&mut self) -> &mut [Vec2] {
         &mut self.positions
     }
@@ -160,11 +157,11 @@ impl Body for MarkerBody {
     }
 
     fn write_state(&self, state: &mut [f64]) {
-        write_points(&self.positions, state);
+        points::write(&self.positions, state);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        read_points(state, &mut self.positions)
+        points::read(state, &mut self.positions)
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
@@ -173,11 +170,11 @@ impl Body for MarkerBody {
         if let Some(motion) = &mut self.motion {
             motion(&self.positions, velocities, &mut self.rates);
         }
-        write_points(&self.rates, rate);
+        points::write(&self.rates, rate);
     }
 
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
-        mirror_points(markers, state, image);
+        points::mirror(markers, state, image);
         true
     }
 

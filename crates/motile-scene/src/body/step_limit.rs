@@ -1,6 +1,6 @@
 //! Bounds on the time step.
 
-/// What a bound on the time step comes from.
+/// Origin of a bound on the time step, which decides how the bound depends on the integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StepCause {
@@ -12,10 +12,10 @@ pub enum StepCause {
         /// The bound without the stabiliser (time).
         bare: f64,
     },
-    /// Something that is carried along, which no integrator here allows longer steps for.
+    /// Transport with the flow, for which no integrator here allows longer steps.
     Transport,
-    /// Something that longer steps do not follow: steps of a part of the limit and adaptive ones keep it, fixed ones
-    /// may be longer.
+    /// A change that longer steps do not resolve: steps of a part of the limit and adaptive ones keep the bound, fixed
+    /// ones may be longer.
     Accuracy,
 }
 
@@ -27,9 +27,9 @@ pub enum StepCause {
 pub struct StepLimit {
     /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.
     pub dt: f64,
-    /// What sets it, as it reads after "set by".
+    /// Reason, as it reads after "set by".
     pub reason: &'static str,
-    /// How it depends on the integrator.
+    /// Origin.
     pub cause: StepCause,
 }
 

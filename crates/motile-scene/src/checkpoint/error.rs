@@ -1,4 +1,4 @@
-//! What can be wrong with a checkpoint on disk.
+//! Errors of checkpoints on disk.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -13,15 +13,15 @@ pub enum CheckpointError {
         path.display()
     )]
     File {
-        /// What was tried.
+        /// Attempt, as it reads after "could not".
         action: &'static str,
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why it failed.
+        /// Cause.
         source: std::io::Error,
     },
     /// No file at this path.
-    #[error("there is no checkpoint at {}", path.display())]
+    #[error("there is no checkpoint at {}: check the path", path.display())]
     Missing {
         /// The path.
         path: PathBuf,
@@ -33,13 +33,13 @@ pub enum CheckpointError {
         path: PathBuf,
     },
     /// A file that may not be read.
-    #[error("there is no permission to read the checkpoint {}", path.display())]
+    #[error("there is no permission to read the checkpoint {}: change its permissions", path.display())]
     Permission {
         /// The path.
         path: PathBuf,
     },
     /// Something else than a checkpoint.
-    #[error("this is not a checkpoint: it does not start as one does")]
+    #[error("this is not a checkpoint, since it does not start as one does: give the path of one")]
     Foreign,
     /// A checkpoint of another version of the format.
     #[error(

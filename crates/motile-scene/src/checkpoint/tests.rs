@@ -1,7 +1,7 @@
 use super::*;
 use crate::hydrodynamics::drag_box::DragBox;
 
-/// What is wrong here comes to light only after the flow has taken its state over.
+/// The fault comes to light only after the flow has taken its state over.
 #[test]
 fn a_refusal_leaves_the_flow_as_it_was() {
     let mut scene = Scene::new(DragBox::new(4.0, 1.0, 0.25));
@@ -21,8 +21,11 @@ fn a_refusal_leaves_the_flow_as_it_was() {
 fn what_keeps_a_file_from_being_read_is_told() {
     use std::io::ErrorKind;
     let told = |kind: ErrorKind| CheckpointError::reading(std::path::Path::new("a/b"), kind.into()).to_string();
-    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b");
-    assert_eq!(told(ErrorKind::PermissionDenied), "there is no permission to read the checkpoint a/b");
+    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b: check the path");
+    assert_eq!(
+        told(ErrorKind::PermissionDenied),
+        "there is no permission to read the checkpoint a/b: change its permissions"
+    );
     assert!(told(ErrorKind::IsADirectory).starts_with("a/b is a directory"));
     assert!(told(ErrorKind::Other).starts_with("could not read the checkpoint a/b"));
 }

@@ -105,7 +105,7 @@ impl Boundary {
         self.tree.clear();
     }
 
-    /// Whether there are no sides.
+    /// True without sides.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.sides.is_empty()
@@ -147,7 +147,7 @@ impl Boundary {
         self.distance_within(point, periods, f64::INFINITY).unwrap_or(f64::INFINITY)
     }
 
-    /// The same if it is below `reach` (length).
+    /// The signed distance if its magnitude is below `reach` (length); see [`Boundary::distance`].
     pub(crate) fn distance_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
         self.nearest_within(point, periods, reach).map(|found| found.distance())
     }

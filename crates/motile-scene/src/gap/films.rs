@@ -34,7 +34,7 @@ pub(crate) struct Films {
     energies: Vec<f64>,
 }
 
-/// What is close in a scene: its region, its rigid walls of other shapes, and the interface that each body lies in.
+/// Surroundings of the bodies: the region, its rigid walls of other shapes, and the interface that each body lies in.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) domain: Domain,
@@ -193,7 +193,7 @@ impl Surfaces {
 }
 
 impl Contact {
-    /// What it counts for.
+    /// Part of its gap that a contact counts for: gaps between two surfaces are measured both ways.
     fn share(&self) -> f64 {
         if self.ends.is_some() { 0.5 } else { 1.0 }
     }

@@ -21,11 +21,11 @@ pub struct Overlap {
     pub body: usize,
     /// The earlier one.
     pub other: usize,
-    /// Where it is deepest (length).
+    /// Place where it is deepest (length).
     pub place: Vec2,
-    /// How deep (length).
+    /// Depth (length).
     pub depth: f64,
-    /// What is allowed (length).
+    /// Depth that is allowed (length).
     pub allowed: f64,
 }
 
@@ -125,7 +125,7 @@ impl Surfaces {
 }
 
 impl Boundary {
-    /// Whether the body lies inside another one, or inside one of its images: most of its corners do, some of them
+    /// True where the body lies inside another one, or inside one of its images: most of its corners do, some of them
     /// deeper than `film` (length).
     pub(super) fn lies_in(&self, outer: &Self, periods: [Option<f64>; 2], film: f64) -> bool {
         let [Some(small), Some(large)] = [self, outer].map(Self::frame) else { return false };

@@ -85,7 +85,7 @@ impl Repulsion {
         0.25 * self.strength * self.range * x * slope(x) / viscosity
     }
 
-    /// The same of films as they are where a moderate pressure is held.
+    /// That rate (1/time) at the gap of 0.7 ranges, where films hold a moderate pressure.
     pub(crate) fn usual_rate(&self, viscosity: f64) -> f64 {
         self.rate(0.7 * self.range, viscosity)
     }

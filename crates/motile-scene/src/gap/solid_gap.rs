@@ -39,7 +39,7 @@ pub struct SolidGap {
 pub struct SolidEntered {
     /// Name of the interface.
     pub interface: String,
-    /// Whether it was there before the first step.
+    /// True before the first step.
     pub at_start: bool,
     /// Number of the marker.
     pub marker: usize,
@@ -49,7 +49,7 @@ pub struct SolidEntered {
     pub y: f64,
     /// How deep it is (length).
     pub depth: f64,
-    /// What is allowed (length).
+    /// Depth that is allowed (length).
     pub allowed: f64,
 }
 

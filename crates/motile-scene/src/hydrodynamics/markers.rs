@@ -6,7 +6,7 @@ use crate::gap::SurfaceCurve;
 use motile_base::{InputError, Vec2, positive, within};
 use stokes_layers::Interface;
 
-/// What a group of markers is, as far as the flow is concerned.
+/// Kind of a group of markers, which decides how the flow treats it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MarkerKind {
@@ -28,7 +28,7 @@ pub enum MarkerKind {
 }
 
 impl MarkerKind {
-    /// Whether the markers are those of a closed curve.
+    /// True for the markers of a closed curve.
     #[must_use]
     pub fn is_closed_curve(&self) -> bool {
         *self != Self::Points
@@ -48,7 +48,7 @@ impl MarkerKind {
         }
     }
 
-    /// Whether the markers are those of a closed curve with fluid inside, in which other bodies may lie.
+    /// True for the markers of a closed curve with fluid inside, in which other bodies may lie.
     #[must_use]
     pub fn holds_fluid(&self) -> bool {
         matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. })
@@ -58,9 +58,9 @@ impl MarkerKind {
 /// The markers of one body within [`Markers`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerGroup {
-    /// Which entries of the flat arrays.
+    /// Entries of the body in the flat arrays.
     pub range: Range<usize>,
-    /// What they are.
+    /// Kind of the markers.
     pub kind: MarkerKind,
     /// The surface of the body.
     pub surfaces: Vec<SurfaceCurve>,
@@ -75,7 +75,7 @@ impl MarkerGroup {
         self.surfaces.iter().filter(|curve| curve.markers().count() == curve.points.len())
     }
 
-    /// It as an interface of layers, where the viscosity of the exterior fluid is `exterior`.
+    /// The group as an interface of layers, where the viscosity of the exterior fluid is `exterior`.
     #[must_use]
     pub fn interface<'a>(&self, positions: &'a [Vec2], forces: &'a [Vec2], exterior: f64) -> Interface<'a> {
         let (positions, forces) = (&positions[self.range.clone()], &forces[self.range.clone()]);
@@ -142,7 +142,7 @@ impl Markers {
         Ok(())
     }
 
-    /// The same for the groups in their order.
+    /// Sets the viscosities outside of all groups in their order ([`Markers::set_viscosity_outside`]).
     pub(crate) fn set_outside(&mut self, viscosities: &[Option<f64>]) {
         for (group, viscosity) in self.groups.iter_mut().zip(viscosities) {
             group.viscosity_outside = *viscosity;
@@ -167,7 +167,7 @@ impl Markers {
         &self.positions
     }
 
-    /// The positions to be changed.
+    /// Positions (length), to be changed.
     pub fn positions_mut(&mut self) -> &mut [Vec2] {
         &mut self.positions
     }
@@ -178,7 +178,7 @@ impl Markers {
         &self.forces
     }
 
-    /// The forces to be changed.
+    /// Forces on the fluid (force), to be changed.
     pub fn forces_mut(&mut self) -> &mut [Vec2] {
         &mut self.forces
     }
@@ -189,7 +189,7 @@ impl Markers {
         &self.velocities
     }
 
-    /// The velocities to be changed.
+    /// Velocities (length per time), to be changed.
     pub fn velocities_mut(&mut self) -> &mut [Vec2] {
         &mut self.velocities
     }
@@ -211,7 +211,7 @@ impl Markers {
         self.positions.len()
     }
 
-    /// Whether there are none.
+    /// True without markers.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()

@@ -101,15 +101,15 @@ impl RungeKuttaChebyshev {
         Self::default()
     }
 
-    /// The same with at most this many stages a step (2 to 200; others are taken as the nearest of these). Runs shorten
-    /// their steps where more would be needed.
+    /// The method with at most this many stages a step (2 to 200; others are taken as the nearest of these). Runs
+    /// shorten their steps where more would be needed.
     #[must_use]
     pub fn with_most_stages(mut self, stages: usize) -> Self {
         self.most_stages = stages.clamp(2, 200);
         self
     }
 
-    /// The same with another way of estimating the spectral radius.
+    /// The method with another estimate of the spectral radius.
     #[must_use]
     pub fn with_estimate(mut self, estimate: SpectralEstimate) -> Self {
         self.estimate = estimate;

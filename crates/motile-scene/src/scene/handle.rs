@@ -1,14 +1,14 @@
-//! How a body of a scene is found again.
+//! Handles of the bodies of a scene.
 
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Which scene a handle is of; every scene of a process has its own.
+/// Number of a scene, unique in a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct SceneId(u64);
 
 impl SceneId {
-    /// One that no other scene has.
+    /// A number that no other scene has.
     pub(crate) fn unique() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
@@ -47,7 +47,7 @@ impl<B: ?Sized> Handle<B> {
         Self { scene, index, body: PhantomData }
     }
 
-    /// The same body, seen as another type.
+    /// Handle of the body as one of another type.
     pub(crate) fn cast<C: ?Sized>(self) -> Handle<C> {
         Handle::new(self.scene, self.index)
     }

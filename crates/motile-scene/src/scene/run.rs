@@ -27,7 +27,7 @@ where
     }
 }
 
-/// When an observer is called.
+/// Times at which an observer is called.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Every {
@@ -53,7 +53,7 @@ struct Watch<'a, H> {
 const MOST_STEPS: f64 = 1e10;
 /// Most reports of an observer at exact times.
 const MOST_REPORTS: f64 = 1e7;
-/// What of an interval is round-off of the summed steps.
+/// Part of an interval that is taken for round-off of the summed steps.
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl Every {

@@ -1,11 +1,11 @@
-//! How long steps are, and what made them so.
+//! Lengths of steps, and the reasons for them.
 
 use motile_base::{InputError, positive, within};
 use serde::{Deserialize, Serialize};
 
 use crate::saved_state::SavedState;
 
-/// How long the steps of a run are.
+/// Length of the steps of a run.
 ///
 /// Errors are of second order in the step, but for two parts that a swimmer has under the midpoint rule: its stabiliser
 /// (orders of 1.5 to 1.9 where steps are longer than the marker spacing squared over its diffusivity, and two below)
@@ -54,7 +54,7 @@ impl Default for StepSize {
     }
 }
 
-/// What the length of steps was set by, and how often.
+/// A reason for the length of steps, and the number of steps that it applied to.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Limiting {
@@ -81,12 +81,12 @@ pub struct StepReport {
     pub shortest: f64,
     /// The longest step (time).
     pub longest: f64,
-    /// What set the lengths, in the order of first occurrence.
+    /// Reasons for the lengths, in the order of first occurrence.
     pub limiting: Vec<Limiting>,
 }
 
 impl StepReport {
-    /// What set the length of most steps.
+    /// Reason for the length of most steps.
     #[must_use]
     pub fn most_limiting(&self) -> Option<&Limiting> {
         self.limiting.iter().max_by_key(|limiting| limiting.steps)
@@ -120,11 +120,11 @@ const RETREAT: f64 = 0.25;
 /// step is extrapolated from how it changed).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct StepControl {
-    /// What accuracy allows for the next step (time); 0 before the first.
+    /// Length that accuracy allows for the next step (time); 0 before the first.
     pub(crate) next: f64,
     /// Length and error of the last accepted step; 0 where there is none.
     last: [f64; 2],
-    /// Whether the last attempt was rejected.
+    /// True after an attempt that was rejected.
     retreated: bool,
 }
 

@@ -71,6 +71,7 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
+    /// Adds a body.
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
         let handle = self.bodies.push(body);
         self.clock.first_step = true;
@@ -104,7 +105,7 @@ impl<H: Hydrodynamics> System<H> {
         self.record_gap();
     }
 
-    /// What computes the flow.
+    /// Method that computes the flow.
     #[must_use]
     pub fn hydrodynamics(&self) -> &H {
         &self.hydrodynamics
@@ -117,7 +118,7 @@ impl<H: Hydrodynamics> System<H> {
         &self.bodies.markers
     }
 
-    /// What the last evaluation needed and found.
+    /// Iterations, residual and mean pressure gradient of the last evaluation.
     #[must_use]
     pub fn report(&self) -> &SolveReport {
         &self.report
@@ -142,7 +143,7 @@ impl<H: Hydrodynamics> System<H> {
         self.findings.records.entry(name.to_owned()).or_default()
     }
 
-    /// What the scene is made of, besides its bodies and its domain.
+    /// Parameters of the scene besides its bodies and its domain, by their names.
     pub(crate) fn properties(&self) -> Vec<(String, f64)> {
         let view = self.hydrodynamics.fluid_view();
         let mut properties = vec![("the exterior viscosity", view.viscosity)];
@@ -161,13 +162,13 @@ impl<H: Hydrodynamics> System<H> {
         properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether [`System::markers`] holds the flow of the present state.
+    /// True where [`System::markers`] holds the flow of the present state.
     #[must_use]
     pub fn is_evaluated(&self) -> bool {
         self.known == Known::Flow
     }
 
-    /// Whether bodies have been put in or changed since the last step.
+    /// True where bodies have been put in or changed since the last step.
     pub(crate) fn is_unmoved(&self) -> bool {
         self.clock.first_step
     }
@@ -263,7 +264,7 @@ impl<H: Hydrodynamics> System<H> {
         self.contacts.each_limit(&self.bodies, view.viscosity, each);
     }
 
-    /// What is known of the flow is not of the bodies' present state any more.
+    /// Forgets the flow: the bodies have another state.
     fn forget_flow(&mut self) {
         self.known = self.known.min(Known::Bodies);
     }

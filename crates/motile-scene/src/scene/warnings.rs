@@ -1,4 +1,4 @@
-//! What a user should know of a run though it goes on.
+//! Warnings of a run: doubts about the accuracy of its states.
 
 use super::{Observer, System};
 use crate::{Hydrodynamics, Warning};

@@ -1,4 +1,4 @@
-//! How near the bodies come to one another and to walls.
+//! Gaps between the bodies of a system and to walls: measured, checked and recorded.
 
 use std::borrow::Cow;
 
@@ -12,7 +12,8 @@ use motile_base::{Drive, Vec2};
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
 const RESOLVED_CELLS: f64 = 1.0;
-/// The same in channels of given flux: what a droplet displaces has to pass it, and slow swimmers err by more.
+/// Narrowest films of that accuracy in channels of given flux: the fluid that a droplet displaces has to pass it, and
+/// slow swimmers err by more.
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 
@@ -94,8 +95,7 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
-    /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
-    /// that the method does not resolve.
+    /// Doubts about the accuracy of the present state: those of the bodies, and films that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
         if self.known < Known::Apart {
             // No step has looked at the gaps of this state.

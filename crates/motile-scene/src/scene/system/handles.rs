@@ -80,7 +80,7 @@ impl<H: Hydrodynamics> System<H> {
         Ok(self.hydrodynamics.fluid_view().in_fluid(outside).into_owned())
     }
 
-    /// What is seen of a body in the present state, whose flow is computed if it is not known yet.
+    /// Observables of a body in the present state, whose flow is computed if it is not known yet.
     ///
     /// # Errors
     /// [`SceneError::ForeignHandle`]; those of [`System::evaluate`] and of [`Observe::observables`].
