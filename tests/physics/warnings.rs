@@ -2,10 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use motile::active_interface::Flux;
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::motile_scene::{Every, Warnings};
-use motile::setup::{Built, DropletSetup, DropletShape, GridMethod, Method, Particles, Setup};
+use motile::setup::{
+    Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Particles, Setup, SolidOutline, WallSetup,
+};
 
 /// The causes that a run of `setup` warns of, in the order of their names.
 fn causes(setup: &Setup, time: f64) -> Vec<String> {
@@ -37,6 +40,52 @@ fn what_is_resolved_gives_no_warning() {
     assert!(causes(&Setup::default(), 1.0).is_empty());
     assert!(causes(&Setup { method: grid(0.05), ..Setup::default() }, 1.0).is_empty());
     assert!(causes(&channel(3.0, Method::default(), -2.0), 1.0).is_empty());
+    // Programs of the README and the guide.
+    let guide = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+    assert!(causes(&Setup { method: guide, ..Setup::default() }, 2.0).is_empty());
+    let region = Region::Channel { length: 12.0, width: 3.0, drive: Drive::Flux(-0.3) };
+    assert!(causes(&Setup { region, ..channel(3.0, guide, -3.0) }, 1.0).is_empty());
+    let droplets = [(-1.5, -3.0, None), (1.5, -2.0, Some(1000.0))].map(|(x, activity, viscosity)| DropletSetup {
+        centre: [x, 0.0],
+        viscosity,
+        ..DropletSetup::active(activity)
+    });
+    let region = Region::Box { lengths: [8.0, 6.0] };
+    assert!(causes(&Setup { region, method: guide, droplets: droplets.into(), ..Setup::default() }, 1.0).is_empty());
+}
+
+/// Settings of first order, few nodes and sharp corners cost a per cent and more without a word from the solution.
+#[test]
+fn settings_that_cost_a_per_cent_are_told() {
+    let integral = |nodes| Method::Integral(IntegralMethod { nodes, cells: 300 });
+    let of = |method| Setup { method, ..Setup::default() };
+    assert_eq!(causes(&of(integral(16)), 0.1), ["shape not resolved"]);
+    assert!(causes(&of(integral(24)), 0.1).is_empty());
+    let mut upwind = of(integral(24));
+    upwind.droplets[0].particles = Some(Particles { flux: Flux::Upwind, ..Particles::default() });
+    assert_eq!(causes(&upwind, 0.1), ["edge of the concentration smeared"]);
+    let uncorrected = of(Method::Grid(GridMethod::uncorrected(0.05)));
+    assert_eq!(but_stresslets(&uncorrected, 0.1), ["interfaces smeared over the grid"]);
+    let corners = vec![[2.0, -0.5], [2.5, -0.5], [2.5, 0.5], [2.0, 0.5]];
+    let outline = SolidOutline::Polygon { corners, rounding: 0.0 };
+    for (rounding, expected) in [(0.0, &["corners not resolved"][..]), (0.125, &[])] {
+        let walls = vec![WallSetup { outline: outline.clone(), spacing: 0.1, rounding }];
+        let setup = Setup { walls, ..channel(6.0, integral(24), -1.0) };
+        assert_eq!(causes(&setup, 0.05), expected, "{rounding}");
+    }
+    let round = SolidOutline::Disc { centre: [2.0, 0.0], radius: 0.3 };
+    let walls = vec![WallSetup { outline: round, spacing: 0.1, rounding: 0.0 }];
+    assert!(causes(&Setup { walls, ..channel(6.0, integral(24), -1.0) }, 0.05).is_empty());
+}
+
+/// A value beyond its limit is not written as the limit.
+#[test]
+fn messages_tell_values_from_their_limits() {
+    let droplet = DropletSetup::passive(10.0).with_radius(0.499);
+    let setup = Setup { droplets: vec![droplet], method: grid(0.1), ..Setup::default() };
+    let warnings = setup.build().unwrap().scene.system_mut().warnings();
+    let said = &warnings[0].message;
+    assert!(said.starts_with("its radius is 0.499 (length), below 0.5, 5 grid spacings"), "{said}");
 }
 
 #[test]

@@ -17,7 +17,9 @@ pub use positivity::Repair;
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Flux {
-    /// The concentration of the segment upstream (first order; smears the edge of the concentration).
+    /// Concentration of the segment upstream: of first order, it smears the edge of the concentration. The speed of a
+    /// swimmer in a 6 x 6 box with 192 cells is 2.9, 4.6 and 6.6 per cent too high at activities of -2, -3 and -4, with
+    /// 288 cells 2.0, 3.4 and 4.8 per cent; runs warn of it.
     Upwind,
     /// Weighted essentially non-oscillatory reconstruction from five segments, two of them downstream: fifth order
     /// where the concentration is smooth, without oscillations where it is not (Jiang and Shu 1996, with the weights of

@@ -145,6 +145,21 @@ impl RigidWall {
         Ok(self)
     }
 
+    /// Largest angle by which the wall turns within the distance of its nodes (radians): what nodes do not resolve is
+    /// as sharp as a corner.
+    pub(crate) fn sharpest_turn(&self) -> f64 {
+        let count = self.points.len();
+        let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
+        let turn = |k: usize| (at(k + 1) - at(k)).angle_to(at(k + 2) - at(k + 1));
+        // Within one node's distance, and no less than one turn.
+        let within = (count / self.nodes).max(1);
+        let mut sum: f64 = (0..within).map(turn).sum();
+        (0..count).fold(sum.abs(), |largest, k| {
+            sum += turn(k + within) - turn(k);
+            largest.max(sum.abs())
+        })
+    }
+
     /// The wall as a curve of layers.
     pub(crate) fn curve(&self) -> LayerCurve<'_> {
         LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }

@@ -1,4 +1,4 @@
-//! Errors as sentences.
+//! Errors as sentences, and numbers in them.
 
 use std::error::Error;
 
@@ -15,6 +15,23 @@ pub fn explanation(error: &dyn Error) -> String {
         source = cause.source();
     }
     told
+}
+
+/// Two numbers as text of three digits, or of as many more as it takes to tell them apart.
+///
+/// ```
+/// assert_eq!(motile_base::told_apart([0.350_02, 0.35]), ["0.35002", "0.35"]);
+/// assert_eq!(motile_base::told_apart([1.01, 5.0]), ["1.01", "5"]);
+/// ```
+#[must_use]
+pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
+    let text = |digits: usize, value: f64| {
+        let short = format!("{value:.digits$e}");
+        let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
+        short.parse::<f64>().ok().filter(|_| plain).map_or(short, |value| value.to_string())
+    };
+    let mut texts = (2..17).map(|digits| pair.map(|value| text(digits, value)));
+    texts.find(|[one, other]| one != other).unwrap_or_else(|| pair.map(|value| value.to_string()))
 }
 
 /// Implements `Debug` of errors as their [`explanation()`]: what `fn main() -> Result<(), Box<dyn Error>>` prints is

@@ -61,7 +61,7 @@ mod vec2;
 
 pub use complex::ComplexTransform;
 pub use drive::Drive;
-pub use explanation::explanation;
+pub use explanation::{explanation, told_apart};
 pub use flow::{FlowSample, SolveReport};
 pub use input::{
     InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};
 use serde::{Deserialize, Serialize};
 
-use crate::{FlowError, gap::Boundary, saved_state::SavedState};
+use crate::{FlowError, Warning, gap::Boundary, saved_state::SavedState};
 
 /// Extents, periods and straight walls of the region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -135,6 +135,11 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// Work done since the start.
     fn work(&self) -> FlowWork;
 
+    /// Settings of the flow with which results may be off by more than a per cent; by default none.
+    fn warnings(&self) -> Vec<Warning> {
+        Vec::new()
+    }
+
     /// State on which the next evaluation depends besides its arguments, such as the last solution, from which an
     /// iteration starts; by default nothing.
     fn save(&self) -> SavedState {
@@ -169,6 +174,10 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn work(&self) -> FlowWork {
         self.as_ref().work()
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.as_ref().warnings()
     }
 
     fn save(&self) -> SavedState {

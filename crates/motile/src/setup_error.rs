@@ -1,4 +1,4 @@
-//! What keeps a scene from being set up.
+//! Errors of descriptions, from which no scene can be built.
 
 use active_interface::InterfaceError;
 use boundary_integral::LayerError;
@@ -11,101 +11,103 @@ use stokes_grid::StokesError;
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// The grid or the solver.
+    /// Error of the grid or the Stokes solver.
     #[error(transparent)]
     Stokes(#[from] StokesError),
-    /// The droplet.
+    /// Error of a droplet's curve or particles.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
-    /// The coupling.
+    /// Error of the coupling of markers and fluid.
     #[error(transparent)]
     Flow(#[from] FlowError),
-    /// The bodies together.
+    /// Error of the scene as a whole.
     #[error(transparent)]
     Scene(#[from] motile_scene::SceneError),
-    /// The boundary integrals.
+    /// Error of the boundary integrals.
     #[error(transparent)]
     BoundaryIntegral(#[from] LayerError),
-    /// The elastic walls.
+    /// Error of an elastic solid, its outline or its mesh.
     #[error(transparent)]
     Solid(#[from] SolidError),
-    /// What fills droplets.
+    /// Error of a gel or of particles that fill a droplet.
     #[error(transparent)]
     Interior(#[from] InteriorError),
-    /// A value that makes no scene.
+    /// Value out of its range, or one that does not fit the rest of the description.
     #[error("{key} = {value}: {remedy}")]
     Value {
-        /// Where it stands in the description.
+        /// Key of the value, with those of the entries that it is in: `droplets[0].tension`.
         key: String,
-        /// What it is.
+        /// The value.
         value: String,
-        /// What to give instead, and why.
+        /// Remedy: the value to give instead, and the reason.
         remedy: String,
     },
-    /// What is wrong with an entry of the description.
+    /// Error in an entry of one of the description's lists.
     #[error("{key}: {source}")]
     Entry {
-        /// Where it stands in the description, with its name if it has one of its own.
+        /// Key of the entry in the description, with its name if it has one.
         key: String,
-        /// What is wrong with it.
+        /// Error of the entry.
         source: Box<Self>,
     },
-    /// A body that the region does not hold beside its images.
+    /// Body too large for the region and its periodic images.
     #[error(
         "a region of {length} x {width} does not hold it: move it to the middle, make it smaller, or give a longer or \
-         wider region"
+         wider region{hint}"
     )]
     NoRoom {
-        /// Length of the region in x.
+        /// Length of the region in x (length).
         length: f64,
-        /// Length of the region in y, or distance of its walls.
+        /// Length of the region in y, or distance of its walls (length).
         width: f64,
+        /// Quantities that do not seem to be in the same units, if there are any.
+        hint: String,
     },
-    /// A scene file that cannot be understood.
+    /// Scene file that is not TOML or has unknown keys.
     #[error("the scene file is not understood: {problem}")]
     File {
-        /// The line and what is wrong with it.
+        /// Line of the file, and the problem there.
         problem: String,
     },
-    /// A body that starts inside another one, or where another one is.
+    /// Body that starts inside another one, or where another one is.
     #[error(
         "{key} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move them apart or make \
          one of them smaller"
     )]
     Overlap {
-        /// Where it stands in the description, with its name if it has one of its own.
+        /// Key of the entry in the description, with its name if it has one.
         key: String,
-        /// The same of the other body.
+        /// Key of the other body, with its name if it has one.
         other: String,
-        /// Where, in x.
+        /// Place of the contact in x (length).
         x: f64,
-        /// Where, in y.
+        /// Place of the contact in y (length).
         y: f64,
-        /// How deep (length).
+        /// Depth of the overlap (length).
         depth: f64,
-        /// How deep it may be (length).
+        /// Depth that is allowed (length).
         allowed: f64,
     },
-    /// A droplet that starts in touch with another one, or with its own image.
+    /// Droplet that starts in touch with another one, or with its own image.
     #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a film of fluid between them")]
     Touch {
-        /// Where it stands in the description, with its name if it has one of its own.
+        /// Key of the entry in the description, with its name if it has one.
         key: String,
-        /// The same of the other droplet.
+        /// Key of the other droplet, with its name if it has one.
         other: String,
-        /// Where, in x.
+        /// Place of the contact in x (length).
         x: f64,
-        /// Where, in y.
+        /// Place of the contact in y (length).
         y: f64,
     },
-    /// An error that no settings were measured for.
+    /// Target error that no settings were measured for.
     #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
     TargetError {
-        /// The error asked for (no dimension).
+        /// Relative error asked for (no dimension).
         target: f64,
-        /// The smallest that was measured.
+        /// Smallest error that was measured.
         smallest: f64,
-        /// The largest that is given settings for.
+        /// Largest error that settings are given for.
         largest: f64,
     },
 }
@@ -113,7 +115,7 @@ pub enum SetupError {
 motile_base::debug_as_explanation!(SetupError);
 
 impl SetupError {
-    /// The same with the place of what it is about, unless it says so itself.
+    /// Error with the key of the entry that it is about, unless it names it itself.
     pub(crate) fn of(self, key: &str) -> Self {
         match self {
             Self::Value { .. } | Self::Entry { .. } => self,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{Vec2, at_least};
+use motile_base::{Vec2, at_least, told_apart};
 use motile_scene::{
     Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit, Warning, checkpoint::SavedState,
     points,
@@ -198,7 +198,12 @@ impl Body for ActiveDroplet {
         let radius = self.interface.geometry().perimeter / TAU;
         let least = grid_spacing(view).map(|h| LEAST_RADIUS * h).filter(|least| radius < *least);
         let coarse = least.map(|least| {
-            let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
+            let [text, least_text] = told_apart([radius, least]);
+            let message = format!(
+                "its radius is {text} (length), below {least_text}, {LEAST_RADIUS} grid spacings: its speed may be off by \
+                 a per cent and more; use a spacing of {:.2e} or less",
+                radius / LEAST_RADIUS
+            );
             ("droplet not resolved", least / radius, message)
         });
         let stresslet = self.stresslet_error(view).filter(|found| found.excess > 1.0).map(|found| {
@@ -213,7 +218,7 @@ impl Body for ActiveDroplet {
             let (body, cause) = (self.name.clone(), cause.into());
             Warning { body, cause, excess, message }
         };
-        self.interface.warnings().chain(coarse).chain(stresslet).map(warning).collect()
+        self.interface.warnings(view).chain(coarse).chain(stresslet).map(warning).collect()
     }
 
     fn save(&self) -> SavedState {

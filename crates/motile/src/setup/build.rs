@@ -46,7 +46,7 @@ impl Setup {
     /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
     ///
     /// # Errors
-    /// What [`Setup::check`] refuses; before anything is meshed, bodies that do not fit into the region or overlap one
+    /// Errors of [`Setup::check`]; before anything is meshed, bodies that do not fit into the region or overlap one
     /// another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]); shapes that
     /// cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
@@ -130,7 +130,7 @@ impl Setup {
         })
     }
 
-    /// How many markers the outline of a body has.
+    /// Number of markers of a body's outline.
     pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         Ok(match &self.method {
             Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
@@ -200,7 +200,7 @@ impl Setup {
         }))
     }
 
-    /// Whether there is fluid of another viscosity than the exterior one.
+    /// True if there is fluid of another viscosity than the exterior one.
     pub(super) fn has_contrast(&self) -> bool {
         let inside = self.droplets.iter().map(|droplet| droplet.viscosity);
         let mut inside = inside.chain(self.shells.iter().map(|shell| shell.viscosity));
@@ -239,7 +239,7 @@ impl Setup {
         }
         let half_height = room - FILM * radius;
         if half_height <= FLATTEST * radius {
-            return Err(SetupError::NoRoom { length, width });
+            return Err(SetupError::NoRoom { length, width, hint: self.mixed_units(droplet) });
         }
         Ok(DropletShape::Squeezed { radius, half_height, to })
     }

@@ -1,13 +1,16 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
-use motile_base::{Region, Vec2};
+use motile_base::{Region, Vec2, told_apart};
 use motile_scene::{
     Hydrodynamics,
     gap::{Overlap, Surfaces},
 };
 
-use super::{AnyFlow, Setup, body::Planned};
+use super::{AnyFlow, DropletSetup, DropletShape, Particles, Setup, body::Planned};
 use crate::SetupError;
+
+/// Ratio of a radius to that of the defaults from which the units are likely to be others.
+const MIXED: f64 = 3.0;
 
 impl Setup {
     /// Refuses bodies that reach beyond the region, overlap their own images, or lie in one another as they
@@ -16,7 +19,7 @@ impl Setup {
         let view = &flow.fluid_view();
         for (number, Planned { corners, .. }) in bodies.iter().enumerate() {
             let key = self.key(number);
-            self.fits(&key, corners)?;
+            self.fits(number, corners)?;
             self.check_walls(&key, corners, flow)?;
         }
         let surfaces = Surfaces::of(bodies.iter().map(|Planned { boundary, kind, .. }| (boundary.clone(), *kind)));
@@ -40,7 +43,7 @@ impl Setup {
     }
 
     /// Refuses a body that reaches beyond the region or overlaps its own images, by the corners of its boundary.
-    fn fits(&self, key: &str, corners: &[Vec2]) -> Result<(), SetupError> {
+    fn fits(&self, body: usize, corners: &[Vec2]) -> Result<(), SetupError> {
         if corners.is_empty() {
             return Ok(());
         }
@@ -55,6 +58,39 @@ impl Setup {
             Region::Box { .. } => extent.x < length && extent.y < width,
             Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
         };
-        if fits { Ok(()) } else { Err(SetupError::NoRoom { length, width }.of(key)) }
+        if fits {
+            return Ok(());
+        }
+        let hint = self.droplets.get(body).map(|droplet| self.mixed_units(droplet)).unwrap_or_default();
+        Err(SetupError::NoRoom { length, width, hint }.of(&self.key(body)))
+    }
+
+    /// Names the defaults, which are in units of a radius of 1, of a droplet of quite another radius.
+    pub(super) fn mixed_units(&self, droplet: &DropletSetup) -> String {
+        let (&DropletShape::Round { radius }, Some(particles)) = (&droplet.shape, &droplet.particles) else {
+            return String::new();
+        };
+        let usual = Particles::default();
+        let quantities = [
+            ("viscosity", self.viscosity, Self::default().viscosity, -1),
+            ("concentration", particles.concentration, usual.concentration, -1),
+            ("diffusion", particles.diffusion, usual.diffusion, 2),
+            ("activity", particles.activity, usual.activity, 1),
+        ];
+        let unchanged = quantities.into_iter().filter(|(_, value, default, _)| value == default);
+        let named: Vec<_> = unchanged
+            .map(|(name, value, _, power)| {
+                let [value, other] = told_apart([value, value * radius.powi(power)]);
+                format!("{name} {value} ({other})")
+            })
+            .collect();
+        if named.is_empty() || (1.0 / MIXED..MIXED).contains(&radius) {
+            return String::new();
+        }
+        format!(
+            "; a radius of {radius} and the defaults {} are of different units: those are for lengths in radii (in \
+             brackets for lengths of which the radius is {radius}, times and tensions as they are)",
+            named.join(", ")
+        )
     }
 }

@@ -106,6 +106,10 @@ fn what_makes_no_scene_is_refused_with_its_key() {
     for (start, setup) in cases {
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
     }
+    let large = Setup { droplets: vec![DropletSetup::active(-15.0).with_radius(10.0)], ..Setup::default() };
+    let defaults = "a radius of 10 and the defaults viscosity 100 (10), concentration 100 (10), diffusion 0.1 (10) are \
+                    of different units";
+    assert!(refused(&large).contains(defaults), "{}", refused(&large));
     // One droplet with equally spaced markers is enough for a correction.
     let thesis = DropletSetup { centre: [-1.5, 0.0], ..DropletSetup::thesis() };
     let default = DropletSetup { centre: [1.5, 0.0], ..DropletSetup::default() };

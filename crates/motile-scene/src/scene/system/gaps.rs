@@ -7,7 +7,7 @@ use crate::{
     Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
     gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, Surfaces, wall_gap},
 };
-use motile_base::{Drive, Vec2};
+use motile_base::{Drive, Vec2, told_apart};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
@@ -95,14 +95,16 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
-    /// Doubts about the accuracy of the present state: those of the bodies, and films that the method does not resolve.
+    /// Doubts about the accuracy of the present state: those of the flow and of the bodies, and films that the method
+    /// does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
         if self.known < Known::Apart {
             // No step has looked at the gaps of this state.
             self.find_gaps();
         }
         let view = self.hydrodynamics.fluid_view();
-        let mut warnings: Vec<Warning> = self.bodies.list.iter().flat_map(|body| body.warnings(&view)).collect();
+        let of_bodies = self.bodies.list.iter().flat_map(|body| body.warnings(&view));
+        let mut warnings: Vec<Warning> = self.hydrodynamics.warnings().into_iter().chain(of_bodies).collect();
         let between = self
             .contacts
             .narrowest
@@ -110,9 +112,11 @@ impl<H: Hydrodynamics> System<H> {
         let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
+            let [gap_text, resolved_text] = told_apart([gap, resolved]);
             let message = format!(
-                "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
-                if on_grid(&view).is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+                "the gap from {other} is {gap_text} (length), below {resolved_text}, the thinnest film that is resolved: \
+                 speeds may be off by a per cent and more; use {}",
+                if on_grid(&view).is_some() { "a finer grid or boundary integrals" } else { "more nodes" }
             );
             warnings.push(Warning {
                 body,
