@@ -12,7 +12,7 @@ use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
 use crate::{Kernel, Transfer};
 
-/// How far beyond a wall a marker may lie, in grid spacings.
+/// Distance beyond a wall up to which a marker may lie, in grid spacings.
 pub(crate) const WALL_TOLERANCE: f64 = 0.25;
 
 /// Extents, periods and walls of a grid.
@@ -40,7 +40,7 @@ pub struct ImmersedBoundary<S, K> {
     correction: Option<MobilityCorrection>,
     stiffness: f64,
     variance: f64,
-    /// Whether the solver itself knows the viscosities inside interfaces.
+    /// True if the solver itself knows the viscosities inside interfaces.
     varying: bool,
     work: FlowWork,
 }

@@ -183,7 +183,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         curves.add_grid(self.solver.viscosity())
     }
 
-    /// Whether forces are on interfaces alone and there are no solids.
+    /// True if forces are on interfaces alone and there are no solids.
     fn is_of_interfaces(markers: &Markers) -> bool {
         let at_rest =
             |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().all(|force| *force == Vec2::ZERO);
@@ -191,7 +191,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         groups.all(|group| group.kind.is_closed_curve() || group.layers().next().is_none() && at_rest(group))
     }
 
-    /// Whether all fluid has one viscosity.
+    /// True if all fluid has one viscosity.
     fn is_uniform(&self, markers: &Markers) -> bool {
         let viscosity = self.solver.viscosity();
         let same = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);

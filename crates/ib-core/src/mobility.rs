@@ -1,4 +1,4 @@
-//! What spreading, the grid and interpolation take from the mobility of an interface.
+//! Mobility of an interface that is lost to spreading, the grid and interpolation.
 
 mod correction;
 

@@ -5,7 +5,7 @@ use motile_scene::StepSize;
 use crate::SetupError;
 use crate::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 
-/// What a scene contains, as far as its errors are concerned.
+/// Contents of a scene that set its errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SceneKind {
     /// Droplets in a periodic box.
@@ -54,9 +54,9 @@ fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Recommendation {
-    /// How the flow is computed.
+    /// Method of the flow.
     pub method: Method,
-    /// How long the steps of runs are.
+    /// Length of the steps of runs.
     pub step: StepSize,
 }
 

@@ -44,8 +44,9 @@ type Shape = fn(f64) -> Droplet;
 pub(crate) fn shapes(quick: bool) -> Tables {
     let spacings = spacings(quick);
     let mut table = Table::new(
-        "Fixed shapes of another viscosity in a 6 x 6 box, errors in % of layers with 16, 32, 64 nodes and of a smeared \
-         viscosity at h = R/10, R/20, R/40: velocity of the centroid, root mean square and largest over the markers",
+        "Fixed shapes of another viscosity in a 6 x 6 box, errors in % of layers with 16, 32, 64 nodes and of a \
+         smeared viscosity at h = R/10, R/20, R/40: velocity of the centroid, root mean square and largest over the \
+         markers",
         &["shape, tension", "ratio", "way", "centroid", "rms", "largest"],
     );
     let shapes: [(&str, Shape); 4] = [

@@ -19,7 +19,7 @@ const LEAST_POINTS: usize = 16;
 struct Curve {
     /// Markers and the periods that are added to their places.
     markers: Vec<(usize, i32)>,
-    /// How far it goes on in a turn of the parameter (length).
+    /// Advance of the curve in a turn of the parameter (length).
     advance: f64,
     /// Where its points, its nodes and its grid nodes start in the lists of all curves.
     starts: [usize; 3],

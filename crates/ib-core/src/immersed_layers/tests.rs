@@ -89,7 +89,7 @@ fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64
     (0..count).map(column).collect()
 }
 
-/// Whether all eigenvalues of a symmetric matrix are above a bound, by Cholesky's decomposition.
+/// True if all eigenvalues of a symmetric matrix are above a bound, by Cholesky's decomposition.
 fn eigenvalues_are_above(bound: f64, mut matrix: Vec<Vec<f64>>) -> bool {
     let count = matrix.len();
     matrix.iter_mut().enumerate().for_each(|(k, row)| row[k] -= bound);

@@ -7,7 +7,7 @@
 /// normal role, and of the point `w - 1/2 + i` in the tangential one, is `sum over d of c[d][i] t^d`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pieces {
-    /// What is added to a coordinate (in units of h) before it is split.
+    /// Number that is added to a coordinate (in units of h) before it is split.
     pub shift: f64,
     /// Coefficients in the normal role, by power and point.
     pub normal: [[f64; 4]; 4],

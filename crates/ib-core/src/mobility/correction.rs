@@ -48,7 +48,7 @@ struct Plan {
     /// Tangential and normal force per length.
     forces: [Vec<f64>; 2],
     spectra: [Vec<Complex<f64>>; 2],
-    /// What the mean deficits give along the tangent and the normal (length per time).
+    /// Velocities that the mean deficits give along the tangent and the normal (length per time).
     parts: [Vec<f64>; 2],
     /// Factors of a mode, `MODULATED` and one more; see [`Plan::transform`].
     factors: Vec<[f64; 5]>,
@@ -67,7 +67,7 @@ const MODULATED: usize = 5;
 struct Place {
     /// Unit tangent; zero between coinciding neighbours, which give no direction.
     tangent: Vec2,
-    /// What walls leave of the tangential and of the normal part.
+    /// Fractions of the tangential and of the normal part that walls leave.
     left: [f64; 2],
 }
 
@@ -119,7 +119,7 @@ impl MobilityCorrection {
 }
 
 impl Setting {
-    /// How much of the tangential and of the normal part is left at height y: the image of the force in the wall
+    /// Fractions of the tangential and of the normal part that are left at height y: the image of the force in the wall
     /// cancels it at the wall. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 -
     /// exp(-gap/2h))^2`.
     fn left(&self, y: f64) -> [f64; 2] {

@@ -39,7 +39,7 @@ pub(super) struct Bands {
 }
 
 impl Bands {
-    /// Whether [`Bands::find`] found enough work for several threads.
+    /// True if [`Bands::find`] found enough work for several threads.
     pub(super) fn are_used(&self) -> bool {
         self.rows > 0
     }

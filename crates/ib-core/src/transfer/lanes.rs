@@ -28,7 +28,7 @@ pub(super) trait Lanes: Copy {
     fn sums(self, a: Self::Four, b: Self::Four) -> [f64; 2];
 }
 
-/// What every machine has.
+/// Portable code, for every machine.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Portable;
 

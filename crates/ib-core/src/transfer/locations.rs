@@ -35,7 +35,7 @@ pub(super) struct Location {
     pub(super) kind: u32,
 }
 
-/// How the stencil of a marker differs from its window.
+/// Difference of the stencil of a marker from its window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
     /// It begins one row below the window, beyond the lower wall.
@@ -55,7 +55,7 @@ impl Location {
     /// No marker.
     pub(super) const NONE: Self = Self { fractions: [0.0; 2], base: Self::IRREGULAR, kind: u32::MAX };
 
-    /// What to do at an edge of the grid.
+    /// Treatment of a stencil at an edge of the grid.
     pub(super) fn edge(&self) -> Edge {
         Edge { below: self.kind & 1 != 0, above: self.kind & 2 != 0, wrapped: (self.kind >> 2) as usize }
     }

@@ -10,7 +10,7 @@ pub(super) const BLOCK: usize = 64;
 
 /// Distance between one marker of a block and the next.
 ///
-/// What is added for one marker must be in memory before what overlaps with it is read again, and markers next to each
+/// Sums for one marker must be in memory before those that overlap with them are read again, and markers next to each
 /// other in the list mostly overlap.
 const STRIDE: usize = 8;
 

@@ -19,7 +19,7 @@ struct Window {
     rows: [[f64; 4]; 2],
     columns: [[f64; 4]; 2],
     beyond: [[f64; 4]; 2],
-    /// Whether there is a second window.
+    /// True if there is a second window.
     wraps: bool,
 }
 

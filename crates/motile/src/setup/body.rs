@@ -15,7 +15,7 @@ pub(super) trait BodySetup {
     /// Its name.
     fn name(&self) -> &str;
 
-    /// What of it not every method can compute, in the plural, and the methods that can.
+    /// Name of its kind in the plural and the methods that compute it, where not every method does.
     fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
         None
     }

@@ -1,4 +1,4 @@
-//! What descriptions must be, checked before any work.
+//! Checks of descriptions before any work.
 
 use active_interface::Motion;
 use ib_core::AnyKernel;

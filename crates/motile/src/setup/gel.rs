@@ -33,9 +33,9 @@ use crate::SetupError;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GelSetup {
-    /// What it is made of.
+    /// Constants of the material.
     pub material: GelMaterial,
-    /// How its director meets the interface.
+    /// Angle at which its director meets the interface.
     pub anchoring: Anchoring,
     /// Its director at the start; a uniform one has its angle to the direction of the droplet.
     pub start: DirectorStart,
@@ -126,7 +126,7 @@ impl Setup {
     }
 }
 
-/// Whether a point lies within a closed polygon.
+/// True if a point lies within a closed polygon.
 fn is_inside(point: Vec2, polygon: &[Vec2]) -> bool {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
     let crossed = sides.filter(|(a, b)| {

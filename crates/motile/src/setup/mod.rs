@@ -38,8 +38,8 @@ use serde::{Deserialize, Serialize};
 /// one method needs stands inside that method's variant. Quantities may have any consistent units; those of the
 /// defaults are R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
 ///
-/// What data cannot say (a tension law in code, a body of one's own, walls from a closure) is added to the scene that
-/// has been built.
+/// Parts that data cannot describe (a tension law in code, a body of one's own, walls from a closure) are added to the
+/// scene that has been built.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -66,20 +66,20 @@ use serde::{Deserialize, Serialize};
 pub struct Setup {
     /// The region that the fluid fills.
     pub region: Region,
-    /// How the flow is computed.
+    /// Method of the flow.
     pub method: Method,
     /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
-    /// How long the steps of runs are.
+    /// Length of the steps of runs.
     pub step: StepSize,
-    /// What takes the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids.
+    /// Integrator of the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids.
     pub integrator: IntegratorKind,
     /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
     /// thinner than is resolved; no part of the physics of the model.
     pub repulsion: Option<Repulsion>,
     /// A bound on gaps (length), below which a run ends ([`motile_scene::Scene::with_least_gap`]).
     pub least_gap: Option<f64>,
-    /// Whether the scene, which has to be its own mirror image in y = 0, is held so
+    /// Hold on the mirror symmetry in y = 0 of a scene that has it
     /// ([`motile_scene::Scene::held_symmetric`]): the symmetric path is then computed even where it is unstable.
     pub mirror_symmetric: bool,
     /// The droplets; a file that names none has none.

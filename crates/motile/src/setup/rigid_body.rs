@@ -33,13 +33,13 @@ pub struct RigidBodySetup {
     pub name: String,
     /// Position of the centre (length).
     pub centre: [f64; 2],
-    /// By how much the shape is turned (radians).
+    /// Angle by which the shape is turned (radians).
     pub angle: f64,
     /// Its shape; corners are rounded to what the nodes of an interface resolve.
     pub shape: DropletShape,
-    /// A force that acts on it in its centroid (force), and a torque (force times length).
+    /// Force that acts on it in its centroid (force).
     pub force: [f64; 2],
-    /// See force.
+    /// Torque that acts on it (force times length).
     pub torque: f64,
 }
 

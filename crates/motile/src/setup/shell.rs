@@ -19,7 +19,7 @@ pub struct ShellSetup {
     pub name: String,
     /// Position of the centre (length).
     pub centre: [f64; 2],
-    /// By how much the shape is turned (radians).
+    /// Angle by which the shape is turned (radians).
     pub angle: f64,
     /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid around it.
     pub viscosity: Option<f64>,
@@ -29,7 +29,7 @@ pub struct ShellSetup {
     pub stretching: f64,
     /// Modulus of bending (force times length squared).
     pub bending: f64,
-    /// What bending is measured by.
+    /// Measure of bending in its energy.
     pub measure: BendingMeasure,
     /// Curvature at which bending is at rest everywhere (1/length); `None` for that of its shape.
     pub reference_curvature: Option<f64>,

@@ -47,27 +47,27 @@ pub struct SolidSetup {
     /// Name for messages.
     #[serde(default = "solid_name")]
     pub name: String,
-    /// How its points are arranged.
+    /// Arrangement of its points.
     #[serde(default)]
     pub mesh: MeshKind,
     /// Spacing of its points (length), on a finer surface half of that; `None` for that of the grid, among layers twice
     /// that.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
-    /// Whether its surface has a point more in the middle of each side: more accurate beside thin films, but it folds
+    /// Second point in the middle of each side of its surface: more accurate beside thin films, but the surface folds
     /// where it is compressed by a third along itself, springs first; `None` for all but springs among layers, and for
     /// none on a grid.
     #[serde(default)]
     pub finer_surface: Option<bool>,
-    /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
+    /// Leave for triangles of springs to be inverted ([`Solid::allow_inversion`]).
     #[serde(default)]
     pub may_invert: bool,
-    /// How it is held in place.
+    /// Hold that keeps it in place.
     #[serde(default)]
     pub hold: Hold,
-    /// What it bounds.
+    /// Outline that it fills, in its reference state.
     pub outline: SolidOutline,
-    /// What it is made of.
+    /// Elastic material.
     pub material: Material,
     /// Its moduli as a function of place.
     #[serde(default)]
@@ -132,7 +132,7 @@ pub enum SolidOutline {
     },
 }
 
-/// What a solid is made of. Moduli are those of the plane (force per length).
+/// Elastic material of a solid; moduli are those of the plane (force per length).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -172,7 +172,7 @@ pub enum Material {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Grading {
-    /// The same everywhere.
+    /// No grading: the moduli of the material everywhere.
     #[default]
     Uniform,
     /// A factor that is piecewise linear along an axis and constant beyond its first and last place.
@@ -194,7 +194,7 @@ pub enum Axis {
     Y,
 }
 
-/// How the points of a solid are arranged.
+/// Arrangement of the points of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -206,20 +206,20 @@ pub enum MeshKind {
     Unstructured,
 }
 
-/// How a solid is held in place.
+/// Hold that keeps a solid in place.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Hold {
-    /// By the rigid walls of the region, to which its outermost row of points is pinned.
+    /// Outermost row of its points pinned to the rigid walls of the region.
     #[default]
     Pinned,
-    /// By springs from all its points to their reference places.
+    /// Springs from all its points to their reference places.
     Tethered {
         /// Force per displacement and area (force per length cubed).
         stiffness: f64,
     },
-    /// Not at all: it moves with the fluid.
+    /// No hold: it moves with the fluid.
     Free,
 }
 
@@ -263,7 +263,7 @@ impl SolidSetup {
         solids
     }
 
-    /// The same by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
+    /// Solid by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
     /// springs), and triangles may be inverted. For [`Method::Grid`], which smears the surface over the grid.
     #[must_use]
     pub fn thesis(self) -> Self {
@@ -316,7 +316,7 @@ impl SolidSetup {
         self.mesh_spacing.unwrap_or(usual)
     }
 
-    /// What it fills.
+    /// Interior of its outline in a region.
     pub(super) fn enclosed(&self, region: &Region) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
         let closed = match &self.outline {
@@ -344,7 +344,7 @@ impl SolidSetup {
         }
     }
 
-    /// How far from y = 0 the channel beside it reaches, below or above (length), where this is a wall.
+    /// Height y of the side of the channel beside it (length) where this is a wall.
     pub(super) fn side(&self) -> Option<f64> {
         match &self.outline {
             SolidOutline::WallBelow(shape) => Some(-0.5 * shape.width()),

@@ -41,7 +41,7 @@ const LEAST_NODES: f64 = 16.0;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct WallSetup {
-    /// What it bounds: the sides of channels, islands, closed outlines.
+    /// Outline that it bounds: the side of a channel, an island, a closed outline.
     pub outline: SolidOutline,
     /// Distance of its nodes (length).
     pub spacing: f64,
