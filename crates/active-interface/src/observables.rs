@@ -79,7 +79,8 @@ const MODES: usize = 6;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Observables {
-    /// Centroid of the area (length).
+    /// Centroid of the area (length), not wrapped into the periods of the region: a droplet that swims through a box of
+    /// length L has moved by L, and differences of centroids are displacements.
     pub centroid: Vec2,
     /// Velocity of the centroid (length per time), from the flux of area.
     pub velocity: Vec2,

@@ -91,7 +91,7 @@ impl RigidBody {
         self.area
     }
 
-    /// Present positions of the markers (length).
+    /// Present positions of the markers (length), counter-clockwise, not wrapped into the periods of the region.
     pub fn markers(&self) -> impl Iterator<Item = Vec2> {
         let turn = Vec2::from_angle(self.angle);
         self.outline.iter().map(move |arm| self.centre + turn.rotate(*arm))

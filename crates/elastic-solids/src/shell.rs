@@ -152,9 +152,9 @@ impl Shell {
         Ok(self)
     }
 
-    /// Present positions of the points (length), counter-clockwise.
+    /// Present positions of the markers (length), counter-clockwise, not wrapped into the periods of the region.
     #[must_use]
-    pub fn positions(&self) -> &[Vec2] {
+    pub fn markers(&self) -> &[Vec2] {
         &self.positions
     }
 
