@@ -23,7 +23,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
+//! | runs, as observers | [`TrajectoryCsv`], [`DropletsCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
@@ -38,6 +38,7 @@
 mod animation;
 mod colour;
 mod drawing;
+mod droplets;
 mod error;
 mod paraview;
 mod picture;
@@ -57,6 +58,7 @@ mod trajectory;
 pub use animation::Film;
 pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
+pub use droplets::DropletsCsv;
 pub use error::OutputError;
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};

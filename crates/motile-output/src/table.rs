@@ -111,17 +111,32 @@ impl CsvTable {
     /// # Errors
     /// As [`CsvTable::push`].
     pub fn push_state<H: Hydrodynamics>(&mut self, system: &mut System<H>, row: &[f64]) -> Result<(), OutputError> {
-        let Some(Kept { name, from }) = &self.kept else { return self.push(row) };
-        OutputError::check_count("values of a row", row.len(), self.names.len())?;
-        if from.is_some_and(|from| from >= system.time()) {
-            return Ok(());
+        self.push_rows(system, &[row])
+    }
+
+    /// Adds rows for the present state of the system, as [`CsvTable::push_state`] adds one.
+    ///
+    /// # Errors
+    /// As [`CsvTable::push`].
+    pub(crate) fn push_rows<H: Hydrodynamics>(
+        &mut self,
+        system: &mut System<H>,
+        rows: &[impl AsRef<[f64]>],
+    ) -> Result<(), OutputError> {
+        let width = self.names.len();
+        if let Some(Kept { name, from }) = &self.kept {
+            let counts = rows.iter().map(|row| row.as_ref().len());
+            counts.into_iter().try_for_each(|count| OutputError::check_count("values of a row", count, width))?;
+            if from.is_some_and(|from| from >= system.time()) {
+                return Ok(());
+            }
+            let (time, kept) = (system.time(), &mut system.record_mut(name).numbers);
+            // Another table may be of the same run.
+            if kept.chunks_exact(width).last().is_none_or(|last| last[0] < time) {
+                rows.iter().for_each(|row| kept.extend(row.as_ref()));
+            }
         }
-        let rows = &mut system.record_mut(name).numbers;
-        // Another table may be of the same run.
-        if rows.chunks_exact(self.names.len()).last().is_none_or(|last| last[0] < row[0]) {
-            rows.extend(row);
-        }
-        self.push(row)
+        rows.iter().try_for_each(|row| self.push(row.as_ref()))
     }
 
     /// Adds a row, in the order of the columns. Numbers that are not finite become empty fields of the file.

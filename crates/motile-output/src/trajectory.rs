@@ -1,20 +1,17 @@
 //! Trajectory of a droplet as a CSV file.
 
+pub(crate) mod meter;
+
 use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
-use motile::active_interface::trajectory::{Trajectory, TrajectoryRecord, TrajectoryRecorder};
+use motile::active_interface::trajectory::{Trajectory, TrajectoryRecord};
 use motile::interior_fields::ParticlesInDroplet;
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError, SolidMeter, Track};
-
-/// Columns that only channels have, and those of them that need rigid walls.
-const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
-const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
-/// Columns that channels of curved walls do not have.
-const BETWEEN_STRAIGHT_WALLS: [&str; 2] = ["net_flux", "retrograde_flow"];
+use meter::DropletMeter;
 
 /// Columns of particles that diffuse inside.
 const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
@@ -40,11 +37,10 @@ const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
 /// ```
 #[derive(Debug)]
 pub struct TrajectoryCsv {
-    recorder: TrajectoryRecorder,
+    meter: DropletMeter,
     last: Option<TrajectoryRecord>,
     centre_line: Option<f64>,
     table: CsvTable,
-    columns: Vec<usize>,
     inside: Option<Handle<ParticlesInDroplet>>,
     solids: Option<SolidMeter>,
     last_solids: Option<[f64; 8]>,
@@ -61,30 +57,16 @@ impl TrajectoryCsv {
         system: &mut System<H>,
         droplet: Handle<ActiveDroplet>,
     ) -> Result<Self, OutputError> {
-        let curved = system.hydrodynamics().walls().is_some();
         let walls = system.hydrodynamics().fluid_view().domain.walls;
         let centre_line = walls.map(|[bottom, top]| 0.5 * (bottom + top));
-        let walls = walls.is_some();
-        let recorder = TrajectoryRecorder::new(droplet);
-        let solids = SolidMeter::of(system);
-        let recorder = if walls && !curved && solids.is_none() { recorder.with_gap_flow() } else { recorder };
-        let mut probe = recorder.clone();
-        probe.observe(system).map_err(OutputError::Observer)?;
-        let entries = probe.records()[0].entries();
-        let wanted = |k: &usize| {
-            let name = entries[*k].0;
-            (walls || !BETWEEN_WALLS.contains(&name))
-                && (solids.is_none() || !BETWEEN_RIGID_WALLS.contains(&name))
-                && !(curved && BETWEEN_STRAIGHT_WALLS.contains(&name))
-        };
-        let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
-        let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
+        let (solids, meter) = (SolidMeter::of(system), DropletMeter::of(system, droplet)?);
+        let mut names = meter.names.clone();
         let inside = system.bodies::<ParticlesInDroplet>().find(|(_, body)| body.droplet() == droplet);
         let inside = inside.map(|(handle, _)| handle);
         names.extend(inside.iter().flat_map(|_| INSIDE));
         names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
         let table = CsvTable::of_run(path, &names, system, &format!("trajectory of body {}", droplet.index()))?;
-        Ok(Self { recorder, last: None, centre_line, table, columns, inside, solids, last_solids: None })
+        Ok(Self { meter, last: None, centre_line, table, inside, solids, last_solids: None })
     }
 
     /// Last record; `None` before the run.
@@ -150,11 +132,9 @@ impl TrajectoryCsv {
         &mut self,
         system: &mut System<H>,
     ) -> Result<Vec<f64>, Box<dyn std::error::Error + Send + Sync>> {
-        let mut recorder = self.recorder.clone();
-        recorder.observe(system)?;
-        self.last = recorder.records().last().cloned();
-        let entries = self.last.as_ref().map(TrajectoryRecord::entries).unwrap_or_default();
-        let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        let record = self.meter.record(system)?;
+        let mut row = self.meter.row(&record);
+        self.last = Some(record);
         if let Some(inside) = self.inside {
             let seen = system.body(inside)?.seen();
             row.extend([seen.number, seen.flux]);

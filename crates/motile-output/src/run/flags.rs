@@ -15,10 +15,11 @@ use super::summary::make_directory;
 const EVERY: usize = 500;
 
 /// Files that runs leave in their directory.
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 10] = [
     "summary.json",
     "summary.json.part",
     "trajectory.csv",
+    "droplets.csv",
     "final.png",
     "swim.gif",
     "time_series.svg",

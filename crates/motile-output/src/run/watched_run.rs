@@ -12,7 +12,7 @@ use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodK
 
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
 use crate::plot::{concentration_plot, time_series};
-use crate::{CsvTable, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
+use crate::{CsvTable, DropletsCsv, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
 /// Rows of the trajectory and files for ParaView in a run.
 const ROWS: f64 = 1000.0;
@@ -48,7 +48,8 @@ impl View {
     }
 }
 
-/// Run of a scene whose first droplet is measured, drawn and recorded.
+/// Run of a scene whose first droplet is measured, drawn and recorded (`trajectory.csv`). If there are several, a table
+/// of all of them is written as well (`droplets.csv`, [`DropletsCsv`]).
 #[derive(Debug)]
 pub struct WatchedRun {
     /// Scene in its present state.
@@ -62,6 +63,8 @@ pub struct WatchedRun {
     raster: Raster,
     start: ConcentrationProfile,
     recorder: TrajectoryCsv,
+    /// Table of all droplets, where there are several.
+    droplets: Option<DropletsCsv>,
     pictures: Option<(Look, Film, ParaView)>,
     gap: SolidGap,
 }
@@ -94,6 +97,8 @@ impl WatchedRun {
         let watched = raster(if method != MethodKind::Integral { spacing } else { COARSER * spacing })?;
         let still = raster(spacing)?;
         let recorder = TrajectoryCsv::create(job.directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let several = droplets.len() > 1;
+        let table = several.then(|| DropletsCsv::create(job.directory.join("droplets.csv"), scene.system_mut()));
         let gap = SolidGap::new(SOLID_OVERLAP * spacing);
         let mut pictures = None;
         if job.draws() {
@@ -104,7 +109,8 @@ impl WatchedRun {
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }
-        Ok(Self { scene, job, droplet, particles, method, area, raster: still, start, recorder, pictures, gap })
+        let (raster, droplets) = (still, table.transpose()?);
+        Ok(Self { scene, job, droplet, particles, method, area, raster, start, recorder, droplets, pictures, gap })
     }
 
     /// Runs to the end, or until the observer `end`, called at every step, returns the error [`super::Decided`]. The
@@ -116,6 +122,9 @@ impl WatchedRun {
         let time = self.job.end;
         let mut observers: Vec<Watch<'_>> =
             vec![(Every::StepAfter(time / ROWS), &mut self.recorder), (Every::Steps(1), &mut self.gap)];
+        if let Some(table) = &mut self.droplets {
+            observers.push((Every::StepAfter(time / ROWS), table));
+        }
         if let Some(end) = end {
             observers.push((Every::Steps(1), end));
         }

@@ -2,8 +2,11 @@
 
 use std::collections::HashMap;
 
+use motile::elastic_solids::{ChannelShape, Solid};
 use motile::motile_base::Vec2;
+use motile::motile_scene::Observer;
 use motile::prelude::*;
+use motile::setup::{Material, SolidSetup};
 use motile_output::{ParaView, Raster, Snapshot, VtkFile, VtkSeries};
 use roxmltree::{Document, Node};
 
@@ -211,4 +214,45 @@ fn a_resumed_run_continues_its_files() {
     let times: Vec<f64> = found.iter().map(|(time, _)| *time).collect();
     assert!(near(&times, &[0.0, 0.05, 0.1, 0.15, 0.2], 1e-12), "{times:?}");
     assert_eq!(found[4].1, "fields_0004.vti");
+}
+
+/// Stresses, numbers and displacements of elastic walls that a droplet deforms.
+#[test]
+fn solids_come_back() {
+    let directory = Directory::new("solids");
+    let setup = Setup {
+        region: Region::Channel { length: 8.0, width: 5.4, drive: Drive::ZeroGradient },
+        method: Method::Layers(LayersMethod { spacing: 0.2, ..LayersMethod::default() }),
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
+        ..Setup::default()
+    };
+    let Built { mut scene, .. } = setup.build().unwrap();
+    scene.run(0.05).go().unwrap();
+    let raster = Raster::of(scene.system(), 0.4).unwrap();
+    let mut files = ParaView::create(&directory.0, raster).unwrap();
+    files.observe(scene.system_mut()).unwrap();
+    let read = arrays(&directory.text("solids_0000.vtu"));
+    let solids: Vec<&Solid> = scene.system().bodies::<Solid>().map(|(_, solid)| solid).collect();
+    let stresses: Vec<_> = solids.iter().flat_map(|solid| solid.stresses().unwrap()).collect();
+    let parts: Vec<[f64; 3]> = stresses.iter().map(|s| [s.x_axis.x, s.y_axis.x, s.y_axis.y]).collect();
+    let [xx, xy, yy] = [0, 1, 2].map(|k| parts.iter().map(|part| part[k]).collect::<Vec<f64>>());
+    let largest = xx.iter().chain(&yy).fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    assert!(largest > 1e-3, "{largest}");
+    let deviator = |k: usize| (0.25 * (xx[k] - yy[k]).powi(2) + xy[k].powi(2)).sqrt();
+    for (name, expected) in [
+        ("stress_deviator", (0..xx.len()).map(deviator).collect()),
+        ("stress_xx", xx.clone()),
+        ("stress_xy", xy.clone()),
+        ("stress_yy", yy.clone()),
+        ("J", solids.iter().flat_map(|solid| solid.jacobians()).collect()),
+    ] {
+        assert!(near(&read[&format!("CellData/{name}")], &expected, 1e-6 * largest.max(1.0)), "{name}");
+    }
+    let counts = solids.iter().map(|solid| solid.mesh().triangles().len());
+    let numbers: Vec<f64> = counts.enumerate().flat_map(|(k, count)| vec![k as f64; count]).collect();
+    assert_eq!(read["CellData/solid"], numbers);
+    let displaced = read["PointData/displacement"].iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    let expected =
+        solids.iter().flat_map(|solid| solid.displacements()).fold(0.0_f64, |m, d| m.max(d.abs().max_element()));
+    assert!((displaced / expected - 1.0).abs() < 1e-6, "{displaced} {expected}");
 }

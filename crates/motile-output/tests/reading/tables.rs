@@ -1,7 +1,7 @@
 //! Tables as CSV files, and summaries as JSON.
 
 use motile::prelude::*;
-use motile_output::{CsvTable, TrajectoryCsv};
+use motile_output::{CsvTable, DropletsCsv, TrajectoryCsv};
 
 use crate::Directory;
 
@@ -52,6 +52,48 @@ fn a_trajectory_comes_back() {
     let times: Vec<f64> = found.iter().map(|row| row[0]).collect();
     assert!(crate::near(&times, &[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], 1e-9), "{times:?}");
     assert_eq!(rows.track().last().map(|(time, at)| [*time, at.x, at.y]), Some([last[0], value("x"), value("y")]));
+}
+
+/// Rows of all droplets at all times, in a run that goes on from a checkpoint too; a droplet that leaves the box has its
+/// centroid outside.
+#[test]
+fn all_droplets_are_in_one_table() {
+    let directory = Directory::new("droplets");
+    let setup = Setup {
+        region: Region::Box { lengths: [6.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: vec![
+            DropletSetup { centre: [2.98, 0.0], ..DropletSetup::active(-6.0) },
+            DropletSetup { centre: [0.0, 0.5], angle: 1.0, ..DropletSetup::default() },
+        ],
+        step: StepSize::Fixed(0.025),
+        ..Setup::default()
+    };
+    let path = directory.0.join("droplets.csv");
+    let (mut saved, mut seen) = (None, Vec::new());
+    for end in [0.3, 0.6] {
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        saved.iter().for_each(|saved| scene.resume(saved).unwrap());
+        let mut rows = DropletsCsv::create(&path, scene.system_mut()).unwrap();
+        scene.run(end).observe(Every::Time(0.1), &mut rows).go().unwrap();
+        seen = droplets.iter().map(|&droplet| scene.observe(droplet).unwrap()).collect();
+        saved = Some(scene.checkpoint(""));
+    }
+    let (header, found) = read(&path);
+    assert_eq!(header[..4], ["time", "droplet", "x", "y"]);
+    let column = |name: &str| -> Vec<f64> {
+        let index = header.iter().position(|known| known == name).expect(name);
+        found.iter().map(|row| row[index]).collect()
+    };
+    let times: Vec<f64> = (0..14).map(|k| 0.1 * f64::from(k / 2)).collect();
+    assert!(crate::near(&column("time"), &times, 1e-9), "{:?}", column("time"));
+    assert_eq!(column("droplet"), [0.0, 1.0].repeat(7));
+    let [x, y, speed] = ["x", "y", "speed"].map(|name| column(name).split_off(12));
+    for (k, seen) in seen.iter().enumerate() {
+        assert_eq!([x[k], y[k], speed[k]], [seen.centroid.x, seen.centroid.y, seen.velocity.length()]);
+    }
+    let first: Vec<f64> = column("x").into_iter().step_by(2).collect();
+    assert!(first.windows(2).all(|pair| pair[1] > pair[0]) && first[0] < 3.0 && first[6] > 3.0, "{first:?}");
 }
 
 #[cfg(feature = "sweep")]
