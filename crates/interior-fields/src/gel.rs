@@ -14,9 +14,13 @@ pub use director::GelObservables;
 pub use in_box::GelInBox;
 pub use material::GelMaterial;
 
+use std::f64::consts::PI;
+
 use active_interface::ActiveDroplet;
 use motile_base::Vec2;
-use motile_scene::{Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit};
+use motile_scene::{
+    Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit, Warning,
+};
 
 use director::Director;
 use elements::Elements;
@@ -25,6 +29,12 @@ use crate::{
     InteriorError,
     filling::{Filling, in_droplet},
 };
+
+/// Error of growth rates around an aster on a mesh of that spacing over the radius, and its order in the spacing
+/// (`tests/rates.rs`): the director turns by itself within the triangles of a core.
+const CORE_ERROR: f64 = 0.06;
+const CORE_SPACING: f64 = 0.05;
+const CORE_ORDER: f64 = 1.4;
 
 /// Active polar gel that fills a droplet: a body of a scene ([`motile_scene::Guest`] of the droplet) that puts forces
 /// on the fluid at the nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary nodes are the droplet's markers. Its
@@ -140,6 +150,25 @@ impl Body for GelInDroplet {
 
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         self.director.step_limits(view.viscosity, limits);
+    }
+
+    fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
+        if self.defects().is_empty() {
+            return Vec::new();
+        }
+        // The side of a triangle of equal sides, as large as the largest, over the radius of the disc.
+        let areas = &self.director.elements.areas;
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        let spacing = (4.0 * PI * largest / (3.0_f64.sqrt() * areas.iter().sum::<f64>())).sqrt();
+        let error = CORE_ERROR * (spacing / CORE_SPACING).powf(CORE_ORDER);
+        let message = format!(
+            "around defects growth rates of the director err by some {:.1} %: use a finer mesh, of a spacing of {:.3} \
+             radii for one per cent",
+            100.0 * error,
+            CORE_SPACING * (0.01 / CORE_ERROR).powf(1.0 / CORE_ORDER)
+        );
+        let (body, cause) = (self.name.clone(), "core of a defect not resolved".into());
+        if error > 0.01 { vec![Warning { body, cause, excess: 100.0 * error, message }] } else { Vec::new() }
     }
 
     fn properties(&self) -> Vec<(String, f64)> {

@@ -6,7 +6,7 @@ use active_interface::{ActiveDroplet, Curve};
 use ib_core::{AnyKernel, ImmersedBoundary, ImmersedLayers};
 use interior_fields::{Anchoring, DirectorStart, GelInBox, GelInDroplet, GelMaterial};
 use motile_base::Vec2;
-use motile_scene::{Body, Scene, integrator::Dynamics as _};
+use motile_scene::{Body, Hydrodynamics, Scene, integrator::Dynamics as _};
 use stokes_grid::{Grid, PeriodicStokes};
 
 const GEL: GelMaterial = GelMaterial { frank: 1.0, rotational_viscosity: 2.0, alignment: -0.6, activity: -8.0 };
@@ -123,6 +123,24 @@ fn asters_and_vortices_turn_as_they_should() {
             assert!(errors[1] < 0.08 * exact.abs(), "{errors:?} of {exact}");
             assert!(errors[1] < 0.5 * errors[0] || errors[1] < 0.01 * exact.abs(), "{errors:?} of {exact}");
         }
+    }
+}
+
+/// The error around a core is told as it is found above, 16 and 6 per cent, and where there is no defect nothing is.
+#[test]
+fn cores_of_defects_that_are_not_resolved_are_told() {
+    for (spacing, expected) in [(0.1, 16.0), (0.05, 6.0)] {
+        let droplet = ActiveDroplet::passive(&Curve::circle(1.0).unwrap().markers(128).unwrap(), 10.0).unwrap();
+        let mut scene = Scene::new(ImmersedBoundary::new(solver(40, 4.0, VISCOSITY).unwrap(), AnyKernel::BSpline4));
+        let host = scene.add(droplet.clone());
+        let view = scene.system().hydrodynamics().fluid_view();
+        let warnings = |start: DirectorStart| {
+            GelInDroplet::new(&droplet, host, GEL, Anchoring::Free, &start, spacing).unwrap().warnings(&view)
+        };
+        let uniform = DirectorStart::Uniform { angle: 0.3, noise: 0.0, seed: 1 };
+        assert!(warnings(uniform).is_empty());
+        let [core] = &warnings(DirectorStart::Aster)[..] else { panic!("{spacing}") };
+        assert!((0.6..1.6).contains(&(core.excess / expected)), "{spacing}: {core}");
     }
 }
 

@@ -85,3 +85,6 @@ impl System {
         residual < floor && self.model.lacks().iter().all(|lack| lack.abs() < SMALLEST_CORRECTION)
     }
 }
+
+#[cfg(test)]
+mod tests;

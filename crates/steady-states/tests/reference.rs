@@ -219,3 +219,17 @@ fn the_aspect_ratio_is_along_the_motion() {
         assert!((measured - along.0).abs() < 1e-6 && (seen - along.0).abs() < 1e-4, "{along:?} {measured} {seen}");
     }
 }
+
+/// The stresslet of a swimmer along the diagonal of a box, where its components along x and across have parts in it, is
+/// that of the observables of runs.
+#[test]
+fn the_stresslet_is_along_the_motion() {
+    let droplets = vec![DropletSetup { angle: std::f64::consts::FRAC_PI_4, ..DropletSetup::active(-2.0) }];
+    let region = Region::Box { lengths: [3.0; 2] };
+    let state =
+        SteadyState::find(&Setup { method: nodes(48), region, droplets, ..Setup::default() }).expect("a swimmer");
+    assert!((state.velocity().x / state.velocity().y - 1.0).abs() < 1e-3, "{}", state.velocity());
+    let (measured, seen) = (state.measured().expect("measured"), state.observables().expect("seen"));
+    let expected = seen.moments.stresslet()[0][0];
+    assert!(expected.abs() > 0.1 && (measured.stresslet / expected - 1.0).abs() < 1e-3, "{measured:?} {expected}");
+}
