@@ -42,8 +42,8 @@ impl DropletsCsv {
     /// that the checkpoint holds.
     ///
     /// # Errors
-    /// [`OutputError::Empty`]: a scene without droplets; [`OutputError::Write`]; [`OutputError::Observer`]: a state that
-    /// cannot be measured.
+    /// [`OutputError::Empty`]: a scene without droplets; [`OutputError::Write`]; [`OutputError::Observer`]: a state
+    /// that cannot be measured.
     pub fn create<H: Hydrodynamics>(path: impl AsRef<Path>, system: &mut System<H>) -> Result<Self, OutputError> {
         let first = system.bodies::<ActiveDroplet>().next().map(|(handle, _)| handle);
         let first = first.ok_or(OutputError::Empty("a table of a scene without droplets"))?;

@@ -54,8 +54,8 @@ fn a_trajectory_comes_back() {
     assert_eq!(rows.track().last().map(|(time, at)| [*time, at.x, at.y]), Some([last[0], value("x"), value("y")]));
 }
 
-/// Rows of all droplets at all times, in a run that goes on from a checkpoint too; a droplet that leaves the box has its
-/// centroid outside.
+/// Rows of all droplets at all times, in a run that goes on from a checkpoint too; a droplet that leaves the box has
+/// its centroid outside.
 #[test]
 fn all_droplets_are_in_one_table() {
     let directory = Directory::new("droplets");
