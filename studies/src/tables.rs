@@ -98,7 +98,8 @@ pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
     git(&[&["log", "-1", "--format=%h", "--"], inputs].concat())
 }
 
-/// Writes the tables that `studies -- COMMAND --write` has made from `inputs` and what every run depends on to docs/tables, as NAME.csv, NAME-2.csv ...
+/// Writes the tables that `studies -- COMMAND --write` has made from `inputs` and what every run depends on to
+/// docs/tables, as NAME.csv, NAME-2.csv ...
 ///
 /// # Errors
 /// Those of [`commit`]; files that cannot be written.

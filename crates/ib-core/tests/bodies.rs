@@ -13,7 +13,7 @@ fn solver(viscosity: f64) -> PeriodicStokes {
     PeriodicStokes::new(grid, viscosity).expect("a solver")
 }
 
-/// The same with markers on the grid.
+/// Bodies with their markers on the grid.
 fn scene(viscosity: f64) -> Scene<ImmersedBoundary<PeriodicStokes, BSpline<4>>> {
     let flow = ImmersedBoundary::new(solver(viscosity), BSpline::<4>);
     Scene::new(flow).with_step_size(StepSize::Fixed(0.05))

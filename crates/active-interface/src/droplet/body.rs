@@ -200,8 +200,8 @@ impl Body for ActiveDroplet {
         let coarse = least.map(|least| {
             let [text, least_text] = told_apart([radius, least]);
             let message = format!(
-                "its radius is {text} (length), below {least_text}, {LEAST_RADIUS} grid spacings: its speed may be off by \
-                 a per cent and more; use a spacing of {:.2e} or less",
+                "its radius is {text} (length), below {least_text}, {LEAST_RADIUS} grid spacings: its speed may be off \
+                 by a per cent and more; use a spacing of {:.2e} or less",
                 radius / LEAST_RADIUS
             );
             ("droplet not resolved", least / radius, message)

@@ -3,7 +3,7 @@
 use motile_base::Vec2;
 use motile_scene::{Body, MarkerKind, Scene, gap::Boundary};
 
-use super::{AnyFlow, MethodKind, Setup, check::Checked};
+use super::{AnyFlow, MethodKind, Setup, checked::Checked};
 use crate::SetupError;
 
 /// An entry of a description that becomes a body of the scene. A kind of body is a list of [`Setup`] with entries that

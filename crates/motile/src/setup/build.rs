@@ -12,6 +12,7 @@ use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
     DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup, Squeezed, Start,
+    method::MARKERS,
 };
 use crate::SetupError;
 
@@ -39,8 +40,6 @@ const LAYER_TOLERANCE: f64 = 1e-6;
 const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
-/// Most markers of an interface.
-pub(super) const MOST_MARKERS: f64 = IntegralMethod::MOST_CELLS as f64;
 
 impl Setup {
     /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
@@ -139,7 +138,7 @@ impl Setup {
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
-                if wanted.is_nan() || wanted > MOST_MARKERS {
+                if wanted.is_nan() || wanted > MARKERS[1] {
                     let remedy = format!("{name} would have {wanted:.1e} markers: give more than that");
                     let (key, value) = ("method.grid.marker-spacing".to_owned(), spacing.to_string());
                     return Err(SetupError::Value { key, value, remedy });
@@ -252,7 +251,7 @@ fn handles<B: Body>(scene: &Scene<AnyFlow>) -> Vec<Handle<B>> {
 
 /// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
 fn fast_count(wanted: f64) -> usize {
-    let wanted = wanted.round().clamp(8.0, MOST_MARKERS) as usize;
+    let wanted = wanted.round().clamp(8.0, MARKERS[1]) as usize;
     let fast = |mut n: usize| {
         for p in [2, 3, 5] {
             while n.is_multiple_of(p) {

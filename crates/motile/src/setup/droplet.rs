@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     GelSetup, MethodKind, Setup,
     body::{BodySetup, Planned},
-    check::{Checked, MARKERS},
+    checked::Checked,
+    method::MARKERS,
 };
 use crate::SetupError;
 

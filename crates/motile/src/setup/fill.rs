@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use active_interface::SplitMix64;
 use motile_base::{Region, Vec2};
 
-use super::check::Checked;
+use super::checked::Checked;
 use super::droplet::{DropletSetup, DropletShape};
 use crate::SetupError;
 

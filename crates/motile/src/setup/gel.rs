@@ -6,7 +6,7 @@ use motile_base::Vec2;
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
-use super::check::Checked;
+use super::checked::Checked;
 use super::{DropletSetup, ExchangeSetup, Particles, Setup, body::Planned};
 use crate::SetupError;
 

@@ -3,8 +3,11 @@
 use ib_core::AnyKernel;
 use serde::{Deserialize, Serialize};
 
-use super::check::{Checked, MARKERS};
+use super::checked::Checked;
 use crate::SetupError;
+
+/// Fewest and most markers of an interface, and cells of its concentration.
+pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_CELLS as f64];
 
 /// Method by which velocities come from forces. A scene that a method cannot compute is refused with the ones that can.
 ///

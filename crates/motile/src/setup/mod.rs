@@ -3,6 +3,7 @@
 mod body;
 mod build;
 mod check;
+mod checked;
 mod droplet;
 #[cfg(feature = "toml")]
 mod file;

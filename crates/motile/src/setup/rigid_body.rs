@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     DropletShape, MethodKind, Setup,
     body::{BodySetup, Planned},
-    check::Checked,
+    checked::Checked,
 };
 use crate::SetupError;
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     DropletShape, Setup,
     body::{BodySetup, Planned},
-    check::Checked,
+    checked::Checked,
 };
 use crate::SetupError;
 

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     AnyFlow, Method, MethodKind, Setup,
     body::{BodySetup, Planned},
-    check::Checked,
+    checked::Checked,
 };
 use crate::SetupError;
 

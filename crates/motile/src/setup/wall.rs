@@ -6,7 +6,7 @@ use motile_base::{Region, Vec2};
 use motile_scene::{Hydrodynamics, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
-use super::{Setup, SolidOutline, check::Checked};
+use super::{Setup, SolidOutline, checked::Checked};
 use crate::SetupError;
 
 /// Points per node by which corners are rounded.

@@ -114,8 +114,8 @@ impl<H: Hydrodynamics> System<H> {
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
             let [gap_text, resolved_text] = told_apart([gap, resolved]);
             let message = format!(
-                "the gap from {other} is {gap_text} (length), below {resolved_text}, the thinnest film that is resolved: \
-                 speeds may be off by a per cent and more; use {}",
+                "the gap from {other} is {gap_text} (length), below {resolved_text}, the thinnest film that is \
+                 resolved: speeds may be off by a per cent and more; use {}",
                 if on_grid(&view).is_some() { "a finer grid or boundary integrals" } else { "more nodes" }
             );
             warnings.push(Warning {
