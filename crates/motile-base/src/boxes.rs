@@ -29,6 +29,7 @@ impl Frame {
     }
 
     /// Square of the distance of a point from the nearest image of the box (length squared); zero inside.
+    #[inline]
     fn squared_distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
         let away = nearest_image(point - self.centre, periods).abs() - self.half;
         away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
@@ -63,6 +64,7 @@ impl Frame {
 
 /// The shortest of a difference of places and its images (length), in a domain of these periods in x and y (length;
 /// `None` where there is none).
+#[inline]
 #[must_use]
 pub fn nearest_image(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
     for (axis, period) in periods.into_iter().enumerate() {

@@ -18,7 +18,7 @@ pub fn mirror(markers: &[usize], state: &[f64], image: &mut [f64]) {
     }
 }
 
-/// Reads marker positions (length) from a state that [`write`] wrote.
+/// Reads marker positions (length) from a state that [`write()`] wrote.
 ///
 /// # Errors
 /// A coordinate that is not finite; the points are then as before.

@@ -48,6 +48,7 @@ pub(super) struct Nearest {
 
 impl Nearest {
     /// Looks at a side, and where it is so long that another image of it may be nearer, at that too.
+    #[inline]
     fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
         let along = side[1] - side[0];
         let from_middle = nearest_image(point - 0.5 * (side[0] + side[1]), periods);
