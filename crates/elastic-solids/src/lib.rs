@@ -32,7 +32,8 @@
 //! Each is usable by itself:
 //!
 //! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with rounded corners; [`Interior`]
-//!   for the solid between them; [`Channel`] for two walls with islands between them, and ready ones, the [`ChannelShape`]s.
+//!   for the solid between them; [`Channel`] for two walls with islands between them, and ready ones, the
+//!   [`ChannelShape`]s.
 //! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`mesh::TriangleMesh::quality`]
 //!   measures how even they are.
 //! * **Materials**: [`NeoHookean`] (Cowley's), [`MooneyRivlin`], [`SaintVenantKirchhoff`], or an [`EnergyDensity`] of

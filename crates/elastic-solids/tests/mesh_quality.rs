@@ -61,7 +61,7 @@ fn walls_are_even() {
     }
 }
 
-/// The same with other parameters, sharp edges among them.
+/// Channels with other parameters, sharp edges among them.
 #[test]
 fn walls_of_other_parameters_are_even() {
     let (period, width) = (PERIOD, WIDTH);

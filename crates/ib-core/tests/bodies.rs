@@ -1,4 +1,4 @@
-//! What scenes expect of their bodies and films, against the flow of the grid.
+//! Expectations of scenes of their bodies and films, against the flow of the grid.
 
 use std::f64::consts::TAU;
 

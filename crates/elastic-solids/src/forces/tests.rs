@@ -1,4 +1,4 @@
-//! What all elastic forces must satisfy.
+//! Laws that all elastic forces must satisfy.
 
 use proptest::prelude::*;
 

@@ -244,7 +244,7 @@ fn few_samples() {
     assert!(trajectory(&even(10.0, 20), |t| t).regime(&criteria).is_err());
 }
 
-/// What the grid does to a droplet: oscillations of a few thousandths of the amplitude at a much higher frequency, and
+/// Noise of the grid: oscillations of a few thousandths of the amplitude at a much higher frequency, and
 /// round-off.
 #[test]
 fn oscillations_of_the_grid() {
