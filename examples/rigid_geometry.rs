@@ -12,7 +12,7 @@ use clap::{Parser, ValueEnum};
 use motile::elastic_solids::ChannelShape;
 use motile::motile_base::Region;
 use motile::setup::{MethodKind, Setup, SolidOutline, WallSetup};
-use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, not_negative, positive};
+use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, mean_speed, not_negative, positive};
 
 /// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
 const BEHIND: f64 = 0.5;
@@ -152,13 +152,9 @@ fn swim(flags: &Flags) -> Result<()> {
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let track = run.track();
-    let advance = |x: f64| x - track.first().map_or(x, |(_, start)| start.x);
-    let (end, now) = track.last().map_or((0.0, 0.0), |(time, place)| (*time, advance(place.x)));
-    summary.put("passed", now >= length, "whether it has come by all of the geometry, a period");
-    // When it was last a period behind where it is.
-    let before = track.iter().rev().find(|(_, place)| now - advance(place.x) >= length);
-    let mean = before.map(|(time, place)| (now - advance(place.x)) / (end - time));
+    let track: Vec<(f64, f64)> = run.track().iter().map(|(time, place)| (*time, place.x)).collect();
+    let mean = mean_speed(&track, length);
+    summary.put("passed", mean.is_some(), "whether it has come by all of the geometry, a period");
     summary.put("mean_speed", mean, "over the last period (R0 per time), if it has passed");
     let last = run.last()?.clone();
     summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");

@@ -18,7 +18,7 @@ mod parse;
 mod passage;
 mod region_flags;
 mod steady_flags;
-mod turning;
+mod track;
 mod wall_flags;
 
 pub use command_line::run;
@@ -29,5 +29,5 @@ pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Passage, Verdict};
 pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use steady_flags::SteadyFlags;
-pub use turning::turning_rate;
+pub use track::{mean_speed, turning_rate};
 pub use wall_flags::{ElasticFlags, Material};
