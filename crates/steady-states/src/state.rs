@@ -302,8 +302,8 @@ impl SteadyState {
     }
 
     /// Traction dipole, for whatever is inside: the integral of `eta (v n + n v) - (sigma n) r` over a curve right
-    /// outside of the interface, sigma the stress and eta the viscosity of the fluid there (Batchelor, J. Fluid Mech. 41, 545
-    /// (1970)). It does not depend on the curve.
+    /// outside of the interface, sigma the stress and eta the viscosity of the fluid there (Batchelor, J. Fluid Mech.
+    /// 41, 545 (1970)). It does not depend on the curve.
     fn traction_dipole(&self, system: &mut System, centre: Vec2, tangents: &[Vec2]) -> Result<[f64; 2], SteadyError> {
         let (viscosity, radius) = (system.model.viscosities[1], system.model.radius);
         let step = TAU / tangents.len() as f64;

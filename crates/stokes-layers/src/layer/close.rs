@@ -4,7 +4,11 @@
 //! between the quadrature of [`CloseWeights`](crate::close_weights::CloseWeights) and the plain sum, both in free
 //! space: images farther away and walls are resolved by the plain sum.
 
-use motile_base::spectrum::{copy_band, largest_wave};
+use motile_base::{
+    Vec2,
+    boxes::{BoxTree, Frame},
+    spectrum::{copy_band, largest_wave},
+};
 use num_complex::Complex64;
 
 use crate::{
@@ -49,6 +53,10 @@ pub(crate) struct CloseCorrection {
     /// Distance in spacings below which a node is close.
     reach: f64,
     symmetry: Symmetry,
+    /// Boxes around the curves, and the numbers of the curves near the present one.
+    boxes: Vec<Frame>,
+    tree: BoxTree,
+    near: Vec<usize>,
     close: Vec<CloseNode>,
     /// Factors of v and conj v, v a force or a velocity, at the nodes of the source, row after row.
     rows: Vec<(f64, Complex64)>,
@@ -59,19 +67,27 @@ pub(crate) struct CloseCorrection {
 
 impl CloseCorrection {
     pub(crate) fn new(tolerance: f64, symmetry: Symmetry) -> Self {
-        let (fine, coarse) = Default::default();
-        Self { reach: reach(tolerance), symmetry, close: Vec::new(), rows: Vec::new(), fine, coarse, crossing: None }
+        let (boxes, tree, near, close, rows, fine, coarse) = Default::default();
+        let reach = reach(tolerance);
+        Self { reach, symmetry, boxes, tree, near, close, rows, fine, coarse, crossing: None }
     }
 
     /// Finds the nodes that are close to a curve and prepares the fine nodes of the curves that have some.
     pub(crate) fn find(&mut self, curves: &mut [Curve], plans: &mut [Plan], images: &Images, stored: StoredLayers) {
         let one_sided = self.symmetry == Symmetry::ToRoundOff;
         self.close.clear();
+        self.boxes.clear();
+        self.boxes.extend(curves.iter().map(bounding_box));
+        self.tree.build_by_place(&self.boxes);
         for source in 0..curves.len() {
             let curve = &curves[source];
             let reach = self.reach * curve.spacing();
             let first = self.close.len();
-            for (target, other) in curves.iter().enumerate() {
+            self.near.clear();
+            self.tree.each_near(&self.boxes[source], images.periods, reach, &mut |target| self.near.push(target));
+            self.near.sort_unstable();
+            for &target in &self.near {
+                let other = &curves[target];
                 if !stored.couples(target, source) || one_sided && !finer(curves, target, source) {
                     continue;
                 }
@@ -222,6 +238,13 @@ impl CloseCorrection {
             }
         }
     }
+}
+
+/// A box around a curve; an open one runs across the period.
+fn bounding_box(curve: &Curve) -> Frame {
+    let centre = Vec2::new(curve.centre.re, curve.centre.im);
+    let half = Vec2::splat(curve.radius);
+    Frame::around([centre - half, centre + half])
 }
 
 /// True for the curve of a pair whose nodes are closer together and resolve best the film between the two; of curves
