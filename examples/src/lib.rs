@@ -3,7 +3,6 @@
 //! | for | there are |
 //! |---|---|
 //! | flags | [`run`]; [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`], [`ElasticFlags`] |
-//! | steady states | [`SteadyFlags`] |
 //! | runs and their results | [`motile_output::run`], [`SceneFlags::watch`] |
 //! | constrictions | [`Passage`] |
 //!
@@ -17,7 +16,6 @@ mod method_flags;
 mod parse;
 mod passage;
 mod region_flags;
-mod steady_flags;
 mod track;
 mod wall_flags;
 
@@ -28,6 +26,5 @@ pub use method_flags::{MethodFlags, Preset};
 pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Passage, Verdict};
 pub use region_flags::{AnyRegionFlags, RegionKind};
-pub use steady_flags::SteadyFlags;
 pub use track::{mean_speed, turning_rate};
 pub use wall_flags::{ElasticFlags, Material};

@@ -13,10 +13,10 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 use motile::motile_base::Vec2;
-use motile_examples::SteadyFlags;
 use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 use motile_output::run::{Summary, make_directory, say};
 use motile_output::{CsvTable, Progress};
+use motile_steady_examples::SteadyFlags;
 use steady_states::{
     Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyState, Symmetry,
 };

@@ -10,10 +10,10 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Parser;
-use motile_examples::SteadyFlags;
 use motile_output::CsvTable;
 use motile_output::plot::{AxisScale, Figure, Plot, Series};
 use motile_output::run::{Summary, make_directory, say};
+use motile_steady_examples::SteadyFlags;
 use steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
 
 /// A steady swimmer and its stability, without a run.

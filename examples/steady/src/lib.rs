@@ -1,12 +1,10 @@
-//! The command line of steady states: the droplet, the region, the nodes.
+//! The command line that the examples of steady states share: the droplet, the region, the nodes.
 
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use motile::motile_base::Region;
 use motile::setup::{IntegralMethod, Method, RigidBodySetup, Setup};
-
-use crate::parse::positive;
-use crate::{AlongFlags, DropletFlags, RegionKind};
+use motile_examples::{AlongFlags, DropletFlags, RegionKind, positive};
 
 /// A scene of one droplet without a grid.
 #[derive(Debug, Clone, PartialEq, Args)]
