@@ -20,7 +20,7 @@ pub enum InteriorError {
     #[error("a droplet that exchanges particles with its inside has none on its interface: give it a list of numbers")]
     NoParticles,
     /// Mesh of too many nodes.
-    #[error("the mesh would have some {nodes:.0} nodes, more than {most}: give a wider spacing")]
+    #[error("the mesh would have some {nodes:.1e} nodes, more than {most}: give a wider spacing")]
     TooFine {
         /// Number of nodes that the mesh would have.
         nodes: f64,

@@ -69,7 +69,8 @@ impl GelInDroplet {
     ) -> Result<Self, InteriorError> {
         let filling = Filling::new(droplet, host, spacing)?;
         let (nodes, markers) = (&filling.nodes, filling.markers());
-        let angles = start.angles(nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
+        let angle = start.angles(markers.iter().sum::<Vec2>() / markers.len() as f64)?;
+        let angles = nodes.iter().copied().map(angle).collect();
         let elements = Elements::new(filling.mesh.triangles().to_vec(), nodes.len(), [None; 2]);
         let anchored = anchoring.angle_from_tangent().map(|angle| (angle, markers.len()));
         let mut director = Director::new(material.checked()?, elements, angles, anchored);

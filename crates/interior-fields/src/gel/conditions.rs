@@ -60,22 +60,22 @@ pub enum DirectorStart {
 }
 
 impl DirectorStart {
-    /// Angles of the director (radians) at nodes (length) around a centre; refuses angles that are not finite and a
-    /// negative noise.
-    pub(super) fn angles(&self, nodes: &[Vec2], centre: Vec2) -> Result<Vec<f64>, InteriorError> {
-        let around = |turn: f64| nodes.iter().map(|node| (*node - centre).to_angle() + turn).collect();
-        let random = |angle: f64, noise: f64, seed: u64| {
-            let mut random = SplitMix64::new(seed);
-            nodes.iter().map(|_| angle + noise * (2.0 * random.uniform() - 1.0)).collect()
-        };
-        Ok(match *self {
+    /// Angle of the director to x (radians) as a function of position (length), around a centre; random ones are drawn
+    /// call by call.
+    ///
+    /// # Errors
+    /// Angles that are not finite; a negative noise.
+    pub fn angles(&self, centre: Vec2) -> Result<impl FnMut(Vec2) -> f64 + use<>, InteriorError> {
+        let (around, turn, noise, seed) = match *self {
             Self::Uniform { angle, noise, seed } => {
                 finite("the angle of the director", angle)?;
-                random(angle, not_negative("the noise of the director", noise)?, seed)
+                (0.0, angle, not_negative("the noise of the director", noise)?, seed)
             }
-            Self::Aster => around(0.0),
-            Self::Vortex => around(FRAC_PI_2),
-            Self::Random { seed } => random(0.0, PI, seed),
-        })
+            Self::Aster => (1.0, 0.0, 0.0, 0),
+            Self::Vortex => (1.0, FRAC_PI_2, 0.0, 0),
+            Self::Random { seed } => (0.0, 0.0, PI, seed),
+        };
+        let mut random = SplitMix64::new(seed);
+        Ok(move |node: Vec2| around * (node - centre).to_angle() + turn + noise * (2.0 * random.uniform() - 1.0))
     }
 }

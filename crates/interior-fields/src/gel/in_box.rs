@@ -30,7 +30,7 @@ impl GelInBox {
         material: GelMaterial,
         lengths: [f64; 2],
         counts: [usize; 2],
-        angle: impl Fn(Vec2) -> f64,
+        angle: impl FnMut(Vec2) -> f64,
     ) -> Result<Self, InteriorError> {
         lengths.into_iter().try_for_each(|length| positive("a length of the box", length).map(drop))?;
         counts.into_iter().try_for_each(|count| at_least("nodes along a side", count, 4).map(drop))?;
@@ -50,7 +50,7 @@ impl GelInBox {
             [[a, b, c], [a, c, d]]
         });
         let elements = Elements::new(triangles.collect(), nodes.len(), lengths.map(Some));
-        let angles = nodes.iter().map(|node| angle(*node)).collect();
+        let angles = nodes.iter().copied().map(angle).collect();
         let mut director = Director::new(material.checked()?, elements, angles, None);
         director.move_to(&nodes);
         Ok(Self { director, rest: vec![Vec2::ZERO; nodes.len()], nodes })

@@ -6,6 +6,7 @@ use active_interface::{ActiveDroplet, Curve, InitialConcentration};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
+use interior_fields::GelInBox;
 use motile_base::{Region, Vec2};
 use motile_scene::{Body, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
@@ -32,6 +33,8 @@ pub struct Built {
     pub rigid_bodies: Vec<Handle<RigidBody>>,
     /// The shells.
     pub shells: Vec<Handle<Shell>>,
+    /// The gels that fill the box.
+    pub gels: Vec<Handle<GelInBox>>,
 }
 
 /// Accuracy of layers beside solids, whose inner points see them through a grid.
@@ -73,11 +76,11 @@ impl Setup {
             gel.map(|gel| scene.add(gel));
             inside.map(|inside| scene.add(inside));
         }
-        let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
+        let (solids, rigid_bodies, shells, gels) = (handles(&scene), handles(&scene), handles(&scene), handles(&scene));
         if self.mirror_symmetric {
             scene = scene.held_symmetric()?;
         }
-        Ok(Built { scene, droplets, solids, rigid_bodies, shells })
+        Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels })
     }
 
     /// A droplet of this scene, for scenes that are put together by hand.

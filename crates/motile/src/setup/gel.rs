@@ -56,20 +56,32 @@ impl Default for GelSetup {
     }
 }
 
+/// Refuses constants, starts and spacings of a gel that are out of their range.
+pub(super) fn check_gel(
+    checked: &Checked<'_>,
+    material: &GelMaterial,
+    start: &DirectorStart,
+    spacing: Option<f64>,
+) -> Result<(), SetupError> {
+    let GelMaterial { frank, rotational_viscosity, alignment, activity } = *material;
+    checked.not_negative("material.frank", frank)?;
+    checked.positive("material.rotational-viscosity", rotational_viscosity)?;
+    checked.finite("material.alignment", alignment)?;
+    checked.finite("material.activity", activity)?;
+    if let Some(spacing) = spacing {
+        checked.positive("spacing", spacing)?;
+    }
+    if let DirectorStart::Uniform { angle, noise, .. } = *start {
+        checked.finite("start.uniform.angle", angle)?;
+        checked.not_negative("start.uniform.noise", noise)?;
+    }
+    Ok(())
+}
+
 impl GelSetup {
     pub(super) fn check(&self, checked: &Checked<'_>, droplet: &DropletSetup) -> Result<(), SetupError> {
-        let GelMaterial { frank, rotational_viscosity, alignment, activity } = self.material;
-        checked.not_negative("gel.material.frank", frank)?;
-        checked.positive("gel.material.rotational-viscosity", rotational_viscosity)?;
-        checked.finite("gel.material.alignment", alignment)?;
-        checked.finite("gel.material.activity", activity)?;
-        if let Some(spacing) = self.spacing {
-            checked.positive("gel.spacing", spacing)?;
-        }
-        if let DirectorStart::Uniform { angle, noise, .. } = self.start {
-            checked.finite("gel.start.uniform.angle", angle)?;
-            checked.not_negative("gel.start.uniform.noise", noise)?;
-        }
+        let gel = Checked { place: &format!("{}.gel", checked.place) };
+        check_gel(&gel, &self.material, &self.start, self.spacing)?;
         if droplet.motion == Motion::WithFluid {
             let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
             checked.refuse("motion", &"with-fluid", remedy)?;

@@ -9,6 +9,7 @@ mod droplet;
 mod file;
 mod fill;
 mod gel;
+mod gel_in_box;
 mod inside;
 mod method;
 mod particles_entry;
@@ -21,6 +22,7 @@ mod wall;
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particles, Squeezed, Start};
 pub use gel::GelSetup;
+pub use gel_in_box::GelInBoxSetup;
 pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
@@ -95,6 +97,9 @@ pub struct Setup {
     /// Elastic membranes around fluid: shells of nuclei, capsules.
     #[serde(default)]
     pub shells: Vec<ShellSetup>,
+    /// Active polar gels that fill the box, one at most.
+    #[serde(default)]
+    pub gels: Vec<GelInBoxSetup>,
     /// Rigid walls and obstacles in a channel, besides its straight walls; by boundary integrals only.
     #[serde(default)]
     pub walls: Vec<WallSetup>,
@@ -116,6 +121,7 @@ impl Default for Setup {
             solids: Vec::new(),
             rigid_bodies: Vec::new(),
             shells: Vec::new(),
+            gels: Vec::new(),
             walls: Vec::new(),
         }
     }
@@ -138,7 +144,7 @@ impl Setup {
     /// All bodies with their numbers in their lists, in the order in which they are added to the scene.
     fn bodies(&self) -> impl Iterator<Item = (usize, &dyn BodySetup)> {
         let bodies = numbered(&self.droplets).chain(numbered(&self.solids));
-        bodies.chain(numbered(&self.rigid_bodies)).chain(numbered(&self.shells))
+        bodies.chain(numbered(&self.rigid_bodies)).chain(numbered(&self.shells)).chain(numbered(&self.gels))
     }
 
     /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not

@@ -1,8 +1,8 @@
 use active_interface::{Motion, polygon_moments};
 use motile_base::{Drive, Vec2};
-use motile_scene::{Body, Handle, StepSize};
+use motile_scene::{Body, Handle, Scene, StepSize};
 
-use interior_fields::{DirectorStart, GelMaterial};
+use interior_fields::{DirectorStart, GelInBox, GelMaterial};
 
 use super::*;
 use elastic_solids::ChannelShape;
@@ -175,6 +175,48 @@ fn gels_that_make_no_scene_are_refused() {
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
     }
     assert!(of(usual).build().is_ok());
+}
+
+#[test]
+fn gels_fill_boxes_and_nothing_else_lies_in_them() {
+    let start = DirectorStart::Random { seed: 3 };
+    let gel = GelInBoxSetup { start, ..GelInBoxSetup::default() };
+    let base = Setup {
+        region: Region::Box { lengths: [3.0, 2.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        droplets: Vec::new(),
+        gels: vec![gel],
+        ..Setup::default()
+    };
+    let of = |gel: GelInBoxSetup| Setup { gels: vec![gel], ..base.clone() };
+    let cases = [
+        (
+            "gels[0].material.frank = -1",
+            of(GelInBoxSetup { material: GelMaterial { frank: -1.0, ..gel.material }, ..gel }),
+        ),
+        ("gels[0].spacing = 0", of(GelInBoxSetup { spacing: Some(0.0), ..gel })),
+        ("gels[0]: the mesh would have some 6.0e14 nodes", of(GelInBoxSetup { spacing: Some(1e-7), ..gel })),
+        ("gels[0].start = around a centre", of(GelInBoxSetup { start: DirectorStart::Aster, ..gel })),
+        ("method = layers: it has no gels that fill a box: give grid", Setup { method: layers(), ..base.clone() }),
+        ("region = channel", Setup { region: channel(3.0), ..base.clone() }),
+        ("gels = 2: ", Setup { gels: vec![gel; 2], ..base.clone() }),
+        ("gels = 1: ", Setup { droplets: vec![DropletSetup::default()], ..base.clone() }),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+    // The scene is the one put together by hand, also on nodes that are not the grid's.
+    for (spacing, counts) in [(None, [30, 20]), (Some(0.11), [28, 19])] {
+        let Built { mut scene, gels, .. } = of(GelInBoxSetup { spacing, ..gel }).build().unwrap();
+        let mut by_hand = Scene::new(base.flow().unwrap()).with_step_size(base.step);
+        let body = GelInBox::new(gel.material, [3.0, 2.0], counts, start.angles(Vec2::ZERO).unwrap()).unwrap();
+        let other = by_hand.add(body);
+        assert_eq!(scene.body(gels[0]).unwrap().nodes(), by_hand.body(other).unwrap().nodes());
+        scene.run(0.2).go().unwrap();
+        by_hand.run(0.2).go().unwrap();
+        assert!(scene.system().steps() > 0 && scene.system().steps() == by_hand.system().steps());
+        assert_eq!(scene.body(gels[0]).unwrap().angles(), by_hand.body(other).unwrap().angles());
+    }
 }
 
 #[test]
@@ -586,7 +628,9 @@ mod file {
         layers.rigid_bodies.push(RigidBodySetup { torque: 0.1, ..RigidBodySetup::disc(0.2) });
         layers.solids.iter_mut().for_each(|solid| solid.mesh_spacing = None);
         layers.method = super::layers();
-        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, plain()), varied(), layers] {
+        let filled =
+            Setup { method: plain(), droplets: vec![], gels: vec![GelInBoxSetup::default()], ..Setup::default() };
+        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, plain()), varied(), layers, filled] {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
         }

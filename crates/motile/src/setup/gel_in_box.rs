@@ -1,0 +1,92 @@
+//! Descriptions of gels that fill periodic boxes.
+
+use interior_fields::{DirectorStart, GelInBox, GelMaterial};
+use motile_base::{Region, Vec2};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    GelSetup, MethodKind, Setup,
+    body::{BodySetup, Planned},
+    checked::Checked,
+    gel::check_gel,
+};
+use crate::SetupError;
+
+/// An active polar gel that fills all of a box ([`GelInBox`]), alone there, by the method
+/// [`crate::setup::Method::Grid`]; its viscosity is that of the fluid.
+///
+/// ```
+/// use motile::interior_fields::GelMaterial;
+/// use motile::prelude::*;
+/// use motile::setup::GelInBoxSetup;
+///
+/// // An extensile gel of rods bends: its director turns away from where it was.
+/// let material = GelMaterial { activity: 200.0, ..GelMaterial::default() };
+/// let gels = vec![GelInBoxSetup { material, ..GelInBoxSetup::default() }];
+/// let method = Method::Grid(GridMethod::of_spacing(0.2));
+/// let Built { mut scene, gels, .. } = Setup { method, droplets: vec![], gels, ..Setup::default() }.build()?;
+/// let before = scene.observe(gels[0])?.polarisation[0];
+/// scene.run(5.0).go()?;
+/// let after = scene.observe(gels[0])?.polarisation[0];
+/// println!("{before:.3} {after:.3}");
+/// assert!(after < before);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct GelInBoxSetup {
+    /// Constants of the material.
+    pub material: GelMaterial,
+    /// Its director at the start, uniform or random.
+    pub start: DirectorStart,
+    /// Spacing of its nodes (length), at most; `None` for that of the grid.
+    pub spacing: Option<f64>,
+}
+
+impl Default for GelInBoxSetup {
+    /// The gel of [`GelSetup::default`], its director along x.
+    fn default() -> Self {
+        let GelSetup { material, start, spacing, .. } = GelSetup::default();
+        Self { material, start, spacing }
+    }
+}
+
+impl BodySetup for GelInBoxSetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["gels", "gel"]
+    }
+
+    fn name(&self) -> &str {
+        "gel"
+    }
+
+    fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
+        Some(("gels that fill a box", &[MethodKind::Grid]))
+    }
+
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        check_gel(checked, &self.material, &self.start, self.spacing)?;
+        if !matches!(self.start, DirectorStart::Uniform { .. } | DirectorStart::Random { .. }) {
+            checked.refuse("start", &"around a centre", "a periodic box has none: give uniform or random")?;
+        }
+        if !matches!(setup.region, Region::Box { .. }) {
+            let remedy = "it has walls or no bounds, and a gel of its own fills a box: give one, or a gel to a droplet";
+            top.refuse("region", &"channel or plane", remedy)?;
+        }
+        if setup.bodies().count() > 1 {
+            let remedy = "a gel fills all of the box and does not see other bodies: take them, or the gel, away";
+            top.refuse("gels", &setup.gels.len(), remedy)?;
+        }
+        Ok(())
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
+        let lengths = setup.region.lengths();
+        let spacing = self.spacing.or(setup.method.spacing()).unwrap_or(lengths[0]);
+        let counts = lengths.map(|length| (length / spacing * (1.0 - 1e-12)).ceil() as usize);
+        let gel = GelInBox::new(self.material, lengths, counts, self.start.angles(Vec2::ZERO)?)?;
+        // It has no boundary that could reach beyond the region.
+        Ok(Planned { corners: Vec::new(), ..Planned::of(gel) })
+    }
+}
