@@ -1,6 +1,8 @@
-//! Droplets that exchange their particles with the inside: speed, and two caps instead of one.
+//! Droplets that exchange their particles with the inside: speed, and two caps instead of one; errors of rates and speed
+//! over the resolution.
 //!
-//! `cargo run --release -p studies -- exchange` prints a table, which `--write` keeps as `docs/tables/exchange.csv`.
+//! `cargo run --release -p studies -- exchange` prints two tables, which `--write` keeps as `docs/tables/exchange.csv`
+//! and `exchange-2.csv`.
 
 use anyhow::{Context, Result};
 use clap::Args;
@@ -8,7 +10,8 @@ use motile::motile_base::Region;
 use motile::setup::{Built, DropletSetup, ExchangeSetup, Exclusion, IntegralMethod, Method, Particles, Setup, Start};
 use motile_examples::positive;
 use motile_output::run::say;
-use motile_tests::validation::Table;
+use motile_tests::validation::exchange::{Mode, bare_rate, rate, speed};
+use motile_tests::validation::{Table, order};
 
 use crate::tables;
 
@@ -29,6 +32,12 @@ const DIFFUSIONS: [f64; 4] = [0.05, 0.2, 1.0, f64::INFINITY];
 /// 2 Sigma R/c0 of a droplet with as viscous an inside, diffusion constant on the interface.
 const SCALE: f64 = 4.0;
 const DIFFUSION: f64 = 0.1;
+
+/// Resolutions, diffusion constant inside, and time of the speed of the table of errors.
+const NODES: [usize; 4] = [16, 24, 32, 48];
+const FINEST: usize = 128;
+const BULK: f64 = 0.3;
+const LATE: f64 = 4.0;
 
 fn setup(unbinding: f64, bulk: f64) -> Setup {
     let diffusion_inside = Some(bulk).filter(|bulk| bulk.is_finite());
@@ -81,5 +90,33 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             table.push(row.into_iter().chain(values));
         }
     }
-    flags.keep.tables("exchange", "exchange", &["crates/interior-fields/src", "studies/src/exchange.rs"], &[table])
+    let inputs = ["crates/interior-fields/src", "tests/src/validation/exchange.rs", "studies/src/exchange.rs"];
+    flags.keep.tables("exchange", "exchange", &inputs, &[table, errors()?])
+}
+
+/// Relative errors of rates of mode 1 and of a speed, with a field inside, over the nodes.
+fn errors() -> Result<Table> {
+    let columns = ["nodes", "cells", "spacing", "growing mode", "decaying mode", "speed"];
+    let title = format!(
+        "Relative errors with a field inside, D_b {BULK}: rates of mode 1 at activity -8 and 0; speed at activity -4, \
+         t = {LATE}, from that of {FINEST} nodes"
+    );
+    let spacing = |nodes: usize| 3.84 / nodes as f64;
+    let finest = speed(BULK, 2 * FINEST, spacing(FINEST), LATE)?;
+    let mut table = Table::new(&title, &columns);
+    let mut found = [const { Vec::new() }; 3];
+    for nodes in NODES {
+        let (cells, spacing) = (2 * nodes, spacing(nodes));
+        let [grows, decays] = [-8.0, 0.0].map(|activity| -> Result<f64> {
+            let mode = Mode::find(1.0, BULK, bare_rate(1.0, activity));
+            Ok((rate(mode, activity, cells, spacing)? / mode.rate() - 1.0).abs())
+        });
+        let values = [grows?, decays?, (speed(BULK, cells, spacing, LATE)? / finest - 1.0).abs()];
+        found.iter_mut().zip(values).for_each(|(found, value)| found.push(value));
+        let row = [nodes.to_string(), cells.to_string(), format!("{spacing:.3}")];
+        table.push(row.into_iter().chain(values.map(|value| format!("{value:.1e}"))));
+    }
+    let orders = found.map(|errors| format!("{:.2}", order(&NODES.map(spacing), &errors)));
+    table.push(["order".to_owned(), String::new(), String::new()].into_iter().chain(orders));
+    Ok(table)
 }

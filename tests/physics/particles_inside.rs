@@ -2,146 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::active_interface::{ActiveDroplet, ConstantTension, ContractileTension, Curve, Exchange, ExcludedVolume};
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::active_interface::Exchange;
 use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
-use motile::motile_base::Region;
-use motile::motile_scene::integrator::Dynamics as _;
 use motile::prelude::*;
 use motile::setup::{AnyFlow, ExchangeSetup, Exclusion};
+use motile_tests::validation::exchange::{BINDING, DIFFUSION, MEAN, Mode, UNBINDING, bare_rate, rate};
 use motile_tests::validation::scene::{on_grid, without_grid};
-
-const BINDING: f64 = 0.6;
-const UNBINDING: f64 = 0.4;
-const DIFFUSION: f64 = 0.1;
-const MEAN: f64 = 100.0;
-const VISCOSITY: f64 = 100.0;
-const STEP: f64 = 1e-4;
-
-/// The Bessel functions J_k, or I_k where `modified`, and their derivatives, by integrals over a period.
-fn bessel(k: f64, x: f64, modified: bool) -> [f64; 2] {
-    let count = 200;
-    let mut sums = [0.0; 2];
-    for step in 0..count {
-        let angle = TAU * f64::from(step) / f64::from(count);
-        let (sin, cos) = angle.sin_cos();
-        let terms = if modified {
-            [(x * cos).exp() * (k * angle).cos(), cos * (x * cos).exp() * (k * angle).cos()]
-        } else {
-            [(k * angle - x * sin).cos(), sin * (k * angle - x * sin).sin()]
-        };
-        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term / f64::from(count));
-    }
-    sums
-}
-
-/// A mode of the unit disc: wave number along the interface and radial one, growing where `modified`.
-#[derive(Debug, Clone, Copy)]
-struct Mode {
-    k: f64,
-    q: f64,
-    modified: bool,
-    bulk: f64,
-}
-
-impl Mode {
-    fn rate(&self) -> f64 {
-        if self.modified { self.bulk * self.q * self.q } else { -self.bulk * self.q * self.q }
-    }
-
-    /// What vanishes at a root of the dispersion relation, where the rate without exchange is `bare`.
-    fn defect(&self, bare: f64) -> f64 {
-        let [value, slope] = bessel(self.k, self.q, self.modified);
-        let x = self.bulk * self.q * slope;
-        (self.rate() - bare) * (BINDING * value + x) + UNBINDING * x
-    }
-
-    /// The fastest-growing or slowest decaying one.
-    fn find(k: f64, bulk: f64, bare: f64) -> Self {
-        let at = |s: f64| {
-            let modified = s > 0.0;
-            Self { k, q: (s.abs() / bulk).sqrt(), modified, bulk }
-        };
-        let (mut above, step) = (bare.max(0.0) + 0.01, 0.01);
-        // Relative to the sign at great rates; x and I vanish together at 0.
-        while (at(above - step).defect(bare) > 0.0) == (at(above).defect(bare) > 0.0) || above.abs() < 1.5 * step {
-            above -= step;
-        }
-        let mut below = above - step;
-        for _ in 0..60 {
-            let middle = 0.5 * (above + below);
-            let same = (at(middle).defect(bare) > 0.0) == (at(above).defect(bare) > 0.0);
-            if same { above = middle } else { below = middle }
-        }
-        at(above)
-    }
-
-    fn density(&self, at: Vec2) -> f64 {
-        let [value, _] = bessel(self.k, self.q * at.length(), self.modified);
-        value * (self.k * at.to_angle()).cos()
-    }
-
-    /// The amplitude on the interface of density J_k or I_k inside.
-    fn on(&self) -> f64 {
-        let [value, slope] = bessel(self.k, self.q, self.modified);
-        (BINDING * value + self.bulk * self.q * slope) / UNBINDING
-    }
-}
-
-/// The rate of a mode from a short step and the Rayleigh quotient: its error is that of the operator, as it is
-/// symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
-fn quotient(mode: Mode, activity: f64, markers: usize, spacing: f64) -> f64 {
-    let nodes = markers / 2;
-    let flow = BoundaryIntegral::new(Region::Plane, VISCOSITY, Settings { nodes, ..Settings::default() })
-        .expect("a scene that works");
-    let mut scene = Scene::new(flow);
-    let circle = Curve::circle(1.0).expect("a scene that works").markers(markers).expect("a scene that works");
-    let length = circle[0].distance(circle[1]);
-    // Without activity the equations are linear at any size.
-    let part = if activity == 0.0 { 0.3 } else { 1e-4 };
-    let size = part * MEAN / mode.on().abs().max(1.0);
-    let wave = |segment: usize| mode.on() * (mode.k * TAU * (segment as f64 + 0.5) / markers as f64).cos();
-    let numbers = (0..markers).map(|segment| length * (MEAN + size * wave(segment))).collect();
-    let droplet = if activity == 0.0 {
-        ActiveDroplet::new(&circle, numbers, ConstantTension::new(10.0).expect("a scene that works"), DIFFUSION)
-            .expect("a scene that works")
-    } else {
-        let law = ContractileTension::new(10.0 - activity * MEAN, activity, ExcludedVolume::None)
-            .expect("a scene that works");
-        ActiveDroplet::new(&circle, numbers, law, DIFFUSION).expect("a scene that works")
-    };
-    let droplet = droplet.with_open_number();
-    let exchange = Exchange::new(BINDING, UNBINDING).expect("a scene that works");
-    let rest = exchange.concentration_at_rest(MEAN).expect("a scene that works");
-    let host = scene.add(droplet.clone());
-    let density = |at: Vec2| rest + size * mode.density(at);
-    let inside =
-        ParticlesInDroplet::new(&droplet, host, exchange, mode.bulk, density, spacing).expect("a scene that works");
-    scene.add(inside.clone());
-    let at_start = inside;
-    let [mut before, mut after] = [Vec::new(), Vec::new()];
-    scene.system().write_state(&mut before);
-    scene.step(STEP).expect("a scene that works");
-    scene.system().write_state(&mut after);
-    let change: Vec<f64> = after.iter().zip(&before).map(|(after, before)| (after - before) / size).collect();
-    let [mut above, mut below] = [0.0; 2];
-    for segment in 0..markers {
-        let value = wave(segment) * UNBINDING / BINDING;
-        above += value * change[2 * markers + segment];
-        below += value * length * wave(segment);
-    }
-    let areas = at_start.numbers().iter().zip(at_start.densities()).map(|(number, density)| number / density);
-    for ((node, area), change) in at_start.nodes().iter().zip(areas).zip(&change[3 * markers..]) {
-        let value = mode.density(*node);
-        above += value * change;
-        below += value * area * value;
-    }
-    (1.0 + above / below).ln() / STEP
-}
 
 fn assert_second_order(mode: Mode, activity: f64) {
     let errors = [(32, 0.24), (64, 0.12), (128, 0.06)]
-        .map(|(markers, spacing)| (quotient(mode, activity, markers, spacing) - mode.rate()).abs());
+        .map(|(markers, spacing)| (rate(mode, activity, markers, spacing).unwrap() - mode.rate()).abs());
     let bound = 0.003 * (1.0 + mode.rate().abs());
     assert!(errors[2] < bound, "{mode:?}: {errors:?} of {}", mode.rate());
     assert!((errors[0] / errors[2]).log2() > 3.5, "{mode:?}: {errors:?} of {}", mode.rate());
@@ -150,7 +20,7 @@ fn assert_second_order(mode: Mode, activity: f64) {
 #[test]
 fn diffusing_modes_decay_at_the_exact_rates() {
     for (k, bulk) in [(0.0, 0.3), (1.0, 0.3), (2.0, 1.0), (3.0, 0.1), (4.0, 0.5)] {
-        let mode = Mode::find(k, bulk, -DIFFUSION * k * k);
+        let mode = Mode::find(k, bulk, bare_rate(k, 0.0));
         assert!(!mode.modified);
         assert_second_order(mode, 0.0);
     }
@@ -160,8 +30,7 @@ fn diffusing_modes_decay_at_the_exact_rates() {
 fn active_modes_grow_at_the_exact_rates() {
     for (k, bulk) in [(1.0, 0.3), (2.0, 1.0), (3.0, 0.1), (4.0, 20.0)] {
         let activity = -8.0;
-        let bare = -k * (activity * MEAN / (2.0 * 2.0 * VISCOSITY) + DIFFUSION * k);
-        let mode = Mode::find(k, bulk, bare);
+        let mode = Mode::find(k, bulk, bare_rate(k, activity));
         assert!(mode.modified, "{mode:?}");
         assert_second_order(mode, activity);
     }
@@ -177,7 +46,7 @@ fn what_diffuses_inside_sets_the_thresholds() {
         let exact = -4.0 / k * (DIFFUSION * k * k + UNBINDING / (1.0 + BINDING / (k * bulk)));
         let errors = [(32, 0.24), (64, 0.12), (128, 0.06)].map(|(markers, spacing)| {
             let at = [0.5 * exact, 1.5 * exact];
-            let [low, high] = at.map(|activity| quotient(mode, activity, markers, spacing));
+            let [low, high] = at.map(|activity| rate(mode, activity, markers, spacing).unwrap());
             let found = at[0] - low * (at[1] - at[0]) / (high - low);
             (found / exact - 1.0).abs()
         });

@@ -2,7 +2,10 @@
 
 use motile_tests::validation::{Table, curved_walls, order};
 
-use super::Tables;
+use super::{Tables, per_cent};
+
+/// Time at which the speeds of swimmers are compared.
+const LATE: f64 = 10.0;
 
 /// Droplets between curved walls against exact values and in films, and flow along wavy walls against its limits.
 pub(super) fn curved_walls(quick: bool) -> Tables {
@@ -55,5 +58,17 @@ pub(super) fn curved_walls(quick: bool) -> Tables {
     series("second power of a", small.map(|a| (a, 6.0)), small, &curved_walls::small_amplitude)?;
     let long = [12.0, 24.0, 48.0];
     series("lubrication", long.map(|l| (0.3, l)), long.map(|l| 1.0 / l), &|_, a| curved_walls::lubrication(a))?;
-    Ok(vec![exact, films, limits])
+    let nodes = [48, 72, 96, 128];
+    let mut swimmers = Table::new(
+        &format!("Swimmers in a wavy channel: speed at t = {LATE}, difference from that of 128 nodes in %"),
+        &["activity", "speed", "48 nodes", "72 nodes", "96 nodes"],
+    );
+    for activity in if quick { &[-3.0][..] } else { &[-3.0, -4.0, -5.0] } {
+        let speeds = nodes.map(|nodes| curved_walls::speed(*activity, nodes, LATE));
+        let speeds = speeds.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let finest = speeds[nodes.len() - 1];
+        let off = speeds[..nodes.len() - 1].iter().map(|speed| per_cent(speed / finest - 1.0));
+        swimmers.push([activity.to_string(), format!("{finest:.5}")].into_iter().chain(off));
+    }
+    Ok(vec![exact, films, limits, swimmers])
 }

@@ -3,9 +3,12 @@
 use std::f64::consts::TAU;
 
 use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
+use motile::elastic_solids::ChannelShape;
 use motile::motile_base::{Drive, FlowSample, Region, Vec2};
 use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::setup::{Built, DropletSetup, Setup, WallSetup};
 
+use super::scene::{open_channel, without_grid};
 use super::{Reference, ReferenceFile, StudyError};
 
 /// Period of the channel of the reference values, its mean half width and the amplitude of its sides.
@@ -108,6 +111,24 @@ pub fn fixed(droplet: usize, wall: usize) -> Result<CurvedErrors, StudyError> {
         }
     }
     Ok(errors)
+}
+
+/// Speed (length per time) at a time of a swimmer in this channel that started where it is widest, with so many nodes;
+/// four cells of the concentration a node.
+///
+/// # Errors
+/// A scene that cannot be set up, a run that fails.
+pub fn speed(activity: f64, nodes: usize, time: f64) -> Result<f64, StudyError> {
+    let shape = ChannelShape::Sinusoidal { width: 2.0 * HALF_WIDTH, amplitude: AMPLITUDE, waves: 1, phase: 0.0 };
+    let setup = Setup {
+        region: open_channel(PERIOD, WIDTH),
+        walls: WallSetup::channel(&shape, 0.05),
+        droplets: vec![DropletSetup::active(activity)],
+        ..without_grid(nodes, 4 * nodes)
+    };
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    scene.run(time).go()?;
+    Ok(scene.observe(droplets[0])?.speed())
 }
 
 /// Flux through the section at x.

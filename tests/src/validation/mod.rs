@@ -14,6 +14,7 @@
 pub mod channel;
 pub mod contrast;
 pub mod curved_walls;
+pub mod exchange;
 pub mod fixed_shapes;
 pub mod growth;
 pub mod headings;
@@ -52,6 +53,9 @@ pub enum StudyError {
     /// The droplet.
     #[error(transparent)]
     Interface(#[from] motile::active_interface::InterfaceError),
+    /// The particles inside.
+    #[error(transparent)]
+    Interior(#[from] motile::interior_fields::InteriorError),
     /// The solid.
     #[error(transparent)]
     Solid(#[from] motile::elastic_solids::SolidError),
