@@ -11,7 +11,7 @@ use motile_tests::validation::scene::{on_grid, without_grid};
 
 fn assert_second_order(mode: Mode, activity: f64) {
     let errors = [(32, 0.24), (64, 0.12), (128, 0.06)]
-        .map(|(markers, spacing)| (rate(mode, activity, markers, spacing).unwrap() - mode.rate()).abs());
+        .map(|(markers, spacing)| (rate(mode, activity, markers, spacing).expect("a rate") - mode.rate()).abs());
     let bound = 0.003 * (1.0 + mode.rate().abs());
     assert!(errors[2] < bound, "{mode:?}: {errors:?} of {}", mode.rate());
     assert!((errors[0] / errors[2]).log2() > 3.5, "{mode:?}: {errors:?} of {}", mode.rate());
