@@ -7,8 +7,6 @@ use motile::ib_core::{AnyKernel, Kernel};
 use motile::motile_scene::StepSize;
 use motile::setup::IntegralMethod;
 
-/// Largest error of an adaptive step unless something else is said.
-const TOLERANCE: f64 = 1e-5;
 /// Automatic time steps, as a fraction of the stability limit.
 const OF_LIMIT: f64 = 0.5;
 
@@ -31,7 +29,7 @@ pub(crate) fn time_step(text: &str) -> Result<StepSize, String> {
     let number = |number: &str| number.parse().ok();
     let step = match (text, text.strip_prefix("adaptive:")) {
         ("auto", _) => Some(StepSize::OfLimit(OF_LIMIT)),
-        ("adaptive", _) => Some(StepSize::Adaptive { tolerance: TOLERANCE }),
+        ("adaptive", _) => Some(StepSize::default()),
         (_, Some(tolerance)) => number(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
         _ => number(text).map(StepSize::Fixed),
     };

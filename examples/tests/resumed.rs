@@ -122,7 +122,7 @@ fn elastic_walls() {
 fn what_is_inside() {
     compare("nucleus", "4", "--nodes 24 --no-pictures");
     compare("exchange", "10", "--nodes 24 --no-pictures");
-    compare("exchange", "0.4", "--nodes 24 --bulk-diffusion 0.5 --no-pictures");
+    compare("exchange", "1.2", "--nodes 24 --bulk-diffusion 0.5 --no-pictures");
     compare("active_gel", "40", "--spacing 0.2 --no-pictures");
 }
 

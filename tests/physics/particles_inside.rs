@@ -139,3 +139,19 @@ fn fast_diffusion_is_a_pool() {
     let errors = [10.0, 100.0, 1000.0].map(|bulk| (number(Some(bulk)) - pool).abs() / (pool - start).abs());
     assert!(errors[2] < 0.02 && errors[2] < errors[0], "{errors:?}, {pool} of {start}");
 }
+
+/// Steps as long as the exchange allows against steps a twentieth as long.
+#[test]
+fn fast_exchange_is_stable_up_to_its_limit() {
+    for (binding, bulk) in [(1.0, 1.0), (10.0, 1.0), (10.0, 0.05), (100.0, 10.0)] {
+        let exchange = ExchangeSetup { diffusion_inside: Some(bulk), ..ExchangeSetup::new(binding, 1.0) };
+        let on = [0.95, 0.05].map(|part| {
+            let Built { mut scene, .. } = swimmer(without_grid(24, 48), Region::Plane, exchange);
+            scene.run(0.5).step_size(StepSize::OfLimit(part)).go().unwrap();
+            let InteriorObservables { number_on, range, .. } = seen(&mut scene);
+            assert!(range[0] >= 0.0);
+            number_on
+        });
+        assert!((on[0] / on[1] - 1.0).abs() < 2e-3, "{binding} {bulk}: {on:?}");
+    }
+}

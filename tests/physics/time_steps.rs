@@ -1,6 +1,9 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
-use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
+use motile::active_interface::{
+    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion, observables::centroid_velocity,
+};
+use motile::boundary_integral::{BoundaryIntegral, Settings};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::mesh::equilateral_strip;
 use motile::elastic_solids::{Moduli, NeoHookean, Solid};
@@ -251,7 +254,7 @@ fn bodies_without_a_finite_bound_need_a_step_that_is_given() {
         step,
         ..Setup::default()
     };
-    let mut scene = channel(StepSize::default()).build().expect("a scene").scene;
+    let mut scene = channel(StepSize::OfLimit(0.5)).build().expect("a scene").scene;
     assert_eq!(scene.step_limit().expect("a bound").0, f64::INFINITY);
     let error = scene.run(1.0).go().expect_err("a part of infinity");
     assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
@@ -301,4 +304,39 @@ fn the_first_step_is_bounded_as_all_are() {
     };
     let (found, expected) = (speed(StepSize::default()), speed(StepSize::Fixed(0.05)));
     assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+}
+
+/// Largest difference of the concentration from its mean, over that at the start, on a circle of crowded particles
+/// (gamma = 1.01 - c, hardly any diffusion) after 100 steps of `part` of the limit.
+fn crowded(nodes: usize, part: f64) -> f64 {
+    let settings = Settings { nodes, ..Settings::default() };
+    let flow = BoundaryIntegral::new(Region::Plane, 1.0, settings).expect("a solver");
+    let law = ContractileTension::new(1.01, 1.0, ExcludedVolume::None).expect("a law");
+    let markers = Curve::circle(1.0).and_then(|circle| circle.markers(4 * nodes)).expect("a circle");
+    let length = markers[0].distance(markers[1]);
+    let angle = |wave: usize, k: usize| std::f64::consts::TAU * (wave * k) as f64 / markers.len() as f64;
+    let waves = |k: usize| (1..nodes / 2).map(|m| angle(m, k + m).cos()).sum::<f64>();
+    let numbers = (0..markers.len()).map(|k| length * (1.0 + 1e-9 * waves(k))).collect();
+    let mut scene = Scene::new(flow);
+    let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, 1e-6).expect("a droplet"));
+    let (limit, reason, _) = scene.step_limit().expect("a limit");
+    assert_eq!(reason, "the coupling of concentration and tension");
+    let dt = part * limit;
+    let change = |scene: &Scene<BoundaryIntegral>| {
+        let found = scene.body(droplet).expect("its droplet").concentrations();
+        let mean = found.iter().sum::<f64>() / found.len() as f64;
+        found.iter().map(|c| (c - mean).abs()).fold(0.0, f64::max)
+    };
+    let start = change(&scene);
+    (0..100).for_each(|_| scene.step(dt).expect("a step"));
+    change(&scene) / start
+}
+
+/// The limit is that of the linearised scheme: every mode decays just below it, and one grows just above.
+#[test]
+fn the_stabilised_coupling_is_stable_up_to_its_limit() {
+    for nodes in [32, 48, 72] {
+        let [below, above] = [0.95, 1.1].map(|part| crowded(nodes, part));
+        assert!(below < 1e-2 && above > 1e3, "{nodes} nodes: {below:e} {above:e}");
+    }
 }

@@ -4,6 +4,8 @@ mod cells;
 mod projection;
 mod transport;
 
+use std::f64::consts::TAU;
+
 use active_interface::{ActiveDroplet, Exchange};
 use motile_base::{Vec2, not_negative, positive};
 use motile_scene::{
@@ -314,9 +316,15 @@ impl Body for ParticlesInDroplet {
                 fastest = fastest.max(length / self.cells.areas[node]);
             }
         }
-        let rate = self.exchange.unbinding() + self.exchange.binding() * fastest;
+        // Diffusion, which is implicit, spreads what a cell at the interface loses before the cell is empty: on a circle
+        // of radius R, k_on times the integral of C^2 along the interface is at most D times that of |grad C|^2 inside,
+        // plus (2 k_on/R + k_on^2/D) times that of C^2.
+        let (binding, radius) = (self.exchange.binding(), self.lengths.iter().sum::<f64>() / TAU);
+        let spread = binding * (2.0 / radius + binding / self.constant);
+        let rate = self.exchange.unbinding() + spread.min(binding * fastest);
         limits(StepLimit::decay(2.0 / rate, "the exchange of particles"));
-        let dt = 1.0 / self.transport.fastest;
+        // As much as is in a cell leaves it: what flows in has been counted too.
+        let dt = 2.0 / self.transport.fastest;
         limits(StepLimit {
             dt,
             reason: "the transport of particles inside",

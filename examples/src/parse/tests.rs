@@ -4,7 +4,7 @@ use super::*;
 fn time_steps() {
     assert_eq!(time_step("auto"), Ok(StepSize::OfLimit(0.5)));
     assert_eq!(time_step("1e-3"), Ok(StepSize::Fixed(1e-3)));
-    assert_eq!(time_step("adaptive"), Ok(StepSize::Adaptive { tolerance: 1e-5 }));
+    assert_eq!(time_step("adaptive"), Ok(StepSize::default()));
     assert_eq!(time_step("adaptive:0.01"), Ok(StepSize::Adaptive { tolerance: 0.01 }));
     for text in ["0", "-1", "nan", "inf", "automatic", "", "adaptive:", "adaptive:1", "adaptive:0", "adaptive1e-3"] {
         assert!(time_step(text).is_err(), "{text}");

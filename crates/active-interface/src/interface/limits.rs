@@ -62,12 +62,15 @@ impl ActiveInterface {
         }
         if self.carries() {
             // Crowded particles relax at the rate c |gamma'| q / (4 eta). Explicitly, the shortest waves q = pi/h set
-            // the limit 8 h eta / (pi c |gamma'|); with the stabiliser, waves of q = 1/h do.
+            // the limit 8 h eta / (pi c |gamma'|). The stabiliser adds q h times that rate to the implicit part and
+            // takes it off the explicit one; with a = dt c |gamma'| q / (4 eta) a step multiplies a wave by
+            // `1 - a (1 + a (q h - 1/2)) / (1 + a q h/2)^2`, which exceeds 1 where a (1/2 - q h) > 1 and never falls
+            // below -1: waves of q = 1/(4 h) grow first, above 64 h eta / (c |gamma'|).
             let slope = |c: f64| c * self.law.tension.slope(c).abs();
             let coupling = self.derived.concentrations.iter().map(|&c| slope(c)).fold(0.0_f64, f64::max);
             let unit = finest_response(view) * viscosity / coupling;
             let (factor, cause) = if self.law.stabilised {
-                (8.0, StepCause::Stabilised { bare: 2.5 * unit })
+                (64.0, StepCause::Stabilised { bare: 2.5 * unit })
             } else {
                 (2.5, StepCause::Decay)
             };

@@ -297,7 +297,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
             Some((dt, reason, body)) => (part * dt, reason, body),
             None => (remaining, "the end of the run", String::new()),
         };
-        if self.tolerance().is_some() {
+        if self.tolerance().is_some() && self.scene.system().state_len() > 0 {
             let control = &mut self.scene.control;
             if control.next <= 0.0 {
                 control.next = FIRST * stable.0;

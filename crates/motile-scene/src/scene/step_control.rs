@@ -22,8 +22,8 @@ pub enum StepSize {
     /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error
     /// of such steps ([`crate::integrator::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
-    /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
-    /// tolerance or that fail otherwise are retried with a shorter one.
+    /// As long as accuracy and stability allow, the default at a tolerance of 1e-4: the error of each step is
+    /// estimated, steps whose error is above the tolerance or that fail otherwise are retried with a shorter one.
     Adaptive {
         /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
         /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
@@ -50,7 +50,7 @@ impl StepSize {
 
 impl Default for StepSize {
     fn default() -> Self {
-        Self::OfLimit(0.5)
+        Self::Adaptive { tolerance: 1e-4 }
     }
 }
 

@@ -112,13 +112,14 @@ fn a_run_needs_a_bound_on_its_steps() {
         calls += 1;
         Ok::<_, Infallible>(())
     };
-    let error = scene.run(50.0).observe(Every::Steps(1), &mut look).go().unwrap_err();
+    let part = StepSize::OfLimit(0.5);
+    let error = scene.run(50.0).step_size(part).observe(Every::Steps(1), &mut look).go().unwrap_err();
     assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
     assert!(error.to_string().contains("`StepSize::Fixed`"), "{error}");
     assert_eq!((calls, scene.steps(), scene.time()), (0, 0, 0.0));
     // The method that bounds its errors has no better idea of what is stable.
     let mut scene = scene.advanced_by(IntegratorKind::RungeKuttaChebyshev);
-    assert!(matches!(scene.run(50.0).go(), Err(SceneError::NoStepLimit { .. })));
+    assert!(matches!(scene.run(50.0).step_size(part).go(), Err(SceneError::NoStepLimit { .. })));
     let mut scene = scene.advanced_by(IntegratorKind::Midpoint);
     for step in [StepSize::Fixed(0.01), StepSize::Adaptive { tolerance: 1e-4 }] {
         scene.body_mut(point).unwrap().positions_mut()[0].x = 0.3;
@@ -177,7 +178,7 @@ fn adaptive_steps_need_an_estimate_of_errors() {
     let error = scene.run(1.0).step_size(adaptive).go().unwrap_err();
     assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");
     assert_eq!(scene.steps(), 0);
-    scene.run(1.0).go().unwrap();
+    scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go().unwrap();
     assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
     assert_eq!(scene.integrator_work(), IntegratorWork::default());
 }
