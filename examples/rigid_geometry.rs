@@ -39,21 +39,21 @@ struct Flags {
     /// The shape
     #[arg(long, value_enum, default_value_t = Case::Sinusoidal)]
     case: Case,
-    /// Amplitude of sinusoidal sides (R0)
-    #[arg(long, default_value_t = 0.3, value_parser = not_negative, allow_hyphen_values = true)]
-    amplitude: f64,
+    /// Amplitude of sinusoidal sides (R0); without it 0.3
+    #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
+    amplitude: Option<f64>,
     /// Width of the constriction, or at the tips of the ratchet (R0); without it 1 and three quarters of the width
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     throat: Option<f64>,
-    /// Length of the constriction (R0)
-    #[arg(long, default_value_t = 4.0, value_parser = positive, allow_hyphen_values = true)]
-    throat_length: f64,
-    /// Length of ramps (R0)
-    #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
-    ramp: f64,
-    /// Length over which the corners of the constriction and of the ratchet are rounded (R0)
-    #[arg(long, default_value_t = 0.06, value_parser = not_negative, allow_hyphen_values = true)]
-    rounding: f64,
+    /// Length of the constriction (R0); without it 4
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    throat_length: Option<f64>,
+    /// Length of the ramps of the constriction (R0); without it 1
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    ramp: Option<f64>,
+    /// Length over which the corners of the constriction and of the ratchet are rounded (R0); without it 0.06
+    #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
+    rounding: Option<f64>,
     /// Distance of the nodes of walls (R0)
     #[arg(long, default_value_t = 0.05, value_parser = positive, allow_hyphen_values = true)]
     wall_spacing: f64,
@@ -62,16 +62,43 @@ struct Flags {
 }
 
 impl Flags {
+    /// Amplitude of sinusoidal sides (R0).
+    fn amplitude(&self) -> f64 {
+        self.amplitude.unwrap_or(0.3)
+    }
+
+    /// Refuses flags of other cases.
+    fn check_case(&self) -> Result<()> {
+        let corners = [Case::Constriction, Case::Ratchet];
+        for (flag, given, cases) in [
+            ("amplitude", self.amplitude, &[Case::Sinusoidal][..]),
+            ("throat", self.throat, &corners),
+            ("throat-length", self.throat_length, &corners[..1]),
+            ("ramp", self.ramp, &corners[..1]),
+            ("rounding", self.rounding, &corners),
+        ] {
+            let name = |case: &Case| case.to_possible_value().map(|value| format!("--case {}", value.get_name()));
+            let names: Vec<String> = cases.iter().filter_map(name).collect();
+            ensure!(
+                given.is_none() || cases.contains(&self.case),
+                "--{flag} belongs to {}: leave it out, or give that case",
+                names.join(" and ")
+            );
+        }
+        Ok(())
+    }
+
     /// The shape of the sides, none where they are straight; and where the droplet starts (R0).
     fn shape(&self) -> (Option<ChannelShape>, f64) {
         let (width, length) = (self.scene.region.width, self.scene.region.along.length);
         match self.case {
             Case::Sinusoidal => {
-                (Some(ChannelShape::Sinusoidal { width, amplitude: self.amplitude, waves: 1, phase: 0.0 }), 0.0)
+                (Some(ChannelShape::Sinusoidal { width, amplitude: self.amplitude(), waves: 1, phase: 0.0 }), 0.0)
             }
             Case::Constriction => {
                 let throat = self.throat.unwrap_or(1.0);
-                let (throat_length, ramp, centre) = (self.throat_length, self.ramp, 0.0);
+                let (throat_length, ramp) = (self.throat_length.unwrap_or(4.0), self.ramp.unwrap_or(1.0));
+                let centre = 0.0;
                 (Some(ChannelShape::Constriction { width, throat, throat_length, ramp, centre }), -0.5 * length)
             }
             Case::Ratchet => {
@@ -94,12 +121,13 @@ impl Flags {
 
     /// The scene.
     fn setup(&self) -> Result<Setup> {
+        self.check_case()?;
         let flags = &self.scene;
         ensure!(
             flags.method.method.is_none_or(|kind| kind == MethodKind::Integral),
             "rigid walls of any shape have no grid: leave --method out or give boundary-integral"
         );
-        let (amplitude, width) = (self.amplitude, flags.region.width);
+        let (amplitude, width) = (self.amplitude(), flags.region.width);
         ensure!(
             self.case != Case::Sinusoidal || amplitude < 0.5 * width,
             "--amplitude {amplitude} leaves no room between walls of --width {width}: give less than {}",
@@ -131,7 +159,7 @@ impl Flags {
         }
         setup.walls = WallSetup::channel(&shape, spacing);
         if matches!(self.case, Case::Constriction | Case::Ratchet) {
-            setup.walls.iter_mut().for_each(|wall| wall.rounding = self.rounding);
+            setup.walls.iter_mut().for_each(|wall| wall.rounding = self.rounding.unwrap_or(0.06));
         }
         Ok(setup)
     }

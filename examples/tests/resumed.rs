@@ -166,6 +166,13 @@ fn refused(example: &str, flags: &str, words: &[&str]) {
 }
 
 #[test]
+fn flags_of_other_cases_are_refused() {
+    refused("rigid_geometry", "--case posts --amplitude 0.1", &["--amplitude belongs to --case sinusoidal:"]);
+    refused("rigid_geometry", "--case ratchet --ramp 0.5", &["--ramp belongs to --case constriction:"]);
+    refused("rigid_geometry", "--rounding 0.1", &["--rounding belongs to --case constriction and --case ratchet:"]);
+}
+
+#[test]
 fn cores_that_are_none_are_refused() {
     refused("nucleus", "--core-radius 1e-6", &["--core-radius 0.000001", "from 0.02"]);
     refused("nucleus", "--core-radius 1", &["--core-radius 1", "less than 1"]);

@@ -12,7 +12,7 @@ mod profile;
 mod squirmer;
 
 use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
-use motile_scene::{BodyFlow, FluidView, Handle, Hydrodynamics, SceneError, System};
+use motile_scene::{BodyFlow, Enclosed, FluidView, Handle, Hydrodynamics, SceneError, System};
 
 use crate::curve::polygon::{edges, raw_perimeter};
 use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments};
@@ -29,7 +29,7 @@ pub use profile::{ConcentrationProfile, concentration_profile};
 pub use squirmer::{SquirmerFit, VelocityFrame, squirmer_coefficients};
 
 /// State of an interface from which its observables are computed: lists of M values, one a marker or one a segment.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct InterfaceState<'a> {
     /// Markers in counter-clockwise order (length).
     pub markers: &'a [Vec2],
@@ -43,8 +43,8 @@ pub struct InterfaceState<'a> {
     pub inside: Option<(f64, f64)>,
     /// Viscosities inside and outside (stress times time).
     pub viscosities: [f64; 2],
-    /// Flow with the forces of the bodies that fill the droplet; `None` where nothing fills it.
-    pub filled: Option<BodyFlow<'a>>,
+    /// Bodies inside the droplet ([`BodyFlow::enclosed`]), whose forces are among its force moments.
+    pub enclosed: Vec<Enclosed>,
 }
 
 impl<'a> InterfaceState<'a> {
@@ -57,7 +57,7 @@ impl<'a> InterfaceState<'a> {
             velocities: flow.velocities,
             numbers: droplet.particle_numbers(),
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
-            filled: Some(*flow),
+            enclosed: flow.enclosed(),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
         }
     }
@@ -123,7 +123,7 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, filled } = *state;
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed } = *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
@@ -132,8 +132,8 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     let frame = Frame::of_motion(area.centroid, velocity)?;
 
     let mut moments = force_moments(markers, forces, velocities, viscosities, convention, &frame)?;
-    for [position, force] in filled.iter().flat_map(BodyFlow::inside) {
-        moments.add_force(frame.coordinates(position), frame.components(force));
+    for body in enclosed {
+        moments.add_body(body, convention, &frame)?;
     }
     let mut record = Observables {
         centroid: area.centroid,
@@ -187,12 +187,11 @@ impl Observables {
     /// active fraction of a uniform concentration, are `None`.
     ///
     /// Units of length, time and force are those of the state. `s_ijk` and `n_ijk` are the symmetric and the mixed part
-    /// of the quadrupole, `b1`, `b2`, `beta` the squirmer coefficients in the droplet's frame, `shape_mode_k` and
-    /// `concentration_mode_k` the amplitudes of mode k over the mean.
+    /// of the quadrupole `f_ijk`, `b1`, `b2`, `beta` the squirmer coefficients in the droplet's frame, `shape_mode_k`
+    /// and `concentration_mode_k` the amplitudes of mode k over the mean.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let stresslet = self.moments.stresslet();
-        let f3 = self.moments.quadrupole;
         let [maximum, minimum] = [0, 1].map(|i| self.concentration_range.map(|range| range[i]));
         let region = self.active_region;
         let known = Some;
@@ -220,17 +219,29 @@ impl Observables {
             ("b2_laboratory", known(self.squirmer_laboratory.b2)),
             ("beta_laboratory", self.squirmer_laboratory.beta()),
         ];
+        let moments = &self.moments;
         let mut list = |names: &[&'static str], values: &[f64]| {
             entries.extend(names.iter().copied().zip(values.iter().copied().map(Some)));
         };
-        list(&["force_x", "force_y"], &self.moments.force);
-        list(&["f_xx", "f_xy", "f_yx", "f_yy"], self.moments.dipole.as_flattened());
+        list(&["force_x", "force_y"], &moments.force);
+        list(&["f_xx", "f_xy", "f_yx", "f_yy"], moments.dipole.as_flattened());
         list(&["stresslet_xx", "stresslet_xy"], &stresslet[0]);
-        list(&["f_xxx", "f_xyy", "f_yxy", "f_yyx"], &[f3[0][0][0], f3[0][1][1], f3[1][0][1], f3[1][1][0]]);
-        let [[[sxxx, sxxy], [_, sxyy]], [_, [_, syyy]]] = self.moments.symmetric_quadrupole();
-        list(&["s_xxx", "s_xxy", "s_xyy", "s_yyy"], &[sxxx, sxxy, sxyy, syyy]);
-        let mixed = self.moments.mixed_quadrupole();
-        list(&["n_xyy", "n_yxy", "n_yyx"], &[mixed[0][1][1], mixed[1][0][1], mixed[1][1][0]]);
+        let [all, symmetric, mixed] = [moments.quadrupole, moments.symmetric_quadrupole(), moments.mixed_quadrupole()];
+        for (quadrupole, name, [i, j, k]) in [
+            (all, "f_xxx", [0, 0, 0]),
+            (all, "f_xyy", [0, 1, 1]),
+            (all, "f_yxy", [1, 0, 1]),
+            (all, "f_yyx", [1, 1, 0]),
+            (symmetric, "s_xxx", [0, 0, 0]),
+            (symmetric, "s_xxy", [0, 0, 1]),
+            (symmetric, "s_xyy", [0, 1, 1]),
+            (symmetric, "s_yyy", [1, 1, 1]),
+            (mixed, "n_xyy", [0, 1, 1]),
+            (mixed, "n_yxy", [1, 0, 1]),
+            (mixed, "n_yyx", [1, 1, 0]),
+        ] {
+            entries.push((name, quadrupole.map(|entries| entries[i][j][k])));
+        }
         let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
         if let Some((number, flux)) = self.inside {
             entries.extend([("number_inside", known(number)), ("exchange_flux", known(flux))]);

@@ -1,7 +1,7 @@
 //! Hydrodynamics of a scene of interfaces by boundary integrals.
 
 use crate::RigidWall;
-use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2, positive};
+use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2, positive, told_apart};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers, Warning,
     checkpoint::SavedState, gap::Boundary,
@@ -124,11 +124,11 @@ impl Hydrodynamics for BoundaryIntegral {
         if self.sharpest_turn <= SHARPEST_TURN {
             return Vec::new();
         }
+        let [turn, limit] = told_apart([self.sharpest_turn, SHARPEST_TURN]);
         let message = format!(
-            "they turn by {:.2} (radians) within the distance of two nodes, above {SHARPEST_TURN}: speeds beside such \
+            "they turn by {turn} (radians) within the distance of two nodes, above {limit}: speeds beside such \
              a corner are off by about a per cent at nodes 0.1 radii apart; give a rounding of 1.25 times the distance \
-             of the nodes, or more",
-            self.sharpest_turn
+             of the nodes, or more"
         );
         let (body, cause) = ("rigid walls".to_owned(), "corners not resolved".into());
         vec![Warning { body, cause, excess: self.sharpest_turn / SHARPEST_TURN, message }]

@@ -3,10 +3,10 @@
 use motile_base::{PeriodicSeries, Vec2, all_points_finite, not_negative, polygon, positive, within};
 use motile_scene::gap::Boundary;
 use num_complex::Complex64;
-use stokes_layers::{LayerCurve, LayerError};
+use stokes_layers::{LayerCurve, LayerError, Settings};
 
 /// Fewest and most nodes of a wall: sixteen carry waves up to 7, and the matrix of 3000 takes 288 MB.
-const NODES: [f64; 2] = [16.0, 3000.0];
+const NODES: [f64; 2] = [Settings::NODES[0] as f64, 3000.0];
 /// Largest number of points that a wall is given by: its transform takes some 50 MB.
 const MOST_POINTS: f64 = 1_048_576.0;
 /// Corners per node of the boundary that gaps are measured from: as many as the layers have fine nodes.

@@ -70,8 +70,15 @@ fn markers_that_are_not_an_interface() {
     points.forces_mut()[7] = Vec2::X;
     assert!(matches!(solver().velocities(&mut points), Err(FlowError::Unsupported { .. })));
 
-    let mut few = markers(&[circle()], 32);
-    assert!(matches!(solver().velocities(&mut few), Err(FlowError::Input(InputError::OutOfRange { value: 32.0, .. }))));
+    // The body is named, which is not the curve of that number.
+    let mut few = Markers::new();
+    few.push_group(1, MarkerKind::Points);
+    few.push_group(32, MarkerKind::Interface { viscosity_inside: None });
+    for (k, position) in few.positions_mut()[1..].iter_mut().enumerate() {
+        *position = Vec2::from_angle(std::f64::consts::TAU * k as f64 / 32.0);
+    }
+    let refused = solver().velocities(&mut few).unwrap_err().to_string();
+    assert!(refused.starts_with("a curve of body 1 has 32 points: give it 64 to "), "{refused}");
 
     let mut clockwise = markers(&[circle()], 64);
     clockwise.positions_mut().reverse();

@@ -3,7 +3,7 @@
 mod contrast;
 mod curves;
 
-use motile_base::{Drive, Region, SolveReport, all_points_finite, same_length, within};
+use motile_base::{Drive, Region, SolveReport, all_points_finite, same_length};
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 use stokes_layers::gmres::Outcome;
 use stokes_layers::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
@@ -72,7 +72,6 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// Fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel whose middle is not at
     /// y = 0.
     pub fn new(solver: S, kernel: K, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
-        within("the number of nodes", nodes as f64, 16.0, 4096.0)?;
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
         let region = if grid.has_walls() {
@@ -282,6 +281,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         let Outcome { iterations, residual } = self.solve_nodes(markers)?;
         self.work.evaluations += 1;
         self.interfaces.set_lengths(markers.groups(), self.curves.interface_lengths());
+        self.interfaces.tell_dipoles(markers)?;
         let viscosity = self.solver.viscosity();
         self.curves.write(1.0 / viscosity, markers.velocities_mut())?;
         let report = self.solve_all()?;

@@ -52,12 +52,46 @@ fn the_fastest_decay_is_estimated_from_above() {
         let handle = scene.add(tethered(count, radius));
         // The midpoint rule is stable to 2 over the rate.
         let estimate = 2.0 / scene.step_limit().unwrap().0;
-        let centre = |scene: &Scene<_>| scene.body(handle).unwrap().positions().iter().sum::<Vec2>().x;
+        let centre = |scene: &Scene<_>| scene.body(handle).unwrap().markers().iter().sum::<Vec2>().x;
         let before = centre(&scene);
         let dt = 1e-3 / estimate;
         scene.step(dt).unwrap();
         let measured = -(centre(&scene) / before).ln() / dt;
         assert!(measured < estimate && measured > 0.2 * estimate, "{count} {radius}: {measured} {estimate}");
+    }
+}
+
+/// A ring of springs between neighbours, at rest, whose law alone says how stiff it is: the largest rate of change of
+/// displacements in the flow of the grid, by the power method.
+#[test]
+fn the_fastest_decay_of_springs_is_estimated_from_above() {
+    for (count, radius) in [(8, 0.5), (24, 0.8), (64, 1.0), (128, 1.0), (300, 1.0)] {
+        let mut scene = scene(2.0);
+        let place = |k: usize| radius * Vec2::from_angle(TAU * k as f64 / count as f64);
+        let rest = place(0).distance(place(1));
+        let law = move |positions: &[Vec2], forces: &mut [Vec2]| {
+            for k in 0..count {
+                let next = (k + 1) % count;
+                let spring = positions[next] - positions[k];
+                let pull = 3.0 * (spring.length() - rest) * spring.normalize();
+                forces[k] += pull;
+                forces[next] -= pull;
+            }
+        };
+        let handle = scene.add(MarkerBody::new("ring", (0..count).map(place).collect(), law));
+        let estimate = 2.0 / scene.step_limit().unwrap().0;
+        let mut direction: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle((k * k) as f64)).collect();
+        let mut measured = 0.0;
+        for _ in 0..60 {
+            let norm = direction.iter().map(|d| d.length_squared()).sum::<f64>().sqrt();
+            for (k, marker) in scene.body_mut(handle).unwrap().markers_mut().iter_mut().enumerate() {
+                *marker = place(k) + 1e-6 / norm * direction[k];
+            }
+            direction = scene.system_mut().evaluate().unwrap().velocities().to_vec();
+            measured = direction.iter().map(|d| d.length_squared()).sum::<f64>().sqrt() / 1e-6;
+        }
+        println!("{count} {radius}: {measured} {estimate}");
+        assert!(measured < estimate && measured > 0.5 * estimate, "{count} {radius}: {measured} {estimate}");
     }
 }
 

@@ -7,7 +7,7 @@ mod transport;
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, Exchange};
-use motile_base::{Vec2, not_negative, positive};
+use motile_base::{Vec2, not_negative, positive, told_apart};
 use motile_scene::{
     Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit, Warning,
     checkpoint::SavedState,
@@ -337,8 +337,9 @@ impl Body for ParticlesInDroplet {
         if peclet <= PECLET_LIMIT {
             return Vec::new();
         }
+        let [text, limit] = told_apart([peclet, PECLET_LIMIT]);
         let message = format!(
-            "the cell Peclet number inside is {peclet:.2}, above {PECLET_LIMIT}: upwind fluxes add diffusion, give \
+            "the cell Peclet number inside is {text}, above {limit}: upwind fluxes add diffusion, give \
              a narrower mesh spacing inside"
         );
         let cause = "particles inside not resolved";

@@ -1,6 +1,6 @@
 //! Errors of scenes, bodies and flows.
 
-use motile_base::InputError;
+use motile_base::{InputError, told_apart};
 use stokes_grid::StokesError;
 use stokes_layers::LayerError;
 
@@ -19,6 +19,20 @@ pub enum FlowError {
     /// The layer potentials refused.
     #[error(transparent)]
     Layers(LayerError),
+    /// A body with a curve of too few or too many nodes or points.
+    #[error("a curve of body {body} has {found} {what}: give it {least} to {most}")]
+    Count {
+        /// Number of the body, in the order of addition.
+        body: usize,
+        /// Nodes or points.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// Least number.
+        least: usize,
+        /// Largest number.
+        most: usize,
+    },
     /// A marker position or force is not a finite number.
     #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
     NonFinite {
@@ -80,6 +94,16 @@ pub enum FlowError {
 
 motile_base::debug_as_explanation!(FlowError);
 
+impl FlowError {
+    /// The error with the number of the body in place of that of its curve.
+    pub(crate) fn of_body(mut self, number: impl Fn(usize) -> usize) -> Self {
+        if let Self::Count { body, .. } | Self::NonFinite { body, .. } | Self::BeyondWall { body, .. } = &mut self {
+            *body = number(*body);
+        }
+        self
+    }
+}
+
 impl From<LayerError> for FlowError {
     fn from(error: LayerError) -> Self {
         match error {
@@ -91,6 +115,9 @@ impl From<LayerError> for FlowError {
             }
             LayerError::NoConvergence { iterations, residual, tolerance } => {
                 Self::NoConvergence { what: "the solution for a viscosity contrast", iterations, residual, tolerance }
+            }
+            LayerError::Count { kind: "curve", curve, what, found, least, most } => {
+                Self::Count { body: curve, what, found, least, most }
             }
             LayerError::Input(error) => Self::Input(error),
             LayerError::Clockwise { .. } => Self::Unsupported {
@@ -132,7 +159,12 @@ pub enum BodyError {
         second: usize,
     },
     /// A bound on a conserved quantity was exceeded.
-    #[error("{what} has changed by {change:.1e} of its value, more than {bound:e}: use a smaller time step or spacing")]
+    #[error(
+        "{what} has changed by {}{} of its value, more than {}: use a smaller time step or spacing",
+        if *change < 0.0 { "-" } else { "" },
+        told_apart([change.abs(), *bound])[0],
+        told_apart([change.abs(), *bound])[1]
+    )]
     NotConserved {
         /// The quantity.
         what: &'static str,
@@ -177,8 +209,8 @@ pub enum SceneError {
     },
     /// Bodies that overlap before anything is computed for them.
     #[error(
-        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the \
-         bodies apart"
+        "at time {time} {body} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move the bodies apart",
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     Overlap {
         /// Time of the state.
@@ -210,8 +242,9 @@ pub enum SceneError {
     },
     /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a \
-         smaller time step, a finer grid or a repulsion between the interfaces"
+        "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}: use a \
+         smaller time step, a finer grid or a repulsion between the interfaces",
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     Crossing {
         /// Time at the start of the step.
@@ -231,14 +264,19 @@ pub enum SceneError {
     },
     /// A gap is narrower than the bound that was set.
     #[error(
-        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer \
-         grid, no grid or a repulsion, or a lower bound if the film between them does not matter"
+        "at time {time} the gap between {body} and {other} is {} at ({x:.4}, {y:.4}), below the bound of {}: use \
+         a finer grid, no grid or a repulsion, or a lower bound if the film between them does not matter",
+        told_apart([*gap, *bound])[0], told_apart([*gap, *bound])[1]
     )]
     Gap {
         /// Time at the start of the step.
         time: f64,
         /// One side of the gap.
         body: String,
+        /// x coordinate of its corner there (length).
+        x: f64,
+        /// y coordinate of the corner (length).
+        y: f64,
         /// Its other side.
         other: String,
         /// The gap (length).

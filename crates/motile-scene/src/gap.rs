@@ -39,6 +39,30 @@ pub(crate) struct Gap {
     pub(crate) width: f64,
 }
 
+/// Gaps that were found: the narrowest one, and of those that have closed beyond what contact allows the one that has
+/// most, which another one may well be narrower than.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Gaps {
+    pub(crate) narrowest: Option<Gap>,
+    pub(crate) crossed: Option<Overlap>,
+}
+
+impl Gaps {
+    /// Takes one more into account, which may be so deep (length). Of equal ones that between the first bodies counts.
+    fn add(&mut self, gap: Gap, allowed: f64) {
+        let Gap { body, other, place, width } = gap;
+        let narrower =
+            |least: Gap| width < least.width || width == least.width && [body, other] < [least.body, least.other];
+        if self.narrowest.is_none_or(narrower) {
+            self.narrowest = Some(gap);
+        }
+        let depth = -width;
+        if depth > allowed && self.crossed.is_none_or(|most| depth - allowed > most.depth - most.allowed) {
+            self.crossed = Some(Overlap { body, other, place, depth, allowed });
+        }
+    }
+}
+
 /// The surfaces of all bodies at one state, and what the bodies are; keeps its memory.
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
@@ -114,13 +138,19 @@ impl Surfaces {
         self.sort();
     }
 
-    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
-    /// (length).
+    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where (length).
+    /// Of interfaces inside one another that is a gap below what the polygons through their markers tell of the curves.
     #[must_use]
     pub fn contact(&self, view: &FluidView) -> Option<(usize, usize, Vec2)> {
-        let interfaces = |gap: &Gap| self.kinds[gap.body].is_closed_curve() && self.kinds[gap.other].is_closed_curve();
-        let narrowest = self.narrowest_near(view, 0.0).filter(interfaces);
-        narrowest.filter(|gap| gap.width <= 0.0).map(|gap| (gap.body, gap.other, gap.place))
+        let interfaces = |bodies: [usize; 2]| bodies.iter().all(|&body| self.kinds[body].is_closed_curve());
+        let scale = self.contact_scale(view);
+        let narrowest = self.gaps(view, scale, interfaces).narrowest;
+        let closed = |gap: &Gap| {
+            let (bodies, periods) = ([gap.body, gap.other], view.domain.periods);
+            let nested = self.lies_in(gap.body, gap.other, periods) || self.lies_in(gap.other, gap.body, periods);
+            gap.width <= if nested { self.allowed(scale, bodies) } else { 0.0 }
+        };
+        narrowest.filter(closed).map(|gap| (gap.body, gap.other, gap.place))
     }
 
     /// The smallest signed distance of a corner of an interface from solids (length), the interface, the number of the
@@ -148,30 +178,30 @@ impl Surfaces {
         around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 
-    /// The narrowest gap of those that are looked at during steps, below `bound` (length) or four times what contacts
-    /// are measured in.
-    pub(crate) fn narrowest_near(&self, view: &FluidView, bound: f64) -> Option<Gap> {
-        self.narrowest(&view.domain, bound.max(REACH * self.contact_scale(view)))
+    /// The gaps that are looked at during steps, below `bound` (length) or four times what contacts are measured in.
+    pub(crate) fn gaps_near(&self, view: &FluidView, bound: f64) -> Gaps {
+        self.gaps(view, bound.max(REACH * self.contact_scale(view)), |_| true)
     }
 
-    /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and
-    /// from the corners of other bodies to interfaces.
-    pub(crate) fn narrowest(&self, domain: &Domain, reach: f64) -> Option<Gap> {
-        let mut narrowest: Option<Gap> = None;
+    /// The gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies, and from
+    /// the corners of other bodies to interfaces.
+    pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool) -> Gaps {
+        let (mut gaps, scale, domain) = (Gaps::default(), self.contact_scale(view), &view.domain);
         for (body, from) in self.boundaries.iter().enumerate() {
             let Some(frame) = from.frame() else { continue };
             self.each_near(&frame, domain.periods, reach, &mut |other| {
-                if self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve() {
-                    self.narrow([body, other], domain, reach, &mut narrowest);
+                let some = self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve();
+                if some && pairs([body, other]) {
+                    self.add_gaps([body, other], domain, [reach, self.allowed(scale, [body, other])], &mut gaps);
                 }
             });
         }
-        narrowest
+        gaps
     }
 
-    /// Looks for a narrower gap, from the corners of one body to the boundary of another one or of its own images. Of
-    /// equal ones that between the first bodies counts.
-    fn narrow(&self, [body, other]: [usize; 2], domain: &Domain, reach: f64, narrowest: &mut Option<Gap>) {
+    /// Looks at the gaps from the corners of one body to the boundary of another one or of its own images, below
+    /// `reach` and with the depth that is allowed (length).
+    fn add_gaps(&self, [body, other]: [usize; 2], domain: &Domain, [reach, allowed]: [f64; 2], gaps: &mut Gaps) {
         let [from, boundary] = [body, other].map(|index| &self.boundaries[index]);
         let [Some(frame), Some(large)] = [from, boundary].map(Boundary::frame) else { return };
         let periods = if other == body { [None; 2] } else { domain.periods };
@@ -182,12 +212,8 @@ impl Surfaces {
             let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
             for place in from.corners() {
                 let distance = boundary.distance_within(place + shift, periods, reach);
-                if let Some(width) = distance.map(|distance| sign * distance)
-                    && narrowest.is_none_or(|least| {
-                        width < least.width || width == least.width && [body, other] < [least.body, least.other]
-                    })
-                {
-                    *narrowest = Some(Gap { body, place, other, width });
+                if let Some(distance) = distance {
+                    gaps.add(Gap { body, place, other, width: sign * distance }, allowed);
                 }
             }
         }

@@ -1,13 +1,16 @@
 //! From forces at markers to velocities at markers.
 
+mod body_flow;
 #[cfg(test)]
 pub(crate) mod drag_box;
 mod interface_groups;
 mod markers;
 mod substrate;
 
+pub(crate) use body_flow::Everything;
+pub use body_flow::{BodyFlow, Enclosed};
 pub use interface_groups::InterfaceGroups;
-pub use markers::{BodyFlow, MarkerGroup, MarkerKind, Markers};
+pub use markers::{MarkerGroup, MarkerKind, Markers};
 pub use substrate::Substrate;
 
 use std::borrow::Cow;
@@ -119,7 +122,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
-    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`.
+    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`, and tells the force dipoles by which
+    /// it keeps bodies rigid ([`Markers::set_rigid_dipole`]).
     ///
     /// # Errors
     /// Positions or forces that are not finite, markers beyond a wall, no convergence.

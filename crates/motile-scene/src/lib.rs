@@ -21,7 +21,7 @@
 //! let spring = |positions: &[Vec2], forces: &mut [Vec2]| forces[0] = -3.0 * positions[0];
 //! let point = scene.add(MarkerBody::new("point", vec![Vec2::X], spring));
 //! scene.run(1.0).step_size(StepSize::Adaptive { tolerance: 1e-4 }).go()?;
-//! let place = scene.body(point)?.positions()[0];
+//! let place = scene.body(point)?.markers()[0];
 //! println!("at {:.3}", place.x);
 //! assert!((place.x - (-1.5_f64).exp()).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,6 +40,7 @@ mod scene;
 pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{
-    BodyFlow, Domain, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers, Substrate,
+    BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers,
+    Substrate,
 };
 pub use scene::{Every, Handle, Limiting, Observer, Run, Scene, StepReport, StepSize, System, Warnings};

@@ -71,8 +71,8 @@ pub enum SetupError {
     },
     /// Body that starts inside another one, or where another one is.
     #[error(
-        "{key} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move them apart or make \
-         one of them smaller"
+        "{key} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move them apart or make one of them smaller",
+        motile_base::told_apart([*depth, *allowed])[0], motile_base::told_apart([*depth, *allowed])[1]
     )]
     Overlap {
         /// Key of the entry in the description, with its name if it has one.

@@ -237,6 +237,11 @@ impl Model {
         Ok(self.flow.velocities(0, &mut self.velocities)?)
     }
 
+    /// Force dipoles (force times length) of what keeps the discs rigid in the loaded state.
+    pub(crate) fn rigid_dipoles(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        (1..=self.nuclei()).filter_map(|disc| self.flow.rigid_dipole(disc))
+    }
+
     /// Flow of the loaded state at points (length).
     pub(crate) fn sample(&mut self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
         let mut samples = vec![FlowSample::default(); points.len()];

@@ -6,6 +6,7 @@ use std::time::Instant;
 use motile::active_interface::observables::{Convention, InterfaceState, Observables, observe};
 use motile::motile_base::FlowSample;
 use motile::motile_base::Region;
+use motile::motile_scene::Enclosed;
 use motile::setup::Setup;
 use motile_base::Vec2;
 
@@ -19,8 +20,6 @@ use crate::{Profile, SteadyError};
 
 /// Markers for each node in observables, which are of second order in the spacing of markers.
 const REFINEMENT: usize = 16;
-/// Distance of the curve outside of the interface, over the radius, along which the flow is sampled.
-const BESIDE: f64 = 1e-5;
 /// Tail of the Fourier series from which on a state is not resolved: measured values would err by a part in a thousand.
 const LONGEST_TAIL: f64 = 0.01;
 
@@ -267,11 +266,7 @@ impl SteadyState {
         let step = TAU / self.profile.nodes() as f64;
         let tangents = self.profile.tangents()?;
         let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
-        let [xx, xy] = if self.profile.nuclei.is_empty() {
-            self.force_dipole(&system, moments.centroid, &tangents)
-        } else {
-            self.traction_dipole(&mut system, moments.centroid, &tangents)?
-        };
+        let [xx, xy] = self.force_dipole(&system, moments.centroid, &tangents);
         // The component of the traceless, symmetric part along the motion.
         let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
         let model = &system.model;
@@ -286,8 +281,8 @@ impl SteadyState {
         })
     }
 
-    /// Components xx and xy of the stresslet about a centre, from the interface's forces and the double layer of the
-    /// viscosity contrast.
+    /// Components xx and xy of the stresslet about a centre: [`motile::active_interface::observables::ForceMoments`] as
+    /// integrals over the interface, with what keeps the discs inside rigid.
     fn force_dipole(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
         let model = &system.model;
         let contrast = model.viscosities[1] - model.viscosities[0];
@@ -298,33 +293,11 @@ impl SteadyState {
             xx += 0.5 * (f.x * r.x - f.y * r.y) + contrast * (v.x * n.x - v.y * n.y);
             xy += 0.5 * (f.x * r.y + f.y * r.x) + contrast * (v.x * n.y + v.y * n.x);
         }
-        [xx, xy]
-    }
-
-    /// Traction dipole, for whatever is inside: the integral of `eta (v n + n v) - (sigma n) r` over a curve right
-    /// outside of the interface, sigma the stress and eta the viscosity of the fluid there (Batchelor, J. Fluid Mech.
-    /// 41, 545 (1970)). It does not depend on the curve.
-    fn traction_dipole(&self, system: &mut System, centre: Vec2, tangents: &[Vec2]) -> Result<[f64; 2], SteadyError> {
-        let (viscosity, radius) = (system.model.viscosities[1], system.model.radius);
-        let step = TAU / tangents.len() as f64;
-        let beside = |(x, t): (&Vec2, &Vec2)| *x - BESIDE * radius * t.perp().normalize();
-        let outside: Vec<Vec2> = self.profile.positions.iter().zip(tangents).map(beside).collect();
-        let samples = system.model.sample(&outside)?;
-        let density = vec![0.0; outside.len()];
-        let curve = Profile { positions: outside, density, nuclei: Vec::new() };
-        let (mut xx, mut xy) = (0.0, 0.0);
-        for ((x, tangent), sample) in curve.positions.iter().zip(curve.tangents()?).zip(samples) {
-            let FlowSample { velocity: v, pressure, gradient: [[ux, uy], [vx, vy]] } = sample;
-            let (r, n) = (*x - centre, -tangent.perp() * step);
-            let shear = viscosity * (uy + vx);
-            let traction = Vec2::new(
-                (2.0 * viscosity * ux - pressure) * n.x + shear * n.y,
-                shear * n.x + (2.0 * viscosity * vy - pressure) * n.y,
-            );
-            xx += viscosity * (v.x * n.x - v.y * n.y) - 0.5 * (traction.x * r.x - traction.y * r.y);
-            xy += viscosity * (v.x * n.y + v.y * n.x) - 0.5 * (traction.x * r.y + traction.y * r.x);
+        for [[dxx, dxy], [_, dyy]] in model.rigid_dipoles() {
+            xx += 0.5 * (dxx - dyy);
+            xy += dxy;
         }
-        Ok([xx, xy])
+        [xx, xy]
     }
 
     /// Flow at points (length), inside the droplet or outside of it, at any distance from the interface: velocity, its
@@ -360,14 +333,8 @@ impl SteadyState {
     /// spacing.
     ///
     /// # Errors
-    /// A flow that cannot be solved for; a droplet with a disc inside, whose second force moments are not known.
+    /// A flow that cannot be solved for.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
-        if !self.profile.nuclei.is_empty() {
-            return Err(SteadyError::Unsupported {
-                what: "the force moments of a droplet with a disc inside are not known".to_owned(),
-                remedy: "use `measured`, or observe a run",
-            });
-        }
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         let nodes = self.profile.nodes();
@@ -392,7 +359,10 @@ impl SteadyState {
                 numbers: &numbers,
                 viscosities: model.viscosities,
                 inside: None,
-                filled: None,
+                enclosed: model
+                    .rigid_dipoles()
+                    .map(|dipole| Enclosed { rigid_dipole: Some(dipole), ..Enclosed::default() })
+                    .collect(),
             },
             Convention::FarField,
         )?)

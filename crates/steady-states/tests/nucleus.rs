@@ -1,5 +1,6 @@
 //! Droplets with a rigid nucleus against closed forms.
 
+use motile::active_interface::observables::{Convention, InterfaceState, observe};
 use motile::prelude::*;
 use motile::setup::{DropletSetup, DropletShape, Exclusion, Particles, RigidBodySetup};
 use num_complex::Complex64;
@@ -135,11 +136,28 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
     scene.run(40.0).go().expect("a run");
     let before = scene.observe(droplet).expect("seen").velocity;
     scene.run(50.0).go().expect("a run");
-    let after = scene.observe(droplet).expect("seen").velocity;
+    let seen = scene.observe(droplet).expect("seen");
+    let after = seen.velocity;
     let rate = before.angle_to(after) / 10.0;
     println!("turning {} {rate}, speed {} {}", circle.turning_rate(), circle.velocity().length(), after.length());
     assert!((circle.turning_rate() / rate - 1.0).abs() < 0.02, "{} {rate}", circle.turning_rate());
     assert!((circle.velocity().length() / after.length() - 1.0).abs() < 0.01, "{}", circle.velocity());
+    // Force moments are those of the whole droplet in both: of the interface alone they are others.
+    let measured = circle.measured().expect("measured");
+    let interface = {
+        let mut state = InterfaceState::of(scene.system(), droplet).expect("evaluated");
+        state.enclosed.clear();
+        observe(&state, Convention::FarField).expect("seen").moments.stresslet()[0][0]
+    };
+    let all = circle.observables().expect("observed");
+    let [run, steady] = [&seen, &all].map(|seen| seen.moments.stresslet()[0]);
+    println!("stresslet {} {steady:?}, run {run:?}, interface {interface}", measured.stresslet);
+    assert!((steady[0] / measured.stresslet - 1.0).abs() < 1e-4, "{steady:?} {}", measured.stresslet);
+    let apart = (run[0] - steady[0]).hypot(run[1] - steady[1]) / steady[0].hypot(steady[1]);
+    assert!(apart < 0.01 && (interface / run[0] - 1.0).abs() > 0.2, "{run:?} {steady:?} {interface}");
+    for seen in [&seen, &all] {
+        assert!(seen.moments.quadrupole.is_none() && seen.get("n_xyy").is_none() && seen.get("f_xy").is_some());
+    }
 }
 
 /// A disc that is too large or elsewhere, and a profile without the disc of the scene.

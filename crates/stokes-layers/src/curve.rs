@@ -5,13 +5,12 @@ use std::f64::consts::TAU;
 use motile_base::{
     Vec2, same_length,
     spectrum::{copy_band, differentiate, largest_wave},
-    within,
 };
 use num_complex::Complex64;
 
 use crate::images::Images;
 use crate::{
-    LayerError,
+    LayerError, Settings,
     calculus::MOST_POINTS,
     error::finite_vectors,
     greens::{GreensFunction, half_turns},
@@ -82,12 +81,18 @@ pub struct LayerCurve<'a> {
     /// Advance of the curve in a turn of the parameter (length): zero for a closed one, plus or minus the period of the
     /// region along x for an open one.
     pub period: Vec2,
-    /// Nodes, 16 to 4096, equally spaced in the parameter.
+    /// Nodes ([`Settings::NODES`]), equally spaced in the parameter.
     pub nodes: usize,
 }
 
-/// Fewest and most nodes of a curve: 16 carry waves up to 7, and the Stokeslets stored between 4096 take 200 MB.
-pub(crate) const NODES: [f64; 2] = [16.0, 4096.0];
+impl LayerCurve<'_> {
+    /// Refuses too few or too many nodes of the curve or wall of that number.
+    pub(crate) fn check_nodes(&self, kind: &'static str, curve: usize) -> Result<(), LayerError> {
+        let ([least, most], what, found) = (Settings::NODES, "nodes", self.nodes);
+        let inside = (least..=most).contains(&found);
+        if inside { Ok(()) } else { Err(LayerError::Count { kind, curve, what, found, least, most }) }
+    }
+}
 
 /// A curve with shape and force at its nodes and, where they are needed, at fine nodes. In each turn of the parameter
 /// it advances by its period, which is zero if it is closed.
@@ -167,7 +172,10 @@ impl Curve {
         if !forces.is_empty() {
             same_length("the forces on a curve", positions.len(), forces.len())?;
         }
-        within("the number of points of a curve", positions.len() as f64, self.len() as f64, MOST_POINTS)?;
+        let (found, least, most) = (positions.len(), self.len(), MOST_POINTS as usize);
+        if !(least..=most).contains(&found) {
+            return Err(LayerError::Count { kind: "curve", curve, what: "points", found, least, most });
+        }
         let expected = Images::of(region).periods[0].unwrap_or(0.0);
         if period != Vec2::ZERO && (period.y != 0.0 || expected == 0.0 || period.x.abs() != expected) {
             return Err(LayerError::Period { curve, x: period.x, y: period.y, expected });

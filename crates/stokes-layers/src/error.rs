@@ -26,6 +26,22 @@ pub enum LayerError {
         /// y component.
         y: f64,
     },
+    /// A curve with too few or too many nodes or points.
+    #[error("{kind} {curve} has {found} {what}: give it {least} to {most}")]
+    Count {
+        /// Curve or wall.
+        kind: &'static str,
+        /// Its number.
+        curve: usize,
+        /// Nodes or points.
+        what: &'static str,
+        /// How many it has.
+        found: usize,
+        /// Least number.
+        least: usize,
+        /// Largest number.
+        most: usize,
+    },
     /// A curve whose advance in a turn of the parameter is neither zero nor the period of the region along x.
     #[error(
         "curve {curve} advances by ({x}, {y}) in a turn: give (0, 0) for a closed curve, ({expected}, 0) or \

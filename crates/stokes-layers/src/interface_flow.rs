@@ -357,6 +357,23 @@ impl InterfaceFlow {
         Some(RigidMotion::of(curve, self.velocities.get(self.values(interface))?))
     }
 
+    /// Force dipole (force times length) of the double layer of a rigid body in the last solution,
+    /// `D_ij = -INT (w_i n_j + w_j n_i) ds` with the density w: what holds it rigid adds this to the dipole of the
+    /// forces on its surface. `None` if there is no rigid body of that number or no solution.
+    #[must_use]
+    pub fn rigid_dipole(&self, interface: usize) -> Option<[[f64; 2]; 2]> {
+        let curve = self.layers.curves.get(interface)?;
+        let sides = self.equation.sides.get(interface).filter(|sides| sides.is_rigid())?;
+        let (x, y) = self.velocities.get(self.values(interface))?.split_at(curve.len());
+        let factor = -sides.contrast() * curve.weight();
+        let nodes = x.iter().zip(y).zip(&curve.nodes.tangent);
+        let [xx, xy, yy] = nodes.fold([0.0; 3], |[xx, xy, yy], ((x, y), tangent)| {
+            let (nx, ny) = (factor * tangent.im, -factor * tangent.re);
+            [xx + 2.0 * x * nx, xy + x * ny + y * nx, yy + 2.0 * y * ny]
+        });
+        Some([[xx, xy], [xy, yy]])
+    }
+
     /// Takes over velocities (length per time) at the points of an interface in place of a solution. Those of a rigid
     /// body do not determine the flow around it, which follows from a solution alone.
     ///

@@ -2,8 +2,6 @@
 
 use motile_base::{InputError, within};
 
-use crate::curve::NODES;
-
 /// Resolution and accuracy of [`crate::InterfaceFlow`].
 ///
 /// ```
@@ -14,7 +12,7 @@ use crate::curve::NODES;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Nodes of a curve, 16 to 4096: positions, forces and velocities have the modes |m| <= (nodes - 1)/2.
+    /// Nodes of a curve ([`Settings::NODES`]): positions, forces and velocities have the modes |m| <= (nodes - 1)/2.
     pub nodes: usize,
     /// Relative accuracy of everything that is truncated, between 1e-15 and 1e-3: images, wall modes, close quadrature
     /// and the residual of the iteration for a viscosity contrast.
@@ -33,8 +31,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Fewest and most nodes of a curve: 16 carry waves up to 7, and the Stokeslets stored between 4096 take 200 MB.
+    pub const NODES: [usize; 2] = [16, 4096];
+
     pub(crate) fn check(&self) -> Result<(), InputError> {
-        within("the number of nodes", self.nodes as f64, NODES[0], NODES[1])?;
+        let [least, most] = Self::NODES.map(|nodes| nodes as f64);
+        within("the number of nodes of a curve", self.nodes as f64, least, most)?;
         within("the largest number of iterations", self.most_iterations as f64, 1.0, 1e6).map(drop)
     }
 }

@@ -3,12 +3,7 @@
 use motile_base::{Vec2, positive, same_length, within};
 
 use crate::{
-    LayerError, Symmetry,
-    curve::{LayerCurve, NODES},
-    density::Density,
-    error::finite_vectors,
-    layer::Layers,
-    sample::Sampler,
+    LayerError, Symmetry, curve::LayerCurve, density::Density, error::finite_vectors, layer::Layers, sample::Sampler,
 };
 use motile_base::{FlowSample, Region};
 
@@ -77,9 +72,9 @@ impl SingleLayer {
     /// beyond a wall.
     pub fn load<'a>(&mut self, curves: impl Iterator<Item = LayerCurve<'a>> + Clone) -> Result<(), LayerError> {
         let mut total = 0.0;
-        for LayerCurve { nodes, .. } in curves.clone() {
-            within("the number of nodes", nodes as f64, NODES[0], NODES[1])?;
-            total += nodes as f64;
+        for (number, curve) in curves.clone().enumerate() {
+            curve.check_nodes("curve", number)?;
+            total += curve.nodes as f64;
         }
         within("the number of pairs of nodes", total * total, 0.0, MOST_PAIRS)?;
         self.layers.load(curves.map(|curve| (curve, [].as_slice())), true)?;

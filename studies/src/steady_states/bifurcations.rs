@@ -43,6 +43,13 @@ fn onset(critical: Critical, diffusion: f64) -> Result<f64> {
     Ok((p / u * v - q / v * u) / (v - u))
 }
 
+/// Value with that many significant digits, or four decimal places where these are fewer; no sign of zero.
+fn digits(value: f64, count: i32) -> String {
+    let places = (count - 1 - value.abs().log10().floor().clamp(-9.0, 9.0) as i32).max(0) as usize;
+    let text = format!("{value:.*}", places.min(if count < 4 { 4 } else { 9 }));
+    if text.chars().any(|c| ('1'..='9').contains(&c)) { text } else { "0".to_owned() }
+}
+
 /// The threshold in plane, box and channels and over A and D, and its onset.
 pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
     let header = ["region", "A", "D", "threshold", "over that of the plane", "frequency", "onset"];
@@ -60,8 +67,8 @@ pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
                 if exact.is_nan() {
                     exact = found;
                 }
-                cells.extend([format!("{found:.7}"), format!("{:.6}", found / exact), format!("{frequency:.4}")]);
-                cells.push(onset(critical, diffusion).map_or_else(|_| "-".into(), |value| format!("{value:.4}")));
+                cells.extend([digits(found, 7), digits(found / exact, 7), format!("{frequency:.4}")]);
+                cells.push(onset(critical, diffusion).map_or_else(|_| "-".into(), |value| digits(value, 3)));
             }
             Err(_) => cells.extend(["not found", "", "", ""].map(String::from)),
         }

@@ -1,6 +1,7 @@
 //! Moments of the interface's force, which determine the flow far away from a droplet.
 
-use motile_base::{Vec2, all_points_finite, at_least, finite, same_length};
+use motile_base::{InputError, Vec2, all_points_finite, at_least, finite, same_length};
+use motile_scene::Enclosed;
 
 use super::frame::{Frame, weighted_normals};
 use crate::InterfaceError;
@@ -16,6 +17,14 @@ pub enum Convention {
     AsPrinted,
 }
 
+impl Convention {
+    /// Factor of the viscous term between viscosities inside and outside (stress times time).
+    fn factor(self, [inside, outside]: [f64; 2]) -> Result<f64, InputError> {
+        let difference = finite("the viscosity outside", outside)? - finite("the viscosity inside", inside)?;
+        Ok(if self == Self::FarField { difference } else { -difference })
+    }
+}
+
 /// Force moments about the centroid of a droplet, in axes along its motion (index 0: along, 1: across).
 ///
 /// ```text
@@ -26,6 +35,11 @@ pub enum Convention {
 /// with F_i the force on the fluid at a marker, r from the centroid of the area, v the velocity of the fluid at the
 /// marker, n the outward normal, and the sign of the [`Convention`]. Sums over the markers; second order in their
 /// spacing.
+///
+/// Those of a droplet are the moments of everything in it: bodies inside add the sums over their own markers, with
+/// eta_ext the viscosity of the fluid that they lie in, and rigid ones the dipole of what keeps them rigid. Then F_ij
+/// is, but for a pressure, the force dipole of a closed curve around all of it, `INT eta (v n + n v) - (sigma n) r ds`
+/// (Batchelor, J. Fluid Mech. 41, 545 (1970)).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ForceMoments {
@@ -33,8 +47,8 @@ pub struct ForceMoments {
     pub force: [f64; 2],
     /// F_ij (force times length).
     pub dipole: [[f64; 2]; 2],
-    /// F_ijk (force times length squared).
-    pub quadrupole: [[[f64; 2]; 2]; 2],
+    /// F_ijk (force times length squared); `None` with a rigid body inside, on whose surface the forces are not known.
+    pub quadrupole: Option<[[[f64; 2]; 2]; 2]>,
 }
 
 impl ForceMoments {
@@ -47,33 +61,65 @@ impl ForceMoments {
         [[half, off], [off, -half]]
     }
 
-    /// Adds the moments of a force f at the place r inside the droplet, both in these axes.
-    pub(super) fn add_force(&mut self, r: Vec2, f: Vec2) {
-        for i in 0..2 {
-            self.force[i] += f[i];
-            for j in 0..2 {
-                self.dipole[i][j] += f[i] * r[j];
-                for k in 0..2 {
-                    self.quadrupole[i][j][k] += f[i] * r[j] * r[k];
+    /// Adds the moments of a body inside.
+    pub(super) fn add_body(
+        &mut self,
+        body: &Enclosed,
+        convention: Convention,
+        frame: &Frame,
+    ) -> Result<(), InputError> {
+        let Enclosed { positions, forces, velocities, viscosities, rigid_dipole } = body;
+        let factor = convention.factor(*viscosities)?;
+        self.add(positions, forces, velocities, factor, frame);
+        if let Some(dipole) = rigid_dipole {
+            self.quadrupole = None;
+            let axes = [Vec2::X, Vec2::Y].map(|axis| frame.components(axis));
+            for i in 0..2 {
+                for j in 0..2 {
+                    let entry = |(k, l): (usize, usize)| axes[k][i] * dipole[k][l] * axes[l][j];
+                    self.dipole[i][j] += [(0, 0), (0, 1), (1, 0), (1, 1)].map(entry).iter().sum::<f64>();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the sums over markers, `factor` being that of the viscous term (stress times time).
+    fn add(&mut self, markers: &[Vec2], forces: &[Vec2], velocities: &[Vec2], factor: f64, frame: &Frame) {
+        for (((&marker, &force), &velocity), normal) in
+            markers.iter().zip(forces).zip(velocities).zip(weighted_normals(markers))
+        {
+            let r = frame.coordinates(marker);
+            let (f, v, n) = (frame.components(force), frame.components(velocity), frame.components(normal));
+            for i in 0..2 {
+                self.force[i] += f[i];
+                for j in 0..2 {
+                    let first = f[i] * r[j] + factor * (v[j] * n[i] + v[i] * n[j]);
+                    self.dipole[i][j] += first;
+                    if let Some(quadrupole) = &mut self.quadrupole {
+                        (0..2).for_each(|k| quadrupole[i][j][k] += first * r[k]);
+                    }
                 }
             }
         }
     }
 
     /// Symmetric part S_ijk of F_ijk (force times length squared), the mean over the six orders of the indices, eq.
-    /// (2.54).
+    /// (2.54); `None` as [`ForceMoments::quadrupole`].
     #[must_use]
-    pub fn symmetric_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
-        let f = &self.quadrupole;
-        build(|i, j, k| (f[i][j][k] + f[i][k][j] + f[j][i][k] + f[j][k][i] + f[k][i][j] + f[k][j][i]) / 6.0)
+    pub fn symmetric_quadrupole(&self) -> Option<[[[f64; 2]; 2]; 2]> {
+        let f = self.quadrupole.as_ref()?;
+        let sum =
+            |i: usize, j: usize, k: usize| f[i][j][k] + f[i][k][j] + f[j][i][k] + f[j][k][i] + f[k][i][j] + f[k][j][i];
+        Some(build(|i, j, k| sum(i, j, k) / 6.0))
     }
 
     /// Part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to the source
     /// dipole. The totally antisymmetric part A_ijk is zero in two dimensions.
     #[must_use]
-    pub fn mixed_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
-        let symmetric = self.symmetric_quadrupole();
-        build(|i, j, k| self.quadrupole[i][j][k] - symmetric[i][j][k])
+    pub fn mixed_quadrupole(&self) -> Option<[[[f64; 2]; 2]; 2]> {
+        let (all, symmetric) = (self.quadrupole?, self.symmetric_quadrupole()?);
+        Some(build(|i, j, k| all[i][j][k] - symmetric[i][j][k]))
     }
 }
 
@@ -103,29 +149,8 @@ pub fn force_moments(
     all_points_finite("the markers", markers)?;
     all_points_finite("the forces", forces)?;
     all_points_finite("the velocities", velocities)?;
-    let difference = finite("the viscosity outside", viscosities[1])? - finite("the viscosity inside", viscosities[0])?;
-    let factor = match convention {
-        Convention::FarField => difference,
-        Convention::AsPrinted => -difference,
-    };
-
-    let mut sums = ForceMoments::default();
-    for (((&marker, &force), &velocity), normal) in
-        markers.iter().zip(forces).zip(velocities).zip(weighted_normals(markers))
-    {
-        let r = frame.coordinates(marker);
-        let (f, v, n) = (frame.components(force), frame.components(velocity), frame.components(normal));
-        for i in 0..2 {
-            sums.force[i] += f[i];
-            for j in 0..2 {
-                let viscous = factor * (v[j] * n[i] + v[i] * n[j]);
-                sums.dipole[i][j] += f[i] * r[j] + viscous;
-                for k in 0..2 {
-                    sums.quadrupole[i][j][k] += (f[i] * r[j] + viscous) * r[k];
-                }
-            }
-        }
-    }
+    let mut sums = ForceMoments { quadrupole: Some(Default::default()), ..ForceMoments::default() };
+    sums.add(markers, forces, velocities, convention.factor(viscosities)?, frame);
     Ok(sums)
 }
 

@@ -4,15 +4,16 @@ use std::ops::Range;
 
 use motile_base::{InputError, PeriodicSeries, at_least, spectrum::largest_wave};
 use num_complex::Complex64;
-use stokes_layers::LayerCurve;
+use stokes_layers::{LayerCurve, Settings};
 
 use motile_base::Vec2;
 use motile_scene::{FlowError, MarkerGroup, Markers};
 
 /// Where their own nodes are equally spaced, grid nodes of a curve are at most a grid spacing over this apart.
 const FINER: f64 = 1.2;
-/// Fewest points of a curve.
-const LEAST_POINTS: usize = 16;
+
+/// Most markers of an interface.
+const MOST_MARKERS: usize = 1 << 20;
 
 /// A closed curve or one that is periodic in x.
 #[derive(Debug, Clone)]
@@ -100,14 +101,19 @@ impl LayerCurves {
             starts[1] += nodes;
             Ok::<_, InputError>(curve)
         };
-        for group in groups.iter().filter(|group| group.kind.is_closed_curve()) {
-            at_least("the markers of an interface", group.range.len(), self.nodes)?;
+        let refuse = |body: usize, what: &'static str, found: usize, [least, most]: [usize; 2]| {
+            let inside = (least..=most).contains(&found);
+            if inside { Ok(()) } else { Err(FlowError::Count { body, what, found, least, most }) }
+        };
+        for (body, group) in groups.iter().enumerate().filter(|(_, group)| group.kind.is_closed_curve()) {
+            refuse(body, "markers", group.range.len(), [self.nodes, MOST_MARKERS])?;
             self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes)?);
         }
         self.interfaces = self.curves.len();
-        for group in groups.iter().filter(|group| !group.kind.is_closed_curve()) {
+        for (body, group) in groups.iter().enumerate().filter(|(_, group)| !group.kind.is_closed_curve()) {
             for surface in group.layers() {
-                let count = at_least("the points of a solid's surface", surface.points.len(), LEAST_POINTS)?;
+                let count = surface.points.len();
+                refuse(body, "points", count, Settings::NODES)?;
                 let largest = surface.markers().map(|(marker, _)| marker).max().unwrap_or(0);
                 at_least("the markers of a solid with a surface", group.range.len(), largest + 1)?;
                 let markers = surface.markers().map(|(marker, shift)| (group.range.start + marker, shift));

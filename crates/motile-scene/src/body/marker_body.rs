@@ -1,8 +1,11 @@
 //! Bodies of one's own in a few lines.
 
-use std::f64::consts::PI;
+mod decay;
 
-use crate::{Body, BodyError, FluidView, MarkerKind, body::StepLimit, points};
+use std::cell::{Cell, RefCell};
+
+use crate::{Body, BodyError, FluidView, MarkerKind, body::StepLimit, points, saved_state::SavedState};
+use decay::Mobility;
 use motile_base::{InputError, Vec2, all_points_finite, not_negative};
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.
@@ -31,11 +34,10 @@ type Motion = Box<dyn FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send>;
 ///             forces[k] = -pull;
 ///             forces[k - 1] += pull;
 ///         }
-///     })
-///     .with_stiffness(4.0 * stiffness)?,
+///     }),
 /// );
 /// scene.run(5.0).go()?;
-/// let end = scene.body(fibre)?.positions()[19];
+/// let end = scene.body(fibre)?.markers()[19];
 /// println!("the fibre has shrunk to {:.3}", end.x);
 /// assert!(end.x > 1.9 && end.x < 2.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -45,9 +47,11 @@ pub struct MarkerBody {
     kind: MarkerKind,
     positions: Vec<Vec2>,
     rates: Vec<Vec2>,
-    forces: ForceLaw,
+    forces: RefCell<ForceLaw>,
     motion: Option<Motion>,
     stiffness: Option<f64>,
+    /// The fastest decay of displacements (1/time), once it is found.
+    decay: Cell<Option<f64>>,
 }
 
 impl std::fmt::Debug for MarkerBody {
@@ -59,16 +63,25 @@ impl std::fmt::Debug for MarkerBody {
 
 impl MarkerBody {
     /// Markers at `positions` (length) that `forces` gives the forces on the fluid (force; all zero before the call),
-    /// and that move with the fluid. Where nothing else in its scene bounds the time step, runs need
-    /// [`MarkerBody::with_stiffness`], [`crate::StepSize::Fixed`] or [`crate::StepSize::Adaptive`].
+    /// and that move with the fluid.
+    ///
+    /// What the forces make decay bounds the time step. The fastest decay is found once, where the markers are when it
+    /// is first asked for, in at most thirty calls of `forces`: the largest eigenvalue, by the power method, of the
+    /// derivative of the forces times a mobility of `(ln(L/r) + 1)/(4 pi eta)` between markers at the distance r, L
+    /// being the smallest width of the domain and r the grid spacing for a marker's own force. It is an estimate from
+    /// above: the mobility of a point of radius a in a square box is `(ln(L/a) - 1.31)/(4 pi eta)` (Hasimoto 1959). A
+    /// law that stiffens later, or depends on more than positions, needs [`MarkerBody::with_stiffness`]. Where nothing
+    /// decays and nothing else in the scene bounds the time step, runs need [`crate::StepSize::Fixed`] or
+    /// [`crate::StepSize::Adaptive`].
     pub fn new(
         name: impl Into<String>,
         positions: Vec<Vec2>,
         forces: impl FnMut(&[Vec2], &mut [Vec2]) + Send + 'static,
     ) -> Self {
         let name = name.into();
-        let forces = Box::new(forces);
-        Self { name, kind: MarkerKind::Points, positions, rates: Vec::new(), forces, motion: None, stiffness: None }
+        let forces: RefCell<ForceLaw> = RefCell::new(Box::new(forces));
+        let (kind, rates, decay) = (MarkerKind::Points, Vec::new(), Cell::new(None));
+        Self { name, kind, positions, rates, forces, motion: None, stiffness: None, decay }
     }
 
     /// Sets the kind of the markers (points otherwise).
@@ -86,46 +99,46 @@ impl MarkerBody {
         self
     }
 
-    /// Bounds the time step for forces that change by at most `stiffness` (force per length)
-    /// times a displacement, both as root sums of squares over the markers: k for markers that are each tethered by a
-    /// spring k, 4k for a chain of such springs.
+    /// States how stiff the forces are, in place of looking for the fastest decay: they change by at most `stiffness`
+    /// (force per length) times a displacement, both as root sums of squares over the markers; zero for no bound on the
+    /// time step.
     ///
-    /// The fastest decay is taken to be that of all N markers together, `stiffness N (ln(L/r) + 1)/(4 pi eta)` with
-    /// their radius of gyration r and the smallest width L of the domain, or that of one alone with the grid spacing
-    /// for r, whichever is faster. It is an estimate from above: the mobility of a point of radius a in a square box
-    /// is `(ln(L/a) - 1.31)/(4 pi eta)` (Hasimoto 1959).
+    /// The fastest decay is then taken to be that of all N markers together as if each were tethered,
+    /// `stiffness N (ln(L/r) + 1)/(4 pi eta)` with their radius of gyration r, or that of one alone with the grid
+    /// spacing for r, whichever is faster. Springs between markers allow much longer steps than that.
     ///
     /// # Errors
     /// A stiffness that is negative or not finite.
     pub fn with_stiffness(mut self, stiffness: f64) -> Result<Self, InputError> {
         self.stiffness = Some(not_negative("the stiffness", stiffness)?);
+        self.decay.set(None);
         Ok(self)
     }
 
     /// Positions of the markers (length).
     #[must_use]
-    pub fn positions(&self) -> &[Vec2] {
+    pub fn markers(&self) -> &[Vec2] {
         &self.positions
     }
 
     /// Positions of the markers (length), to be changed between steps.
-    pub fn positions_mut(&mut self) -> &mut [Vec2] {
+    pub fn markers_mut(&mut self) -> &mut [Vec2] {
+        self.decay.set(None);
         &mut self.positions
     }
 
     /// The fastest decay of displacements (1/time).
-    fn decay_rate(&self, view: &FluidView, stiffness: f64) -> f64 {
-        let count = self.positions.len() as f64;
-        let centre = self.positions.iter().sum::<Vec2>() / count;
-        let gyration = (self.positions.iter().map(|p| (p - centre).length_squared()).sum::<f64>() / count).sqrt();
-        let [x, y] = view.domain.periods;
-        let height = view.domain.walls.map(|[below, above]| above - below);
-        let width = [x, y, height].into_iter().flatten().fold(f64::INFINITY, f64::min);
-        let width = if width.is_finite() { width } else { gyration };
-        let mobility = |radius: f64| ((width / radius).ln().max(0.0) + 1.0) / (4.0 * PI * view.viscosity);
-        let finest = view.spacing.unwrap_or(gyration / count);
-        let alone = if finest > 0.0 { mobility(finest) } else { 0.0 };
-        stiffness * alone.max(count * mobility(gyration.max(finest)))
+    fn decay_rate(&self, view: &FluidView) -> f64 {
+        let found = self.decay.get().unwrap_or_else(|| {
+            let mobility = Mobility::new(view, &self.positions);
+            match self.stiffness {
+                _ if self.positions.is_empty() => 0.0,
+                Some(stiffness) => stiffness * mobility.largest(),
+                None => mobility.fastest_decay(&mut *self.forces.borrow_mut()),
+            }
+        });
+        self.decay.set(Some(found));
+        found
     }
 }
 
@@ -148,7 +161,7 @@ impl Body for MarkerBody {
 
     fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(Vec2::ZERO);
-        (self.forces)(&self.positions, forces);
+        (self.forces.get_mut())(&self.positions, forces);
         all_points_finite("the forces", forces).map_err(|error| BodyError::Other(error.into()))
     }
 
@@ -179,9 +192,26 @@ impl Body for MarkerBody {
     }
 
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
-        if let Some(stiffness) = self.stiffness.filter(|stiffness| *stiffness > 0.0 && !self.positions.is_empty()) {
-            limits(StepLimit::decay(2.0 / self.decay_rate(view, stiffness), "the stiffness"));
+        let rate = self.decay_rate(view);
+        if rate > 0.0 {
+            limits(StepLimit::decay(2.0 / rate, "the stiffness"));
         }
+    }
+
+    fn save(&self) -> SavedState {
+        let len = self.state_len();
+        let mut reals = vec![0.0; len + 1];
+        self.write_state(&mut reals[..len]);
+        reals[len] = self.decay.get().unwrap_or_default();
+        SavedState { reals, counts: vec![u64::from(self.decay.get().is_some())] }
+    }
+
+    fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
+        let [known] = saved.counts_of()?;
+        let (state, decay) = saved.reals_of(self.state_len() + 1)?.split_at(self.state_len());
+        self.read_state(state)?;
+        self.decay.set((known > 0).then_some(decay[0]));
+        Ok(())
     }
 }
 

@@ -55,11 +55,12 @@ impl Surfaces {
     pub fn first_overlap(&self, view: &FluidView) -> Option<Overlap> {
         let periods = view.domain.periods;
         // What lies closer inside an interface than contact is at the same place.
-        let film = CONTACT * self.contact_scale(view);
+        let scale = self.contact_scale(view);
+        let film = CONTACT * scale;
         self.boundaries.iter().enumerate().find_map(|(body, boundary)| {
             let mut first: Option<Overlap> = None;
             self.each_near(&boundary.frame()?, periods, 0.0, &mut |other| {
-                let allowed = self.allowed(view, [body, other]);
+                let allowed = self.allowed(scale, [body, other]);
                 if other < first.map_or(body, |first| first.other)
                     && let Some((place, depth)) = self.overlap(body, other, periods, film)
                     && depth > allowed
@@ -71,10 +72,10 @@ impl Surfaces {
         })
     }
 
-    /// Depth to which a body may be inside another one (length).
-    pub(crate) fn allowed(&self, view: &FluidView, bodies: [usize; 2]) -> f64 {
+    /// Depth to which a body may be inside another one (length), of a [`Surfaces::contact_scale`].
+    pub(super) fn allowed(&self, scale: f64, bodies: [usize; 2]) -> f64 {
         let interfaces = bodies.iter().all(|&body| self.kinds[body].is_closed_curve());
-        (if interfaces { CURVES } else { CONTACT }) * self.contact_scale(view)
+        (if interfaces { CURVES } else { CONTACT }) * scale
     }
 
     /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface

@@ -49,7 +49,12 @@ impl InterfaceGroups {
     /// Those of [`InterfaceFlow::load`].
     pub fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let (exterior, Markers { positions, forces, .. }) = (self.flow.viscosity(), markers);
-        Ok(self.flow.load(interfaces(markers).map(|group| group.interface(positions, forces, exterior)))?)
+        let interfaces = interfaces(markers).map(|group| group.interface(positions, forces, exterior));
+        self.flow.load(interfaces).map_err(|error| {
+            let groups = markers.groups.iter().enumerate().filter(|(_, group)| group.kind.is_closed_curve());
+            let bodies: Vec<usize> = groups.map(|(body, _)| body).collect();
+            FlowError::from(error).of_body(|curve| bodies.get(curve).copied().unwrap_or(curve))
+        })
     }
 
     /// Fills the velocities of all markers and counts the work.
@@ -79,7 +84,25 @@ impl InterfaceGroups {
                 velocities.iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
             }
         }
+        self.tell_dipoles(markers)?;
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
+    }
+
+    /// Tells the markers what keeps bodies rigid in the last solution ([`Markers::rigid_dipole`]).
+    ///
+    /// # Errors
+    /// Values that are not finite.
+    pub fn tell_dipoles(&self, markers: &mut Markers) -> Result<(), FlowError> {
+        let mut interface = 0;
+        for group in 0..markers.groups.len() {
+            if markers.groups[group].kind.is_closed_curve() {
+                if let Some(dipole) = self.flow.rigid_dipole(interface) {
+                    markers.set_rigid_dipole(group, dipole)?;
+                }
+                interface += 1;
+            }
+        }
+        Ok(())
     }
 
     /// The flow at points for the positions, forces and velocities in `markers`. The next solution starts from what it

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::gap::SurfaceCurve;
-use motile_base::{InputError, Vec2, positive, within};
+use motile_base::{InputError, Vec2, all_finite, positive, within};
 use stokes_layers::Interface;
 
 /// Kind of a group of markers, which decides how the flow treats it.
@@ -106,6 +106,8 @@ pub struct Markers {
     /// Velocities (length per time).
     pub(crate) velocities: Vec<Vec2>,
     pub(crate) groups: Vec<MarkerGroup>,
+    /// See [`Markers::rigid_dipole`].
+    rigid_dipoles: Vec<[[f64; 2]; 2]>,
 }
 
 impl Markers {
@@ -124,6 +126,7 @@ impl Markers {
     pub fn push_body(&mut self, count: usize, kind: MarkerKind, surfaces: Vec<SurfaceCurve>) {
         let start = self.positions.len();
         self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces, viscosity_outside: None });
+        self.rigid_dipoles.push([[0.0; 2]; 2]);
         self.resize(start + count);
     }
 
@@ -142,6 +145,26 @@ impl Markers {
         Ok(())
     }
 
+    /// Force dipole (force times length) by which the flow keeps the body of a group rigid, as of the last evaluation:
+    /// zero where the forces at its markers are all that it puts on the fluid, and where there is no such group.
+    #[must_use]
+    pub fn rigid_dipole(&self, group: usize) -> [[f64; 2]; 2] {
+        self.rigid_dipoles.get(group).copied().unwrap_or_default()
+    }
+
+    /// Sets [`Markers::rigid_dipole`]; a flow that constrains rigid bodies does so in
+    /// [`Hydrodynamics::velocities`](crate::Hydrodynamics::velocities).
+    ///
+    /// # Errors
+    /// A value that is not finite, no group of that number.
+    pub fn set_rigid_dipole(&mut self, group: usize, dipole: [[f64; 2]; 2]) -> Result<(), InputError> {
+        all_finite("the force dipole of a rigid body", dipole.as_flattened())?;
+        let most = self.groups.len().saturating_sub(1);
+        within("the number of a group of markers", group as f64, 0.0, most as f64)?;
+        self.rigid_dipoles[group] = dipole;
+        Ok(())
+    }
+
     /// Sets the viscosities outside of all groups in their order ([`Markers::set_viscosity_outside`]).
     pub(crate) fn set_outside(&mut self, viscosities: &[Option<f64>]) {
         for (group, viscosity) in self.groups.iter_mut().zip(viscosities) {
@@ -152,6 +175,7 @@ impl Markers {
     /// Removes all groups, keeping the memory.
     pub fn clear(&mut self) {
         self.groups.clear();
+        self.rigid_dipoles.clear();
         self.resize(0);
     }
 
@@ -215,30 +239,5 @@ impl Markers {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
-    }
-}
-
-/// The flow at the markers of one body: lists of as many entries as it has markers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyFlow<'a> {
-    /// Positions (length), not wrapped into the box.
-    pub positions: &'a [Vec2],
-    /// Forces on the fluid (force, not force per length).
-    pub forces: &'a [Vec2],
-    /// Velocities of the fluid (length per time).
-    pub velocities: &'a [Vec2],
-    /// All markers, and hosts and guests by their numbers.
-    pub(crate) all: (&'a Markers, &'a [[usize; 2]]),
-    pub(crate) index: usize,
-}
-
-impl<'a> BodyFlow<'a> {
-    /// Positions (length) of the inner points of the bodies that fill this one ([`crate::Guest`]), and their
-    /// forces on the fluid there (force).
-    pub fn inside(&self) -> impl Iterator<Item = [Vec2; 2]> + use<'a> {
-        let (Self { index, .. }, (markers, guests)) = (*self, self.all);
-        let own = guests.iter().filter(move |[host, _]| *host == index);
-        own.flat_map(|&[_, guest]| markers.groups()[guest].range.clone())
-            .map(|k| [markers.positions[k], markers.forces[k]])
     }
 }

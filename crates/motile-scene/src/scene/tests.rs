@@ -66,7 +66,7 @@ fn a_body_is_observed_in_its_present_state() {
     let seen = scene.observe(handle).unwrap();
     assert!(seen.x > 0.01 && seen.y > 0.01, "{seen}");
     // What was known is of no use after the body has been changed.
-    scene.body_mut(handle).unwrap().positions_mut()[1] = Vec2::new(0.1, 0.0);
+    scene.body_mut(handle).unwrap().markers_mut()[1] = Vec2::new(0.1, 0.0);
     assert!(scene.system().flow_at(handle).is_err());
     assert!(scene.observe(handle).unwrap().x > seen.x + 0.005);
 }

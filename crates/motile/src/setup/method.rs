@@ -1,5 +1,6 @@
 //! Methods of computing the flow of a scene.
 
+use boundary_integral::Settings;
 use ib_core::AnyKernel;
 use serde::{Deserialize, Serialize};
 
@@ -111,7 +112,7 @@ pub struct IntegralMethod {
 
 impl IntegralMethod {
     /// Fewest and most nodes.
-    pub const NODES: [usize; 2] = [16, 4096];
+    pub const NODES: [usize; 2] = Settings::NODES;
     /// Most cells.
     pub const MOST_CELLS: usize = 1_000_000;
 }

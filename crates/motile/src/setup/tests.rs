@@ -310,7 +310,7 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
             scene(method, vec![round(0.0, 1.0, viscosity), round(x, radius, None)], Vec::new())
         };
         // At one place, through periods too; nearly so; crossing; crossing over the edge.
-        for (x, depth) in [(0.0, ""), (6.0, ""), (1e-4, ""), (1.5, " by 5."), (4.5, " by 5.")] {
+        for (x, depth) in [(0.0, ""), (6.0, ""), (1e-4, ""), (1.5, " by 0.5 "), (4.5, " by 0.5 ")] {
             let (said, start) = (refused(&pair(x, 1.0, None)), format!("droplets[1] overlaps droplets[0]{depth}"));
             assert!(said.starts_with(&start) && said.contains("move them apart"), "{x}: {said}");
         }
@@ -319,6 +319,12 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
             assert!(said.starts_with("droplets[1] touches droplets[0] at ("), "{x}: {said}");
         }
         assert!(pair(2.02, 1.0, None).build().is_ok() && pair(3.98, 1.0, None).build().is_ok());
+        // From within.
+        for radius in [0.1, 0.3, 0.37, 0.5] {
+            let said = refused(&pair(1.0 - radius, radius, None));
+            assert!(said.starts_with("droplets[1] touches droplets[0] at (1"), "{radius}: {said}");
+        }
+        assert!(pair(0.68, 0.3, None).build().is_ok());
         for (x, radius) in [(0.2, 0.5), (2.2, 1.0)] {
             assert!([None, Some(50.0)].into_iter().all(|viscosity| pair(x, radius, viscosity).build().is_ok()));
         }

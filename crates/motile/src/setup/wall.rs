@@ -1,6 +1,6 @@
 //! Descriptions of rigid walls and obstacles.
 
-use boundary_integral::RigidWall;
+use boundary_integral::{RigidWall, Settings};
 use elastic_solids::{ChannelShape, Outline};
 use motile_base::{Region, Vec2};
 use motile_scene::{Hydrodynamics, gap::Boundary};
@@ -13,8 +13,6 @@ use crate::SetupError;
 const FINER: f64 = 16.0;
 /// Most nodes of a wall.
 const MOST_NODES: f64 = 3000.0;
-/// Fewest nodes of a wall.
-const LEAST_NODES: f64 = 16.0;
 
 /// A rigid wall or obstacle at rest in a channel, by boundary integrals.
 ///
@@ -65,7 +63,7 @@ impl WallSetup {
     /// The wall of this description in a region of that period along x (length).
     fn build(&self, period: f64) -> Result<RigidWall, SetupError> {
         let outline = self.outline.line(period)?;
-        let nodes = (outline.length() / self.spacing).max(LEAST_NODES);
+        let nodes = (outline.length() / self.spacing).max(Settings::NODES[0] as f64);
         if nodes.is_nan() || nodes > MOST_NODES {
             return Err(SetupError::Value {
                 key: "spacing".to_owned(),

@@ -46,7 +46,7 @@ impl Sides {
 
     /// Factor of the velocity in the double layer, the viscosity inside less that outside. The density of a rigid body
     /// is the one of the completed equation over the viscosity outside.
-    fn contrast(self) -> f64 {
+    pub(super) fn contrast(self) -> f64 {
         if self.is_rigid() { self.outside } else { self.viscosity() - self.outside }
     }
 

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 
 use crate::{
     LayerError,
-    curve::{Curve, LayerCurve, NODES},
+    curve::{Curve, LayerCurve},
     density::Density,
     layer::Layers,
     sample::Sampler,
@@ -75,9 +75,9 @@ impl RigidWalls {
         walls: impl Iterator<Item = LayerCurve<'a>> + Clone,
     ) -> Result<Self, LayerError> {
         let mut total = 0.0;
-        for LayerCurve { nodes, .. } in walls.clone() {
-            within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
-            total += nodes as f64;
+        for (number, wall) in walls.clone().enumerate() {
+            wall.check_nodes("wall", number)?;
+            total += wall.nodes as f64;
         }
         within("the number of nodes of all walls", total, 0.0, MOST_NODES)?;
         layers.load(walls.map(|wall| (wall, [].as_slice())), true)?;

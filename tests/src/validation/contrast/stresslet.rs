@@ -47,8 +47,8 @@ impl Exact {
             let [markers, forces, velocities] =
                 [markers.positions(), markers.forces(), markers.velocities()].map(|list| &list[range.clone()]);
             let viscosities = [self.droplets[index].ratio, 1.0];
-            let state =
-                InterfaceState { markers, forces, velocities, numbers: &[], viscosities, inside: None, filled: None };
+            let (numbers, inside, enclosed) = (&[][..], None, Vec::new());
+            let state = InterfaceState { markers, forces, velocities, numbers, viscosities, inside, enclosed };
             let seen = observe(&state, Convention::FarField)?;
             let [[along, across], _] = seen.moments.stresslet();
             // Back from the droplet's axes.

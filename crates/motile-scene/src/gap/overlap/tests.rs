@@ -93,7 +93,7 @@ fn contact_is_a_quarter_of_a_spacing() {
     assert!((pair(2.0 - 0.0021).unwrap() - 0.0021).abs() < 1e-4);
     let surfaces = Surfaces::of([(circle(0.0, 1.0), INTERFACE), (circle(3.0, 2.0), MarkerKind::Points)]);
     let free = FluidView { spacing: None, ..fluid_view() };
-    assert!((surfaces.allowed(&fluid_view(), [0, 1]) - 0.025).abs() < 1e-16);
-    assert!((surfaces.allowed(&fluid_view(), [0, 0]) - 0.002).abs() < 1e-16);
-    assert!((surfaces.allowed(&free, [1, 0]) - 0.5 * (TAU / 192.0).sin()).abs() < 1e-14);
+    assert!((surfaces.allowed(surfaces.contact_scale(&fluid_view()), [0, 1]) - 0.025).abs() < 1e-16);
+    assert!((surfaces.allowed(surfaces.contact_scale(&fluid_view()), [0, 0]) - 0.002).abs() < 1e-16);
+    assert!((surfaces.allowed(surfaces.contact_scale(&free), [1, 0]) - 0.5 * (TAU / 192.0).sin()).abs() < 1e-14);
 }

@@ -12,9 +12,10 @@ fn empty() -> Scene<DragBox> {
     Scene::new(DragBox::new(1.6, 1.0, 0.1))
 }
 
-/// A point that a force of -100 x draws to the origin, without a word on its stable time step.
+/// A point that a force of -100 x draws to the origin, without a bound on its time step.
 fn drawn() -> MarkerBody {
-    MarkerBody::new("drawn", vec![Vec2::new(0.3, 0.0)], |positions, forces| forces[0] = -100.0 * positions[0])
+    let draw = |positions: &[Vec2], forces: &mut [Vec2]| forces[0] = -100.0 * positions[0];
+    MarkerBody::new("drawn", vec![Vec2::new(0.3, 0.0)], draw).with_stiffness(0.0).unwrap()
 }
 
 /// The times at which an observer is called.
@@ -122,15 +123,15 @@ fn a_run_needs_a_bound_on_its_steps() {
     assert!(matches!(scene.run(50.0).step_size(part).go(), Err(SceneError::NoStepLimit { .. })));
     let mut scene = scene.advanced_by(IntegratorKind::Midpoint);
     for step in [StepSize::Fixed(0.01), StepSize::Adaptive { tolerance: 1e-4 }] {
-        scene.body_mut(point).unwrap().positions_mut()[0].x = 0.3;
+        scene.body_mut(point).unwrap().markers_mut()[0].x = 0.3;
         scene.run(scene.time() + 1.0).step_size(step).go().unwrap();
-        assert!(scene.body(point).unwrap().positions()[0].length() < 1e-2, "{step:?}");
+        assert!(scene.body(point).unwrap().markers()[0].length() < 1e-2, "{step:?}");
     }
     // A bound that a body states.
     let mut scene = empty();
     let point = scene.add(drawn().with_stiffness(100.0).unwrap());
     scene.run(1.0).go().unwrap();
-    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
+    assert!(scene.body(point).unwrap().markers()[0].length() < 1e-3);
 }
 
 #[test]
@@ -179,6 +180,6 @@ fn adaptive_steps_need_an_estimate_of_errors() {
     assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");
     assert_eq!(scene.steps(), 0);
     scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go().unwrap();
-    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
+    assert!(scene.body(point).unwrap().markers()[0].length() < 1e-3);
     assert_eq!(scene.integrator_work(), IntegratorWork::default());
 }

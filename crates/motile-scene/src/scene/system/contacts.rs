@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use crate::{
     FluidView, Hydrodynamics,
     body::{StepCause, StepLimit},
-    gap::{Films, Gap, Overlap, REACH, Repulsion, Surfaces, Surroundings},
+    gap::{Films, Gaps, REACH, Repulsion, Surfaces, Surroundings},
 };
 
 /// Thinnest gap, in units of the length that contacts are measured in, that sets a step: bodies that touch at the start
@@ -16,8 +16,8 @@ const THINNEST: f64 = 0.02;
 pub(in crate::scene) struct Contacts {
     pub(super) surfaces: Surfaces,
     films: Films,
-    /// The narrowest gap of the present state.
-    pub(super) narrowest: Option<Gap>,
+    /// The gaps of the present state.
+    pub(super) gaps: Gaps,
     /// Time until the first film closes at its present velocity (time), and the number of its body.
     closing: Option<(f64, usize)>,
     /// Fastest rate at which a repulsion opens the present films (1/time).
@@ -33,17 +33,10 @@ impl Contacts {
         self.surfaces.update(&bodies.markers, period.unwrap_or(0.0));
     }
 
-    /// Finds the interfaces that the bodies lie in, and the narrowest gap.
+    /// Finds the interfaces that the bodies lie in, and the gaps.
     pub(super) fn find_gaps(&mut self, bodies: &mut Bodies, view: &FluidView) {
         bodies.find_surroundings(&self.surfaces, view.domain.periods);
-        self.narrowest = self.surfaces.narrowest_near(view, self.least_gap.unwrap_or_default());
-    }
-
-    /// The narrowest gap where it is an overlap of more than the depth that is allowed (length), and that depth.
-    pub(super) fn overlap(&self, view: &FluidView) -> Option<Overlap> {
-        let Gap { body, other, place, width } = self.narrowest?;
-        let allowed = self.surfaces.allowed(view, [body, other]);
-        (width < -allowed).then_some(Overlap { body, other, place, depth: -width, allowed })
+        self.gaps = self.surfaces.gaps_near(view, self.least_gap.unwrap_or_default());
     }
 
     /// Adds the forces of the repulsion, if there is one, to those of the markers.

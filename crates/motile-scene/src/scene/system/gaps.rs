@@ -22,20 +22,28 @@ impl<H: Hydrodynamics> System<H> {
     /// a wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
     /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
-        let domain = self.hydrodynamics.fluid_view().domain;
-        let (straight, others) = (domain.walls, self.hydrodynamics.walls().is_some());
-        if straight.is_none() && !others {
+        if self.hydrodynamics.fluid_view().domain.walls.is_none() && self.hydrodynamics.walls().is_none() {
             return None;
         }
         self.place_markers();
-        let interfaces =
-            self.bodies.markers.groups().iter().filter(|group| group.kind.is_closed_curve() && !group.range.is_empty());
-        let gaps = interfaces.flat_map(|group| {
-            let positions = &self.bodies.markers.positions[group.range.clone()];
-            let others = self.hydrodynamics.walls().and_then(|walls| walls.smallest(positions, domain.periods));
-            [straight.map(|walls| wall_gap(positions, walls)), others.map(|(gap, _)| gap)].into_iter().flatten()
+        self.nearest_wall().map(|(gap, ..)| gap)
+    }
+
+    /// The gap of [`System::wall_gap`], the body, and the place of its marker (length), for markers that are where the
+    /// bodies have them.
+    fn nearest_wall(&self) -> Option<(f64, usize, Vec2)> {
+        let (domain, others) = (self.hydrodynamics.fluid_view().domain, self.hydrodynamics.walls());
+        // Keeps what is not a number.
+        let nearer = |least: (f64, _, _), gap: (f64, _, _)| if gap.0 < least.0 || gap.0.is_nan() { gap } else { least };
+        let groups = self.bodies.markers.groups().iter().enumerate();
+        let gaps = groups.filter(|(_, group)| group.kind.is_closed_curve()).flat_map(|(body, group)| {
+            let places = &self.bodies.markers.positions[group.range.clone()];
+            let of_straight = |walls| places.iter().map(move |place| (wall_gap(&[*place], walls), body, *place));
+            let straight = domain.walls.and_then(|walls| of_straight(walls).reduce(nearer));
+            let others = others.and_then(|walls| walls.smallest(places, domain.periods));
+            [straight, others.map(|(gap, marker)| (gap, body, places[marker]))].into_iter().flatten()
         });
-        gaps.reduce(|least, gap| if gap < least || gap.is_nan() { gap } else { least })
+        gaps.reduce(nearer)
     }
 
     /// The gap between two bodies at the present state (length): the smallest distance of the corners of the boundary
@@ -68,8 +76,11 @@ impl<H: Hydrodynamics> System<H> {
     /// bodies overlap; `None` where there is no such gap. Needs no evaluation, but memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
-        let present =
-            self.surfaces().narrowest(&self.hydrodynamics.fluid_view().domain, f64::INFINITY).map(|gap| gap.width);
+        let present = self
+            .surfaces()
+            .gaps(&self.hydrodynamics.fluid_view(), f64::INFINITY, |_| true)
+            .narrowest
+            .map(|gap| gap.width);
         [self.findings.gap, present].into_iter().flatten().reduce(f64::min)
     }
 
@@ -107,6 +118,7 @@ impl<H: Hydrodynamics> System<H> {
         let mut warnings: Vec<Warning> = self.hydrodynamics.warnings().into_iter().chain(of_bodies).collect();
         let between = self
             .contacts
+            .gaps
             .narrowest
             .map(|gap| (gap.width, self.bodies.name_of(gap.body), self.bodies.name_of(gap.other)));
         let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
@@ -163,7 +175,7 @@ impl<H: Hydrodynamics> System<H> {
         self.bodies.check_guests()?;
         self.find_gaps();
         let view = self.hydrodynamics.fluid_view();
-        if let Some(overlap) = self.contacts.overlap(&view).or_else(|| self.contacts.surfaces.first_overlap(&view)) {
+        if let Some(overlap) = self.contacts.gaps.crossed.or_else(|| self.contacts.surfaces.first_overlap(&view)) {
             let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;
             let [body, other] = [body, other].map(|index| self.bodies.name_of(index));
             return Err(SceneError::Overlap { time: self.clock.time, body, x, y, other, depth, allowed });
@@ -180,22 +192,21 @@ impl<H: Hydrodynamics> System<H> {
         let time = self.clock.time;
         self.bodies.check_containment(time)?;
         let names = |bodies: [usize; 2]| bodies.map(|index| self.bodies.name_of(index));
-        if let Some(overlap) = self.contacts.overlap(&self.hydrodynamics.fluid_view()) {
+        if let Some(overlap) = self.contacts.gaps.crossed {
             let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;
             let [body, other] = names([body, other]);
             return Err(SceneError::Crossing { time, body, x, y, other, depth, allowed });
         }
-        if let Some((Gap { body, other, width: gap, .. }, bound)) = self.contacts.narrowest.zip(self.contacts.least_gap)
-            && gap < bound
-        {
-            let [body, other] = names([body, other]);
-            return Err(SceneError::Gap { time, body, other, gap, bound });
-        }
-        if let Some(bound) = self.contacts.least_gap
-            && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
-        {
-            let (body, other) = ("a body".to_owned(), "a wall".to_owned());
-            return Err(SceneError::Gap { time, body, other, gap, bound });
+        if let Some(bound) = self.contacts.least_gap {
+            let between = self.contacts.gaps.narrowest.map(|Gap { body, other, width, place }| {
+                let [body, other] = names([body, other]);
+                (width, body, other, place)
+            });
+            let wall = |(gap, body, place)| (gap, self.bodies.name_of(body), "a wall".to_owned(), place);
+            let narrow = between.into_iter().chain(self.nearest_wall().map(wall)).find(|(gap, ..)| *gap < bound);
+            if let Some((gap, body, other, Vec2 { x, y })) = narrow {
+                return Err(SceneError::Gap { time, body, x, y, other, gap, bound });
+            }
         }
         self.known = Known::Apart;
         Ok(())
@@ -209,7 +220,7 @@ impl<H: Hydrodynamics> System<H> {
 
     /// Records the gap that was found last.
     pub(super) fn record_gap(&mut self) {
-        lower(&mut self.findings.gap, self.contacts.narrowest.map(|gap| gap.width));
+        lower(&mut self.findings.gap, self.contacts.gaps.narrowest.map(|gap| gap.width));
     }
 
     /// Records the present gap to walls.

@@ -6,7 +6,7 @@ use super::{
     Known, System,
     bodies::{Bodies, failure},
 };
-use crate::{Body, BodyFlow, FluidView, Handle, Hydrodynamics, Observe, SceneError};
+use crate::{Body, BodyFlow, FluidView, Handle, Hydrodynamics, Observe, SceneError, hydrodynamics::Everything};
 
 impl<H: Hydrodynamics> System<H> {
     /// A body.
@@ -59,10 +59,11 @@ impl<H: Hydrodynamics> System<H> {
         if self.known != Known::Flow {
             return Err(SceneError::NotEvaluated { body: self.bodies.list[index].name().to_owned() });
         }
-        let Bodies { markers, guests, .. } = &self.bodies;
+        let Bodies { markers, enclosing, .. } = &self.bodies;
+        let FluidView { viscosity, domain, .. } = self.hydrodynamics.fluid_view();
         let range = markers.groups()[index].range.clone();
         Ok(BodyFlow {
-            all: (markers, guests),
+            all: Everything { markers, enclosing, viscosity, periods: domain.periods },
             index,
             positions: &markers.positions[range.clone()],
             forces: &markers.forces[range.clone()],

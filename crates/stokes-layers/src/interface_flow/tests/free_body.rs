@@ -87,6 +87,22 @@ fn a_concentric_core_of_any_size_moves_as_in_closed_form() {
     }
 }
 
+/// Forces on a rigid body without resultant and torque move nothing: what holds it rigid has the opposite stresslet.
+#[test]
+fn forces_that_a_rigid_body_bears_leave_no_stresslet() {
+    let count = 64;
+    for region in [Region::Plane, Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient }] {
+        let (body, forces) = (circle(count, Vec2::new(0.3, 0.2), 0.8), tension(count, 1.0, 2.0));
+        let mut flow = flow(region, count);
+        flow.load(std::iter::once(Interface::rigid(&body, &forces, 3.0))).unwrap();
+        flow.solve().unwrap();
+        let [[xx, xy], [yx, yy]] = flow.rigid_dipole(0).unwrap();
+        let pulled = body.iter().zip(&forces).map(|(x, f)| 0.5 * (f.x * x.x - f.y * x.y)).sum::<f64>();
+        assert!((0.5 * (xx - yy) + pulled).abs() < 1e-11 * pulled.abs() && pulled.abs() > 1.0, "{xx} {yy} {pulled}");
+        assert!(xy.abs() < 1e-11 && xy == yx && flow.rigid_dipole(1).is_none(), "{xy} {yx}");
+    }
+}
+
 /// Two discs: what forces and torques on one do to the other is what those on the other do to it.
 #[test]
 fn forces_on_bodies_are_reciprocal_and_take_energy() {

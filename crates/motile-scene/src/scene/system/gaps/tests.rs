@@ -101,6 +101,19 @@ fn droplets_driven_into_one_another_end_the_run_where_they_cross() {
     assert!(scene.system().minimum_gap().unwrap() > -0.002);
 }
 
+/// A disc that a ring touches, as deep as is allowed, is nearer than the ring that comes into it on the other side.
+#[test]
+fn each_gap_is_judged_by_itself() {
+    let mut scene = scene();
+    scene.add(Disc(circle(Vec2::new(-0.79, 0.0), 0.4)));
+    scene.add(ring("left", Vec2::ZERO, 0.4, None, Vec2::ZERO));
+    scene.add(ring("right", Vec2::new(1.0, 0.0), 0.4, None, -0.1 * Vec2::X));
+    let error = scene.run(4.0).go().unwrap_err();
+    let SceneError::Crossing { body, other, depth, .. } = error else { panic!("{error}") };
+    assert!(depth < 0.008 && scene.system().minimum_gap().unwrap() < -0.0099, "{depth}");
+    assert!([&body, &other].iter().all(|name| ["left", "right"].contains(&name.as_str())), "{body} {other}");
+}
+
 #[test]
 fn a_jump_into_another_interface_ends_the_run() {
     let mut scene = scene().with_step_size(StepSize::Fixed(1.0));
@@ -112,7 +125,7 @@ fn a_jump_into_another_interface_ends_the_run() {
     let SceneError::Containment { body, before, now, .. } = &error else { panic!("{error}") };
     assert_eq!([body.as_str(), before, now], ["inner", "inside outer", "inside third"]);
     // By hand it may be moved there.
-    for marker in scene.body_mut(inner).unwrap().positions_mut() {
+    for marker in scene.body_mut(inner).unwrap().markers_mut() {
         *marker -= Vec2::new(0.8, 0.0);
     }
     scene.system_mut().evaluate().unwrap();
@@ -176,7 +189,7 @@ fn the_gap_between_any_two_bodies() {
     assert!((gap(&scene, point.into()) - (1.4_f64.hypot(1.2) - 1.0)).abs() < 2e-3);
     assert!((scene.system().gap(point, island).unwrap().unwrap() - 0.1).abs() < 1e-12);
     // Over the edge of the box, overlapping.
-    scene.body_mut(cell).unwrap().positions_mut().iter_mut().for_each(|marker| marker.x -= 2.3);
+    scene.body_mut(cell).unwrap().markers_mut().iter_mut().for_each(|marker| marker.x -= 2.3);
     assert!((scene.system().gap(cell, island).unwrap().unwrap() - (1.3_f64.hypot(0.4) - 1.0)).abs() < 5e-3);
     let mut other = self::scene();
     let foreign = other.add(Disc(square.to_vec()));
@@ -261,8 +274,11 @@ fn a_wide_bound_on_gaps_ends_the_run_too() {
     scene.add(ring("left", Vec2::new(-0.7, 0.0), 0.3, None, Vec2::new(0.1, 0.0)));
     scene.add(ring("right", Vec2::new(0.7, 0.0), 0.3, None, Vec2::ZERO));
     match scene.run(3.0).go().unwrap_err() {
-        SceneError::Gap { time, gap, bound, .. } => {
+        error @ SceneError::Gap { .. } => {
+            let SceneError::Gap { time, gap, bound, x, y, .. } = error else { return };
             assert!(bound == 0.7 && (0.68..0.7).contains(&gap), "{gap}");
+            assert!((x - (-0.4 + 0.1 * time)).abs() < 0.01 && y.abs() < 0.05, "{x} {y}");
+            assert!(error.to_string().contains(&format!("at ({x:.4}, {y:.4})")), "{error}");
             assert!((0.95..1.2).contains(&time), "{time}");
         }
         other => panic!("{other}"),
@@ -277,7 +293,7 @@ fn the_least_gap_to_solids_is_kept_with_its_time() {
     let ring = scene.add(ring("ring", Vec2::new(0.5, 0.0), 0.4, None, Vec2::ZERO));
     let mut gap = SolidGap::new(0.1);
     for (shift, present) in [(0.0, 0.8), (-0.5, 0.3), (0.3, 0.6)] {
-        for marker in scene.body_mut(ring).unwrap().positions_mut() {
+        for marker in scene.body_mut(ring).unwrap().markers_mut() {
             marker.x += shift;
         }
         gap.observe(scene.system_mut()).unwrap();
