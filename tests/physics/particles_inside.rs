@@ -4,6 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::Exchange;
 use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
+use motile::motile_scene::integrator::Dynamics as _;
+use motile::motile_scene::{Body as _, Hydrodynamics as _};
 use motile::prelude::*;
 use motile::setup::{AnyFlow, ExchangeSetup, Exclusion};
 use motile_tests::validation::exchange::{BINDING, DIFFUSION, MEAN, Mode, UNBINDING, bare_rate, rate};
@@ -154,4 +156,26 @@ fn fast_exchange_is_stable_up_to_its_limit() {
         });
         assert!((on[0] / on[1] - 1.0).abs() < 2e-3, "{binding} {bulk}: {on:?}");
     }
+}
+
+/// A cell of area A beside segments of length l loses particles to them at the rate k_on l/A, the fastest of which
+/// bounds the step.
+#[test]
+fn the_smallest_cell_at_the_interface_bounds_the_step() {
+    let exchange =
+        ExchangeSetup { number_inside: Some(1.0), diffusion_inside: Some(1e-6), ..ExchangeSetup::new(50.0, 0.0) };
+    let Built { mut scene, .. } = swimmer(without_grid(48, 96), Region::Plane, exchange);
+    let (field, _) = scene.system().bodies::<ParticlesInDroplet>().next().expect("a field");
+    let mut rate = vec![0.0; scene.system().state_len()];
+    scene.system_mut().present_rate(&mut rate).expect("a flow");
+    let body = scene.body(field).expect("a field");
+    let rates = rate[rate.len() - body.numbers().len()..].iter().zip(body.numbers());
+    let fastest = rates.map(|(rate, number)| -rate / number).fold(0.0, f64::max);
+    let mut bound = f64::NAN;
+    body.step_limits(&scene.system().hydrodynamics().fluid_view(), &mut |limit| {
+        if limit.reason == "the exchange of particles" {
+            bound = 2.0 / limit.dt;
+        }
+    });
+    assert!((bound / fastest - 1.0).abs() < 0.02, "{bound} {fastest}");
 }

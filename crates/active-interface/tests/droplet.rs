@@ -27,6 +27,15 @@ mod tests {
         ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap().with_motion(motion)
     }
 
+    #[test]
+    fn a_bound_on_changes_may_be_zero_and_not_negative() {
+        let droplet = active(0.0, Vec2::ZERO, Motion::default());
+        assert!(droplet.clone().with_bounds(0.0, 0.0).is_ok());
+        for [area, particles] in [[-1e-9, 0.1], [0.1, -1e-9], [f64::NAN, 0.1]] {
+            assert!(droplet.clone().with_bounds(area, particles).is_err());
+        }
+    }
+
     proptest! {
         // A case of the second property is a run.
         #![proptest_config(ProptestConfig::with_cases(24))]

@@ -276,4 +276,4 @@ impl Solid {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -137,6 +137,16 @@ fn present_and_least_gap() {
     assert_eq!(scene.system().minimum_wall_gap(), Some(0.1875));
 }
 
+/// What is not a number is not hidden by a gap that is one.
+#[test]
+fn no_gap_of_a_place_that_is_not_a_number() {
+    for heights in [[f64::NAN, 0.5], [0.5, f64::NAN]] {
+        let mut scene = Scene::new(Wind { velocity: Vec2::ZERO, walls: Some([-1.0, 1.0]) });
+        heights.iter().for_each(|&y| _ = scene.add(Points::new(&[y], -1.0)));
+        assert!(scene.system_mut().wall_gap().unwrap().is_nan(), "{heights:?}");
+    }
+}
+
 #[test]
 fn no_gap_without_walls() {
     let mut scene = Scene::new(Wind { velocity: Vec2::ZERO, walls: None });

@@ -132,6 +132,9 @@ fn swimmers_across_branch_off_where_those_along_do_and_are_as_fast() {
     let last = &branch.points.last().unwrap().state;
     let along = SteadyState::find(&setup(Region::Plane, -0.6, 48)).unwrap();
     assert!(!last.is_mirror_symmetric() && last.velocity().x.abs() < 1e-7, "{}", last.velocity());
+    // Up or down, with the mode or against it.
+    let first = |with: bool| swimmers.switch(across, with, |_, _| false).unwrap().points[0].state.velocity().y;
+    assert!(first(true) * first(false) < 0.0, "{} {}", first(true), first(false));
     let speeds = [last, &along].map(|state| state.measured().unwrap().speed);
     // The error of 48 nodes, which stand elsewhere.
     assert!((speeds[0] / speeds[1] - 1.0).abs() < 5e-6, "{speeds:?}");

@@ -176,6 +176,17 @@ fn an_inverted_triangle_is_named() {
     }
     positions[a].x = f64::NAN;
     assert!(matches!(law.add_forces(&positions, &mut forces), Err(SolidError::Inverted { .. })));
+    // Across the seam of a wall, where it is: in the middle of its corners.
+    let wall = wall();
+    for triangle in 0..wall.triangles().len() {
+        let [a, b, c] = wall.raw_corners(triangle, wall.points());
+        let mut positions = wall.points().to_vec();
+        positions[wall.triangles()[triangle][0]] = b + c - a;
+        let law = Hyperelastic::new(&wall, NeoHookean::new(1.0, 2.0).unwrap());
+        let Err(SolidError::Inverted { triangle, place, .. }) = law.energy(&positions) else { panic!("not inverted") };
+        let middle = wall.raw_corners(triangle, &positions).iter().sum::<Vec2>() / 3.0;
+        assert!((place - middle).length() < 1e-12, "{triangle}: {place} {middle}");
+    }
     assert!(matches!(
         law.add_forces(&positions[1..], &mut forces),
         Err(SolidError::Input(InputError::WrongLength { .. }))

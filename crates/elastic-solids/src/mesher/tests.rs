@@ -183,3 +183,15 @@ proptest! {
         prop_assert!(quality.smallest_angle > 30.0 && quality.edge_deviation < 0.08, "{quality}");
     }
 }
+
+/// A mesh has no unit of its own.
+#[test]
+fn meshes_of_any_size_are_alike() {
+    let of = |unit: f64| Outline::rectangle(Vec2::ZERO, unit * Vec2::new(1.0, 0.1)).unwrap().mesh(0.1 * unit).unwrap();
+    let count = of(1.0).triangles().len();
+    for unit in [1e-5, 1e5] {
+        let mesh = of(unit);
+        assert_eq!(mesh.triangles().len(), count, "{unit}");
+        assert!((mesh.area() / (0.1 * unit * unit) - 1.0).abs() < 1e-9, "{unit}");
+    }
+}

@@ -71,3 +71,33 @@ fn what_is_no_shell_is_refused() {
     assert!(shell.clone().with_reference_curvature(f64::INFINITY).is_err());
     assert!(shell.deformed(&circle[1..]).is_err());
 }
+
+/// Short waves on a circle relax as those on a flat membrane, `q (E_s + B q^2)/(2 (eta_in + eta_out))`: along it by
+/// stretching, across it by bending.
+#[test]
+fn step_limits_are_those_of_the_shortest_wave() {
+    const MODES: usize = 32;
+    let view = crate::solid::tests::fluid_view();
+    let wave = (MODES / 2) as f64;
+    for ([stretching, bending], along) in [([3.0, 0.0], true), ([0.0, 0.2], false)] {
+        let shell = Shell::new(&curve(1.0, &[]), stretching, bending).unwrap().with_viscosity_inside(2.0).unwrap();
+        let limit = |modes: usize| {
+            let mut dt = f64::NAN;
+            shell.step_limits(&FluidView { shape_modes: Some(modes), ..view }, &mut |limit| dt = limit.dt);
+            dt
+        };
+        let dt = limit(MODES);
+        // Markers have no shorter waves than they stand apart.
+        assert_eq!(limit(10 * COUNT), limit(COUNT));
+        let amplitude = 1e-6;
+        let normals: Vec<Vec2> = curve(1.0, &[]);
+        let way = |k: usize| if along { normals[k].perp() } else { normals[k] };
+        let phase = |k: usize| (wave * TAU * k as f64 / COUNT as f64).cos();
+        let moved: Vec<Vec2> = (0..COUNT).map(|k| normals[k] + amplitude * phase(k) * way(k)).collect();
+        let pulled = forces(&mut shell.deformed(&moved).unwrap());
+        // Force per length over amplitude, and the mobility of a wave.
+        let density = -pulled[0].dot(way(0)) / amplitude * COUNT as f64 / TAU;
+        let rate = density / (2.0 * (view.viscosity + 2.0) * wave);
+        assert!((0.5 * dt * rate - 1.0).abs() < 0.02, "{along}: {dt} {rate}");
+    }
+}

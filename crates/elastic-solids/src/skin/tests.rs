@@ -88,3 +88,30 @@ fn solids_with_a_skin() {
         assert!(bare.clone().with_skin(moduli[0], moduli[1]).is_err());
     }
 }
+
+/// Waves of two sides relax at the rate of the forces that they have, by `1/(4 eta q)`: along and across the surface.
+#[test]
+fn stiffness_is_that_of_the_shortest_waves() {
+    let mesh = wall(0.1);
+    for moduli in [[5.0, 0.0], [0.0, 2.0], [5.0, 2.0]] {
+        let skin = Skin::new(&mesh, moduli[0], moduli[1]).unwrap();
+        let (amplitude, length) = (1e-6, skin.sides[0].length);
+        let rates = [Vec2::X, Vec2::Y].map(|direction| {
+            let mut positions = mesh.points().to_vec();
+            let surface = &mesh.boundary_loops()[0].points;
+            for (k, &point) in surface.iter().enumerate() {
+                positions[point] += if k % 2 == 0 { amplitude } else { -amplitude } * direction;
+            }
+            let mut forces = vec![Vec2::ZERO; positions.len()];
+            skin.add_forces(&positions, &mut forces);
+            // Far from the ends of an odd number of sides.
+            -forces[surface[8]].dot(direction) / length / amplitude / (2.0 * TAU / length)
+        });
+        let sum: f64 = rates.iter().sum();
+        assert!((skin.stiffness() / sum - 1.0).abs() < 1e-5, "{moduli:?}: {} {rates:?}", skin.stiffness());
+        let solid = Solid::springs(mesh.clone(), 1e-3).unwrap().with_skin(moduli[0], moduli[1]).unwrap();
+        let view = crate::solid::tests::fluid_view();
+        let rate = 2.0 / crate::solid::tests::limit(&solid, &view) * view.viscosity;
+        assert!((rate / sum - 1.0).abs() < 1e-3, "{moduli:?}: {rate} {sum}");
+    }
+}

@@ -12,7 +12,7 @@ use crate::material::Mat2;
 use crate::mesh::{equilateral_block, equilateral_strip};
 use crate::{Mesher, NeoHookean};
 
-fn fluid_view() -> FluidView {
+pub(crate) fn fluid_view() -> FluidView {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
     FluidView {
         domain,
@@ -113,6 +113,13 @@ fn tethers_pull_back_to_their_anchors() {
     let held = 13.5 * (1.0 - 0.148 * 0.2);
     let elastic = 1.0 + 0.015 * 2.0;
     assert!((limit(&solid, &fluid_view()) - 20.0 / (held + elastic)).abs() < 1e-12);
+    // A column in a box of height 1.6: as long as it is high, 30/(1.6 + 0.2) 1.6/12 of its nine rows and a spacing.
+    let domain = Domain { origin: [0.0; 2], periods: [Some(1.6); 2], walls: None };
+    let count = 1.0 / block().points().iter().filter(|s| s.x < -0.79).count() as f64;
+    let column = Solid::springs(block(), 1.0).unwrap().tethered(30.0 * count, |s| s.x < -0.79).unwrap();
+    let height = block().points().iter().map(|s| s.y + 1.0).fold(0.0, f64::max) + column.spacing;
+    let held = 30.0 / height * 1.6 / 12.0;
+    assert!((limit(&column, &FluidView { domain, ..fluid_view() }) - 20.0 / (held + elastic)).abs() < 1e-12);
     for bad in [0.0, -1.0, f64::NAN] {
         assert!(matches!(
             solid.clone().tethered(bad, |_| true),
@@ -123,7 +130,7 @@ fn tethers_pull_back_to_their_anchors() {
 }
 
 /// The one stable step that a solid states.
-fn limit(solid: &Solid, view: &FluidView) -> f64 {
+pub(crate) fn limit(solid: &Solid, view: &FluidView) -> f64 {
     let mut dt = f64::NAN;
     solid.step_limits(view, &mut |limit| dt = limit.dt);
     dt

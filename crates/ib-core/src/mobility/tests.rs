@@ -98,3 +98,26 @@ fn the_normal_correction_fades_at_the_spacing_of_the_grid() {
         assert!((normal_taper(q) / expected - 1.0).abs() < 1e-14, "{q}");
     }
 }
+
+/// Forces that hardly vary along a flat interface of any direction.
+#[test]
+fn flat_interfaces_in_every_direction() {
+    let (table, transforms) = (MobilityDeficit::new(&BSpline::<4>), Transforms::new(&BSpline::<4>));
+    let rest = 0.3 * table.at(0.0).tangential_curvature.abs() + 1e-5;
+    for angle in [0.0, 0.2, std::f64::consts::FRAC_PI_8, 0.6, std::f64::consts::FRAC_PI_4] {
+        let [tangential, ..] = deficits(&transforms, 1e-6, angle);
+        let flat = table.flat(Vec2::from_angle(angle));
+        assert!((flat - tangential).abs() < rest, "{angle}: {flat} {tangential} {rest}");
+    }
+}
+
+/// The harmonic is even in q, also between the first two entries of its table.
+#[test]
+fn the_harmonic_of_long_waves() {
+    let (table, transforms) = (MobilityDeficit::new(&BSpline::<4>), Transforms::new(&BSpline::<4>));
+    let drop = table.harmonic(0.0) - table.harmonic(0.125);
+    for q in [0.03, 0.05, 0.08] {
+        let (found, exact) = (table.harmonic(q), harmonic(&transforms, 1.0, q));
+        assert!((found - exact).abs() < 0.02 * drop.abs(), "q {q}: {found} {exact} {drop}");
+    }
+}

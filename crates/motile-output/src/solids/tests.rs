@@ -33,3 +33,11 @@ fn walls_of_a_channel() {
     assert!((value("droplet_gap") - 0.2).abs() < 5e-3 && value("elastic_energy") < 1e-18);
     assert!((value("smallest_jacobian") - 1.0).abs() < 1e-12);
 }
+
+/// A solid that is moved as a whole has that displacement everywhere.
+#[test]
+fn displacements_are_those_of_the_triangles() {
+    let disc = motile::elastic_solids::Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(0.3).unwrap();
+    let moved = Solid::springs(disc, 1.0).unwrap().deformed(|s| s + Vec2::new(0.3, -0.4)).unwrap();
+    assert!(solid_shape(&moved).displacement.iter().all(|length| (length - 0.5).abs() < 1e-12));
+}

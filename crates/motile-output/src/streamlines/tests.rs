@@ -94,3 +94,14 @@ fn streamlines_have_the_mirror_lines_of_the_flow() {
         assert!(total * spacing > 0.6 * 4.0 && total * spacing < 1.6 * 4.0, "{total}");
     }
 }
+
+/// Beside a mirror line a line begins no nearer to its image than to any other line.
+#[test]
+fn seeds_keep_apart_from_their_images() {
+    let field = sampled(false, |p| Vec2::new(p.x, -p.y));
+    for (x, begins) in [(0.0, true), (0.04, false), (0.06, true)] {
+        let (near, mirrors) = (Neighbourhood::new(&field.raster, 0.1), Mirrors::of(&field, Vec2::ZERO, 0.1));
+        let mut tracer = Tracer { field: &field, spacing: 0.1, slowest: 1e-4, near, mirrors };
+        assert_eq!(tracer.line(Vec2::new(x, 0.3)).is_some(), begins, "{x}");
+    }
+}

@@ -70,3 +70,10 @@ fn a_body_is_observed_in_its_present_state() {
     assert!(scene.system().flow_at(handle).is_err());
     assert!(scene.observe(handle).unwrap().x > seen.x + 0.005);
 }
+
+/// A polygon of tension gamma and spacing ds relaxes at most at the rate 4 gamma/(zeta ds).
+#[test]
+fn a_substrate_says_what_is_stable() {
+    let view = crate::Substrate::new(3.0).unwrap().fluid_view();
+    assert!((view.interface_stiffness / view.viscosity - 4.0 / (3.0 * 0.05)).abs() < 1e-12);
+}

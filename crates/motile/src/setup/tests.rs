@@ -413,16 +413,24 @@ fn moduli_follow_their_grading() {
     }
     assert_eq!(Grading::Uniform.factor(Vec2::ZERO), 1.0);
     // The energy of a wall that is stiffer by a factor everywhere is larger by it.
-    let energy = |grading: Grading| {
+    let energy = |grading: Grading, material: Material| {
         let base = elastic(3.0, plain());
-        let wall = SolidSetup { grading, ..base.solids[0].clone() };
+        let wall = SolidSetup { grading, material, ..base.solids[0].clone() };
         let mesh = wall.mesher(&base).unwrap().mesh(&wall.enclosed(&base.region).unwrap()).unwrap();
         let solid = wall.on_mesh(mesh, &base).unwrap().deformed(|s| Vec2::new(s.x, 1.1 * s.y)).unwrap();
         solid.elastic_energy().unwrap()
     };
-    let (uniform, graded) =
-        (energy(Grading::Uniform), energy(Grading::Along { axis: Axis::X, factors: vec![[0.0, 2.5]] }));
-    assert!(uniform > 0.1 && (graded / uniform - 2.5).abs() < 1e-12, "{uniform} {graded}");
+    let (shear, bulk) = (100.0, 300.0);
+    for material in [
+        Material::Springs { shear },
+        Material::NeoHookean { shear, bulk },
+        Material::SaintVenantKirchhoff { shear, bulk },
+        Material::MooneyRivlin { shear, bulk, fraction: 0.3 },
+    ] {
+        let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 2.5]] };
+        let (uniform, graded) = (energy(Grading::Uniform, material), energy(graded, material));
+        assert!(uniform > 0.1 && (graded / uniform - 2.5).abs() < 1e-12, "{material:?}: {uniform} {graded}");
+    }
 }
 
 #[test]
@@ -446,6 +454,61 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
         assert!((height - half_height).abs() < 1e-3, "{height} {half_height}");
         // The area of the circle, but for what a polygon of 128 and more corners misses.
         assert!((area / std::f64::consts::PI - 1.0).abs() < 1e-3, "{area}");
+    }
+    // The film is in proportion to the radius: 0.05 of it.
+    for (width, half_height) in [(1.0, 0.475), (1.04, 0.495), (1.06, 0.5)] {
+        let droplets = vec![DropletSetup::default().with_radius(0.5)];
+        let (area, height) = area_and_height(&Setup { region: channel(width), droplets, ..Setup::default() });
+        assert!((height - half_height).abs() < 5e-4, "{width}: {height}");
+        assert!((area / (0.25 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{area}");
+    }
+}
+
+/// As many particles inside as are at rest with the interface: `k_off c/k_on` times the area.
+#[test]
+fn the_number_inside_is_that_of_the_area() {
+    for radius in [0.5, 2.0] {
+        let exchange = Some(ExchangeSetup::new(0.4, 0.25));
+        let particles = Some(Particles { exchange, ..Particles::default() });
+        let droplets = vec![DropletSetup { particles, ..DropletSetup::default() }.with_radius(radius)];
+        let setup = Setup { region: Region::Plane, droplets, ..Setup::default() };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let (number, _) = scene.observe(droplets[0]).unwrap().inside.unwrap();
+        let exact = 0.25 * 100.0 / 0.4 * std::f64::consts::PI * radius * radius;
+        assert!((number / exact - 1.0).abs() < 1e-3, "{radius}: {number} {exact}");
+    }
+}
+
+/// Tethers hold a solid by its area, however many points it has.
+#[test]
+fn tethers_are_shared_among_the_points() {
+    for spacing in [0.1, 0.2] {
+        let solid = SolidSetup { hold: Hold::Tethered { stiffness: 30.0 }, ..disc(0.0, 1.9, 0.7) };
+        let solids = vec![SolidSetup { mesh_spacing: Some(spacing), ..solid }];
+        let setup = Setup { region: channel(6.0), method: plain(), solids, ..Setup::default() };
+        let Built { scene, solids, .. } = setup.build().unwrap();
+        let tethers = scene.body(solids[0]).unwrap().tethers();
+        let exact = 30.0 * 0.49 * std::f64::consts::PI;
+        let total: f64 = tethers.iter().map(|tether| tether.stiffness).sum();
+        assert!((total / exact - 1.0).abs() < 0.02, "{spacing}: {total} {exact}");
+    }
+}
+
+/// A right angle through a Gaussian of the standard deviation s moves inwards by `s/sqrt(2 pi)` along both sides.
+#[test]
+fn corners_of_walls_are_rounded_over_the_length() {
+    let corners = vec![[1.8, -0.4], [2.6, -0.4], [2.6, 0.4], [1.8, 0.4]];
+    let outline = SolidOutline::Polygon { corners, rounding: 0.0 };
+    // However far apart nodes are asked for, a wall has enough of them to be one.
+    let sparse = vec![WallSetup { outline: outline.clone(), spacing: 10.0, rounding: 0.1 }];
+    assert!(Setup { region: channel(6.0), walls: sparse, ..Setup::default() }.build().is_ok());
+    for rounding in [0.05, 0.1] {
+        let walls = vec![WallSetup { outline: outline.clone(), spacing: 0.05, rounding }];
+        let Built { scene, .. } = Setup { region: channel(6.0), walls, ..Setup::default() }.build().unwrap();
+        let tip = Vec2::new(2.6, 0.4) - Vec2::splat(rounding / std::f64::consts::TAU.sqrt());
+        let boundary = scene.system().hydrodynamics().walls().unwrap();
+        let nearest = boundary.corners().map(|corner| corner.distance(tip)).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-2 * rounding, "{rounding}: {nearest}");
     }
 }
 

@@ -22,6 +22,8 @@ fn driven(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ChannelStok
 fn run(solver: &mut dyn StokesSolver, force: &StaggeredField) -> (StaggeredField, CentreField, SolveReport) {
     let grid = *solver.grid();
     let (mut velocity, mut pressure) = (StaggeredField::zeros(grid), CentreField::zeros(grid));
+    // Whatever was there before.
+    velocity.fill(0.5);
     let report = solver.solve(force, &mut velocity).unwrap();
     solver.pressure(force, &velocity, &mut pressure).unwrap();
     (velocity, pressure, report)

@@ -51,6 +51,21 @@ fn the_streamfunction_comes_back_from_its_velocity() {
     }
 }
 
+/// sin(k x) along x has the divergence k cos(k x), of differences `sin(k h/2)/(h/2)` of that.
+#[test]
+fn divergence_of_a_wave() {
+    let grid = Grid::periodic(20, 15, 0.1).unwrap();
+    let mut velocity = StaggeredField::zeros(grid);
+    let k = std::f64::consts::TAU / 2.0;
+    velocity.components_mut().0.iter_mut().enumerate().for_each(|(n, u)| *u = (k * 0.1 * (n % 20) as f64).sin());
+    let mut div = CentreField::zeros(grid);
+    divergence(&velocity, &mut div).unwrap();
+    for (n, found) in div.values().iter().enumerate() {
+        let exact = (0.05 * k).sin() / 0.05 * (k * 0.1 * ((n % 20) as f64 + 0.5)).cos();
+        assert_abs_diff_eq!(*found, exact, epsilon = 1e-12);
+    }
+}
+
 #[test]
 fn vorticity_is_minus_the_laplacian_of_the_streamfunction() {
     let grid = Grid::periodic(20, 15, 0.1).unwrap();

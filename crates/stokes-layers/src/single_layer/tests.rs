@@ -133,6 +133,25 @@ fn the_operator_is_symmetric() {
     }
 }
 
+/// A tall ellipse and its own images above and below, 0.05 apart; symmetry to round-off costs accuracy of the film.
+#[test]
+fn a_curve_close_to_its_own_image_moves_as_with_fine_nodes() {
+    let flow = |kind: Symmetry, n: usize| {
+        let mut layer = SingleLayer::new(Region::Box { lengths: [LENGTH, 1.25] }, 1e-13, kind).unwrap();
+        let positions: Vec<Vec2> = ellipse(Vec2::ZERO, n).into_iter().map(Vec2::perp).collect();
+        layer.load([LayerCurve { positions: &positions, period: Vec2::ZERO, nodes: n }].into_iter()).unwrap();
+        let mut out = vec![0.0; layer.entry_count()];
+        layer.apply(&forces(&[n]), &mut out).unwrap();
+        every(&out, &[n], n / 96)
+    };
+    let fine = flow(Symmetry::ToResolution, 960);
+    for kind in [Symmetry::ToResolution, Symmetry::ToRoundOff] {
+        let error = flow(kind, 96).iter().zip(&fine).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{kind:?}: {error:.1e}");
+        assert!(error < 1e-8, "{kind:?}: {error:e}");
+    }
+}
+
 #[test]
 fn a_pressure_behind_a_curve_moves_nothing() {
     for region in regions() {

@@ -72,6 +72,24 @@ fn noise_does_not_bias_and_its_errors_are_honest() {
     assert!(mean.abs() < 0.5 && (0.6..1.4).contains(&spread), "{mean} {spread}");
 }
 
+/// N heights with noise sigma of an oscillation of amplitude A over a time T: rate and frequency are both known to
+/// `sigma sqrt(24/N)/(A T)`, the bound of Cramer and Rao (Rife and Boorstyn, Single-tone parameter estimation).
+#[test]
+fn the_errors_of_rate_and_frequency() {
+    let (w, count, periods) = (0.05, 2000, 20.0);
+    let end = periods * TAU / w;
+    let times = even(end, count);
+    let (mut heights, _) = signal(&times, 0.0, w, 0.3);
+    // As if random, uniform in (-1, 1) times five per cent of the amplitude.
+    let noise = |k: usize| 2.0 * (k as f64 * 12.989_8 + 4.1).sin().mul_add(43_758.545_3, 0.0).rem_euclid(1.0) - 1.0;
+    heights.iter_mut().enumerate().for_each(|(k, y)| *y += 5e-4 * noise(k));
+    let mode = fit_linear_mode(&times, &heights, None).unwrap();
+    let exact = 5e-4 / 3.0_f64.sqrt() * (24.0 / count as f64).sqrt() / (0.01 * end);
+    for found in [mode.growth_rate, mode.frequency.unwrap()] {
+        assert!((found.error / exact - 1.0).abs() < 0.05, "{found:?} {exact:e}");
+    }
+}
+
 #[test]
 fn motion_without_oscillation() {
     let times = even(30.0, 100);

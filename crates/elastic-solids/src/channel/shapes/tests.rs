@@ -150,6 +150,9 @@ fn bad_shapes_are_refused() {
     let channel = Channel::with_islands(flat(-1.0), flat(1.0), vec![outside]);
     assert!(matches!(channel, Err(SolidError::NotBetween { .. })));
     let channel = Channel::new(flat(-1.0), flat(1.0)).unwrap();
+    let height = |line: &Outline| line.resampled(0.5).unwrap()[0].y;
+    let gap = |channel: &Channel| height(channel.upper()) - height(channel.lower());
+    assert!((gap(&channel.widened(0.5).unwrap()) - 2.5).abs() < 1e-12);
     assert!(matches!(channel.widened(-2.5), Err(SolidError::NotBetween { .. } | SolidError::Crossing { .. })));
     assert!(matches!(channel.walls(-1.05, 3.0, &Mesher::new(0.1).unwrap()), Err(SolidError::WallTooThin { .. })));
 }

@@ -2,6 +2,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use active_interface::SplitMix64;
 use motile_base::Vec2;
+use motile_scene::StepCause;
 
 use super::Director;
 use crate::gel::{Anchoring, GelMaterial, elements::Elements};
@@ -135,4 +136,17 @@ fn a_folded_mesh_is_an_error() {
     director.move_to(&nodes);
     let error = director.write_forces(&nodes, &mut [Vec2::ZERO; 3]).unwrap_err();
     assert!(matches!(error, InteriorError::Folded { .. }));
+}
+
+/// Without elasticity the director turns at most at the rate of the flow that the activity drives, `|a| (1 + |nu|)/(2
+/// eta)`.
+#[test]
+fn activity_bounds_the_step() {
+    let material = GelMaterial { frank: 1e-12, activity: -4.0, ..PASSIVE };
+    let (director, _) = bent(material, Anchoring::Planar);
+    let exact = 2.0 / (4.0 * 1.7 / (2.0 * 1.5));
+    director.step_limits(1.5, &mut |limit| {
+        let StepCause::Stabilised { bare } = limit.cause else { panic!("{limit:?}") };
+        assert!((limit.dt / exact - 1.0).abs() < 1e-6 && (bare / exact - 1.0).abs() < 1e-6, "{limit:?} {exact}");
+    });
 }

@@ -11,6 +11,11 @@ fn linear_labels_have_the_decimals_of_the_step() {
     assert_eq!(labels(&Ticks::linear(0.0, 0.62, 6)), ["0.0", "0.2", "0.4", "0.6"]);
     let small = Ticks::linear(0.0, 3.1e-4, 6);
     assert_eq!((labels(&small)[1], small.exponent), ("1", -4));
+    // Five digits are written out, six are not.
+    for (high, label, exponent) in [(4e4, "10000", 0), (4e5, "1", 5), (0.04, "0.01", 0), (0.004, "1", -3)] {
+        let ticks = Ticks::linear(0.0, high, 4);
+        assert_eq!((labels(&ticks)[1], ticks.exponent), (label, exponent));
+    }
 }
 
 #[test]
@@ -24,6 +29,7 @@ fn axes_without_length_have_one_tick() {
 fn logarithmic_labels() {
     assert_eq!(labels(&Ticks::logarithmic(1e-4, 1.0)), ["10^{−4}", "10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
     assert_eq!(labels(&Ticks::logarithmic(0.025, 0.2)), ["0.05", "0.1", "0.2"]);
+    assert_eq!(labels(&Ticks::logarithmic(0.01, 3.0)), ["0.01", "0.1", "1"]);
     assert!(Ticks::logarithmic(0.0, 1.0).ticks.is_empty());
 }
 

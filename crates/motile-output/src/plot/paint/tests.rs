@@ -34,3 +34,16 @@ fn equal_units_are_equally_long_and_show_all_data() {
         }
     }
 }
+
+/// Two points are a line, one is none.
+#[test]
+fn two_points_make_a_line() {
+    for (end, more) in [(2.0, 1), (f64::NAN, 0)] {
+        let strokes = |line: bool| {
+            let series = Series { line, ..Series::line("", [(0.0, 0.0), (1.0, end), (2.0, f64::NAN)]) };
+            let svg = Figure::new(1).panel(Plot::new("").series(series)).svg().unwrap();
+            svg.matches("<path").count()
+        };
+        assert_eq!(strokes(true), strokes(false) + more, "{end}");
+    }
+}

@@ -21,7 +21,9 @@ fn mirror_lines_are_found_where_they_are() {
     };
     let found = Mirrors::of(&jet(0.0), Vec2::new(0.1, 0.3), 0.1).at;
     assert_eq!(found, [None, Some(0.3)]);
-    assert_eq!(Mirrors::of(&jet(0.05), Vec2::new(0.1, 0.3), 0.1).at, [None; 2]);
+    for lopsided in [0.05, 0.01] {
+        assert_eq!(Mirrors::of(&jet(lopsided), Vec2::new(0.1, 0.3), 0.1).at, [None; 2]);
+    }
 }
 
 #[test]

@@ -194,3 +194,20 @@ fn what_is_pinned_in_part_has_films() {
     assert!(!films.contacts.is_empty());
     assert_eq!(films.closing(&surfaces, &scene.markers.velocities, 0.0), None);
 }
+
+/// A droplet pushes its own image as it pushes another droplet in its place.
+#[test]
+fn images_of_ones_own_are_pushed_like_others() {
+    let repulsion = Repulsion::new(3.0, 0.2).unwrap();
+    let forces = |count: usize| {
+        let periods = [Some(2.05 * count as f64), Some(5.0)];
+        let mut scene = Scene::new(Domain { periods, ..PLANE });
+        (0..count).for_each(|k| circle(&mut scene.markers, Vec2::new(2.05 * k as f64, 0.0), 1.0));
+        scene.forces(&repulsion)
+    };
+    let (alone, pair) = (forces(1), forces(2));
+    assert!(alone[0].x < -0.01, "{}", alone[0]);
+    for (a, b) in alone.iter().zip(&pair) {
+        assert!((*a - *b).length() < 1e-12, "{a} {b}");
+    }
+}

@@ -183,3 +183,20 @@ fn adaptive_steps_need_an_estimate_of_errors() {
     assert!(scene.body(point).unwrap().markers()[0].length() < 1e-3);
     assert_eq!(scene.integrator_work(), IntegratorWork::default());
 }
+
+/// Attempts are steps, rejections for the error, and failures: here one by a velocity that is once not a number.
+#[test]
+fn every_attempt_is_counted() {
+    let mut calls = 0;
+    let motion = move |positions: &[Vec2], _: &[Vec2], rates: &mut [Vec2]| {
+        calls += 1;
+        let speed = 1.0 + 40.0 * (1.0 + (100.0 * (positions[0].x - 0.5)).tanh());
+        rates[0] = Vec2::X * if calls == 8 { f64::NAN } else { speed };
+    };
+    let mut scene = empty();
+    scene.add(MarkerBody::new("drifting", vec![Vec2::ZERO], |_, _| {}).with_motion(motion));
+    scene.run(1.0).step_size(StepSize::Adaptive { tolerance: 1e-4 }).go().unwrap();
+    let (report, attempts) = (scene.step_report(), scene.integrator_work().stages / 2);
+    assert!(report.failures == 1 && report.rejections > 0, "{report:?}");
+    assert_eq!(report.steps + report.rejections + report.failures, attempts, "{report:?}");
+}

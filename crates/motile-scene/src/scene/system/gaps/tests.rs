@@ -191,6 +191,9 @@ fn the_gap_between_any_two_bodies() {
     // Over the edge of the box, overlapping.
     scene.body_mut(cell).unwrap().markers_mut().iter_mut().for_each(|marker| marker.x -= 2.3);
     assert!((scene.system().gap(cell, island).unwrap().unwrap() - (1.3_f64.hypot(0.4) - 1.0)).abs() < 5e-3);
+    // A disc in a disc overlaps it: from its rim, not from within.
+    let core = scene.add(Disc(circle(Vec2::new(1.4, 1.4), 0.02)));
+    assert!((scene.system().gap(island, core).unwrap().unwrap() + 0.1).abs() < 0.03);
     let mut other = self::scene();
     let foreign = other.add(Disc(square.to_vec()));
     assert!(matches!(scene.system().gap(cell, foreign), Err(SceneError::ForeignHandle)));
