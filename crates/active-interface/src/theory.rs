@@ -71,12 +71,16 @@ impl LinearTheory {
         self.0.viscosity_inside + self.0.viscosity_outside
     }
 
-    /// Growth rate (1/time) of mode k >= 1 of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)).
+    /// Growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)) for k >= 2, and 0
+    /// for k = 1, which moves the circle, and k = 0, which changes its area.
     ///
-    /// In a periodic box the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4179
+    /// In a periodic box the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4187
     /// gamma/(eta R0) instead of 0.5.
     #[must_use]
     pub fn shape_growth_rate(&self, k: u32) -> f64 {
+        if k < 2 {
+            return 0.0;
+        }
         -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
     }
 

@@ -96,7 +96,10 @@ fn growth_rates_follow_from_the_flow() {
     let droplet = *theory.droplet();
     for k in 1..=5 {
         let shape = theory.mode_flow(k, 0.0, 1e-3).unwrap();
-        assert_relative_eq!(shape.velocity(1.3, 0.0)[0] / 1e-3, theory.shape_growth_rate(k), max_relative = 1e-12);
+        // A shift of the circle (k = 1) moves with the frame of the droplet: it is no change of shape.
+        if k > 1 {
+            assert_relative_eq!(shape.velocity(1.3, 0.0)[0] / 1e-3, theory.shape_growth_rate(k), max_relative = 1e-12);
+        }
         // dc/dt = -(c0/R) dv_theta/dtheta + (D/R^2) d^2c/dtheta^2 at theta = 0
         let amplitude = 0.01;
         let flow = theory.mode_flow(k, amplitude, 0.0).unwrap();

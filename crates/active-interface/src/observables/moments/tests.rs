@@ -139,6 +139,66 @@ fn both_conventions_on_the_reference_circle() {
     }
 }
 
+/// The corrected (2.60): a circle of any tension moves at 3 [abs(N_xyy) + (N_yxy - N_yyx)/3]/(8 pi R^2 Sigma).
+#[test]
+fn speed_of_a_circle_is_its_corrected_source_dipole() {
+    use std::f64::consts::PI;
+    let (radius, amplitudes) = (1.3, [0.5, 0.4, -0.3]);
+    for viscosity in [0.1, 1.0, 10.0, 100.0] {
+        let droplet = RoundDroplet {
+            radius,
+            viscosity_inside: viscosity,
+            viscosity_outside: 1.0,
+            tension: 1.0,
+            activity: -1.0,
+            concentration: 1.0,
+            diffusivity: 0.0,
+        };
+        let theory = LinearTheory::new(droplet).unwrap();
+        let flows: Vec<_> = (1..4).zip(amplitudes).map(|(k, c)| theory.mode_flow(k, c, 0.0).unwrap()).collect();
+        let speed = theory.swimming_speed(amplitudes[0]).unwrap();
+        let along = Frame::new(Vec2::ZERO, PI).unwrap();
+        for convention in [Convention::AsPrinted, Convention::FarField] {
+            let sums = |count: usize, share: f64| {
+                let markers: Vec<Vec2> = Curve::circle(radius).unwrap().markers(count).unwrap();
+                let tension = |p: Vec2| {
+                    let angle = p.y.atan2(p.x);
+                    1.0 + (1..4).zip(amplitudes).map(|(k, c)| c * (f64::from(k) * angle).cos()).sum::<f64>()
+                };
+                let velocity = |p: &Vec2| {
+                    let angle = p.y.atan2(p.x);
+                    let [radial, azimuthal] = flows.iter().fold([0.0; 2], |[a, b], flow| {
+                        let [radial, azimuthal] = flow.velocity(radius, angle);
+                        [a + radial, b + azimuthal]
+                    });
+                    let (sin, cos) = angle.sin_cos();
+                    // It swims along -x.
+                    Vec2::new(radial * cos - azimuthal * sin - speed, radial * sin + azimuthal * cos)
+                };
+                let (forces, velocities) =
+                    (forces(&markers, tension), markers.iter().map(velocity).collect::<Vec<_>>());
+                let moments =
+                    force_moments(&markers, &forces, &velocities, [viscosity, 1.0], convention, &along).unwrap();
+                let n = moments.mixed_quadrupole().unwrap();
+                (n[0][1][1].abs() + share * (n[1][0][1] - n[1][1][0])) * 3.0
+                    / (8.0 * PI * radius * radius * (viscosity + 1.0) * speed)
+            };
+            // A polygon with the angles of the circle has no error in it.
+            let found = sums(200, 1.0 / 3.0);
+            assert!((found - 1.0).abs() < 1e-13, "{viscosity}: {found}");
+            // Cowley's share of -1/4 and none at all leave the contrast.
+            let contrast = match convention {
+                Convention::FarField => (1.0 - viscosity) / (1.0 + viscosity),
+                Convention::AsPrinted => (viscosity - 1.0) / (1.0 + viscosity),
+            };
+            for (share, left) in [(-0.25, 7.0 / 32.0), (0.0, 1.0 / 8.0)] {
+                let found = sums(200, share);
+                assert!((found - 1.0 - left * contrast).abs() < 1e-3, "{viscosity}, {share}: {found}");
+            }
+        }
+    }
+}
+
 #[test]
 fn bad_input_is_refused() {
     let list = [Vec2::ZERO; 5];
