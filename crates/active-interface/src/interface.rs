@@ -1,8 +1,9 @@
 //! An interface that carries particles: markers, particle numbers, tension, and how all of them change in a flow.
 //!
-//! Nothing here refers to the fluid that the interface encloses. A droplet adds its area, the particles inside, and
-//! the conservation of both.
+//! A droplet adds what only a closed curve has: particles inside, moments, and a radius to be resolved.
 
+mod body;
+mod build;
 mod filter;
 pub(crate) mod geometry;
 mod limits;
@@ -17,9 +18,9 @@ use motile_scene::{FluidView, points};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Flux, Tension,
+    Tension,
     concentration::{Repair, Transport},
-    curve::MINIMUM_MARKERS,
+    curve::{CrossingFinder, MINIMUM_MARKERS},
 };
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
@@ -71,8 +72,12 @@ pub(crate) struct Law {
     pub(crate) diffusion: f64,
     pub(crate) motion: Motion,
     /// Switch of the stabiliser, which treats the fast relaxation of crowded particles implicitly, see
-    /// [`ActiveInterface::begin_step`].
+    /// [`ActiveInterface::prepare_step`].
     pub(crate) stabilised: bool,
+    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid outside.
+    pub(crate) viscosity_inside: Option<f64>,
+    /// Switch of the area constraint, which restores the area after each step.
+    pub(crate) keeps_area: bool,
 }
 
 /// Unknowns of an interface: marker positions (with their geometry) and the particle numbers of the segments.
@@ -124,25 +129,37 @@ pub(crate) struct Interventions {
     pub(crate) removed: usize,
 }
 
-/// Record of a run: the spacing that it started from and the interventions so far.
-#[derive(Debug, Clone, Default)]
+/// Record of a run: what it started from, what may change of it, and the interventions so far.
+#[derive(Debug, Clone)]
 pub(crate) struct Account {
     /// Mean length of the segments at the start (length).
     pub(crate) spacing: f64,
+    /// Number of markers, area of the polygon (length squared) and number of particles at the start.
+    pub(crate) markers: usize,
+    pub(crate) area: f64,
+    pub(crate) number: f64,
+    /// Bounds on the relative changes of area and number, beyond which a step is an error.
+    pub(crate) bounds: [f64; 2],
     /// Interventions of all steps that were kept.
     pub(crate) kept: Interventions,
     /// Interventions of the last step, which may yet be rejected.
     last: Interventions,
 }
 
-/// A closed fluid interface that may carry particles which raise its tension.
+/// A fluid interface that may carry particles which raise its tension (Cowley section 2.1).
+///
+/// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
+/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (Cowley (2.5), (2.31); t_k along segment
+/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (Cowley (2.3)).
 #[derive(Debug, Clone)]
-pub(crate) struct ActiveInterface {
+pub struct ActiveInterface {
+    name: String,
     pub(crate) law: Law,
     pub(crate) state: State,
     pub(crate) derived: Derived,
     pub(crate) account: Account,
     scheme: Scheme,
+    crossing: CrossingFinder,
 }
 
 /// Implicit diffusion of particles over an interface of a given shape.
@@ -155,40 +172,6 @@ pub(crate) struct Diffusion<'a> {
 }
 
 impl ActiveInterface {
-    /// The interface through checked markers; `flux` is `None` for one without particles.
-    pub(crate) fn new(
-        markers: Vec<Vec2>,
-        numbers: Vec<f64>,
-        tension: Arc<dyn Tension>,
-        diffusion: f64,
-        flux: Option<Flux>,
-    ) -> Self {
-        let count = markers.len();
-        let scheme = Scheme {
-            transport: flux.map(|flux| Transport::new(count, flux)),
-            stabiliser: Vec::new(),
-            diffusivities: Vec::new(),
-            other: Shape::default(),
-            filter: ShortWaveFilter::default(),
-            band: None,
-            spectral: None,
-        };
-        let mut interface = Self {
-            law: Law { tension, diffusion, motion: Motion::default(), stabilised: true },
-            state: State { shape: Shape { markers, ..Shape::default() }, numbers },
-            derived: Derived { slip: vec![0.0; count], ..Derived::default() },
-            account: Account::default(),
-            scheme,
-        };
-        interface.update();
-        interface.account.spacing = interface.geometry().mean_length();
-        interface
-    }
-
-    pub(crate) fn markers(&self) -> &[Vec2] {
-        &self.state.shape.markers
-    }
-
     pub(crate) fn geometry(&self) -> &Geometry {
         &self.state.shape.geometry
     }
@@ -201,11 +184,6 @@ impl ActiveInterface {
     /// Number of particles on the interface.
     pub(crate) fn number(&self) -> f64 {
         self.state.numbers.iter().sum()
-    }
-
-    /// Carries the particles by another flux.
-    pub(crate) fn set_flux(&mut self, flux: Flux) {
-        self.scheme.transport = self.scheme.transport.take().map(|transport| Transport::new(transport.len(), flux));
     }
 
     /// Brings everything that follows from markers and particle numbers up to date.
@@ -248,7 +226,7 @@ impl ActiveInterface {
     ///
     /// # Errors
     /// Those of [`ActiveInterface::fit`].
-    pub(crate) fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
+    fn tension_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
         self.fit(view)?;
         let directions = &self.state.shape.geometry.directions;
         let pull = |k: usize| self.derived.tensions[k] * directions[k];
@@ -264,19 +242,8 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Length of the state: two coordinates a marker, and a particle number a segment where there are particles.
-    pub(crate) fn state_len(&self) -> usize {
-        2 * self.markers().len() + self.state.numbers.len()
-    }
-
-    pub(crate) fn write_state(&self, state: &mut [f64]) {
-        let (positions, numbers) = state.split_at_mut(2 * self.markers().len());
-        points::write(self.markers(), positions);
-        numbers.copy_from_slice(&self.state.numbers);
-    }
-
     /// Takes over the finite state of an interface of `count` markers.
-    pub(crate) fn read_state(&mut self, count: usize, state: &[f64]) {
+    fn take_state(&mut self, count: usize, state: &[f64]) {
         let (positions, numbers) = state.split_at(2 * count);
         self.resize(count);
         if !self.state.shape.is_at(positions) {
@@ -347,7 +314,7 @@ impl ActiveInterface {
     ///
     /// # Errors
     /// Those of [`ActiveInterface::fit`].
-    pub(crate) fn begin_step(&mut self, view: &FluidView, viscosity: f64, stabilised: bool) -> Result<(), InputError> {
+    fn prepare_step(&mut self, view: &FluidView, viscosity: f64, stabilised: bool) -> Result<(), InputError> {
         if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
             self.derived.relaxation = relaxation * self.spacing_rate(viscosity);
         }
@@ -390,7 +357,7 @@ impl ActiveInterface {
 
     /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time): filters the markers,
     /// where there is a grid that does not see their short waves, or inserts and removes some.
-    pub(crate) fn move_markers(&mut self, view: &FluidView, viscosity: f64, dt: f64) {
+    fn move_markers(&mut self, view: &FluidView, viscosity: f64, dt: f64) {
         let State { shape: Shape { markers, geometry, .. }, numbers } = &mut self.state;
         match (self.law.motion, grid_spacing(view)) {
             (Motion::Equidistributed { filter: true, .. }, Some(spacing)) => {
@@ -413,7 +380,7 @@ impl ActiveInterface {
     }
 
     /// Moves all markers outwards along their normals by `distance` (length).
-    pub(crate) fn inflate(&mut self, distance: f64) {
+    fn inflate(&mut self, distance: f64) {
         let Shape { markers, geometry, .. } = &mut self.state.shape;
         for (marker, tau) in markers.iter_mut().zip(&geometry.tangents) {
             *marker += distance * geometry::outward(*tau);
@@ -425,7 +392,7 @@ impl ActiveInterface {
     ///
     /// # Errors
     /// Numbers that are not finite or whose sum is negative.
-    pub(crate) fn repair(&mut self) -> Result<(), crate::InterfaceError> {
+    fn repair_numbers(&mut self) -> Result<(), crate::InterfaceError> {
         if let Some(transport) = &mut self.scheme.transport {
             self.account.last.repair = transport.repair(&mut self.state.numbers)?;
             if self.account.last.repair.segments > 0 {
@@ -433,14 +400,6 @@ impl ActiveInterface {
             }
         }
         Ok(())
-    }
-
-    /// Counts the interventions of a step that is kept.
-    pub(crate) fn keep_step(&mut self) {
-        let Interventions { repair, inserted, removed } = std::mem::take(&mut self.account.last);
-        self.account.kept.inserted += inserted;
-        self.account.kept.removed += removed;
-        self.account.kept.repair.accumulate(repair);
     }
 }
 

@@ -88,6 +88,6 @@ pub use curve::{
 pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;
 pub use exchange::Exchange;
-pub use interface::Motion;
+pub use interface::{ActiveInterface, Motion};
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::{Quantity, Units};

@@ -33,8 +33,11 @@ pub(super) fn finest_response(view: &FluidView) -> f64 {
 }
 
 impl ActiveInterface {
-    /// Cell Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension), 0 without particles.
-    pub(crate) fn cell_peclet(&self) -> f64 {
+    /// Cell Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the velocity of the
+    /// fluid along the interface relative to the markers, ds the length of the segments. 0 without particles, infinite
+    /// for particles that do not diffuse. Above 0.35 the edge of the concentration is not resolved.
+    #[must_use]
+    pub fn cell_peclet(&self) -> f64 {
         if self.carries() { cell_peclet(&self.derived.slip, &self.geometry().lengths, self.law.diffusion) } else { 0.0 }
     }
 
@@ -52,7 +55,7 @@ impl ActiveInterface {
     }
 
     /// Largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to 2/a.
-    pub(crate) fn step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
+    pub(super) fn add_step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
         let stiffness = view.interface_stiffness * self.largest_tension();
         limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
         if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
@@ -84,8 +87,8 @@ impl ActiveInterface {
         }
     }
 
-    /// Warnings of the present state, as cause, excess and message.
-    pub(crate) fn warnings(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
+    /// Doubts about the present state, as cause, excess and message.
+    pub(super) fn doubts(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
         let law = self.law.tension.warning().map(|message| ("tension without a plateau", f64::INFINITY, message));
         let peclet = self.cell_peclet();
         let edge = (peclet > PECLET_LIMIT).then(|| {

@@ -1,0 +1,245 @@
+//! The interface as a body of a scene.
+
+use std::f64::consts::PI;
+
+use motile_base::{Vec2, at_least};
+use motile_scene::{
+    Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Warning, checkpoint::SavedState, points,
+};
+
+use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion};
+use crate::{InterfaceError, concentration::Repair, curve::polygon::raw_area};
+
+/// Multiples of the mean concentration at which the tension is compared to tell one law from another.
+const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
+/// Part of all particles in one segment above which they have collapsed: more than the eighth that each segment of the
+/// coarsest interface has when all are equal.
+const COLLAPSED: f64 = 0.15;
+
+impl From<InterfaceError> for BodyError {
+    fn from(error: InterfaceError) -> Self {
+        Self::Other(Box::new(error))
+    }
+}
+
+impl Body for ActiveInterface {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        let viscosity_inside = self.law.viscosity_inside;
+        match self.law.motion {
+            Motion::Equidistributed { .. } => MarkerKind::Interface { viscosity_inside },
+            Motion::WithFluid => MarkerKind::UnevenInterface { viscosity_inside },
+        }
+    }
+
+    fn marker_count(&self) -> usize {
+        self.markers().len()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(self.markers());
+    }
+
+    fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        Ok(self.tension_forces(view, forces)?)
+    }
+
+    /// Two coordinates a marker, and a particle number a segment where there are particles.
+    fn state_len(&self) -> usize {
+        2 * self.markers().len() + self.state.numbers.len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        let (positions, numbers) = state.split_at_mut(2 * self.markers().len());
+        points::write(self.markers(), positions);
+        numbers.copy_from_slice(&self.state.numbers);
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        // The count differs from the present one only where a step with insertion is rejected.
+        let count = state.len() / self.per_marker();
+        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+            let what = if index < 2 * count { "marker coordinate" } else { "particle number" };
+            return Err(BodyError::NonFinite { what, index, value: state[index] });
+        }
+        self.take_state(count, state);
+        Ok(())
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        self.write_rate(velocities, rate);
+    }
+
+    /// There is none where markers are inserted and removed, which is done in their order.
+    fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
+        let (positions, numbers) = state.split_at(2 * markers.len());
+        let (positions_of_image, numbers_of_image) = image.split_at_mut(positions.len());
+        points::mirror(markers, positions, positions_of_image);
+        // Segment k goes from marker k to the next, its image the other way around.
+        for (number, first) in numbers.iter().zip(markers.iter().cycle().skip(1)) {
+            numbers_of_image[*first] = *number;
+        }
+        matches!(self.law.motion, Motion::Equidistributed { .. })
+    }
+
+    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
+        Ok(self.prepare_step(view, self.mean_viscosity(view), step.stabilised)?)
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        let (positions, numbers) = state.split_at(2 * self.marker_count());
+        let out = &mut out[positions.len()..];
+        if let Some(diffusion) = self.diffusion_at(positions) {
+            diffusion.transport.add_diffusion(diffusion.lengths, diffusion.diffusivities, numbers, factor, out);
+        }
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        let (positions, numbers) = state.split_at_mut(2 * self.marker_count());
+        if let Some(diffusion) = self.diffusion_at(positions) {
+            diffusion.transport.solve_diffusion(diffusion.lengths, diffusion.diffusivities, factor, numbers);
+        }
+    }
+
+    fn end_step(&mut self, view: &FluidView, dt: f64) -> Result<(), BodyError> {
+        self.finish_step(view, dt, 0.0)
+    }
+
+    fn keep_step(&mut self) {
+        let Interventions { repair, inserted, removed } = std::mem::take(&mut self.account.last);
+        self.account.kept.inserted += inserted;
+        self.account.kept.removed += removed;
+        self.account.kept.repair.accumulate(repair);
+    }
+
+    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
+        self.add_step_limits(view, self.mean_viscosity(view), limits);
+    }
+
+    /// The radius of a circle of the same area for positions; for particle numbers their mean.
+    fn write_scales(&self, scales: &mut [f64]) {
+        let (positions, numbers) = scales.split_at_mut(2 * self.marker_count());
+        positions.fill((self.account.area / PI).sqrt());
+        let mean = self.number() / numbers.len().max(1) as f64;
+        numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    /// Viscosity, tension law and diffusion, and the number of markers at the start.
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = Vec::new();
+        let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
+        if let Some(viscosity) = self.law.viscosity_inside {
+            push("the viscosity inside", viscosity);
+        }
+        if self.carries() {
+            push("the diffusion constant", self.diffusion());
+        }
+        push("the number of markers at the start", self.account.markers as f64);
+        let mean = self.account.number / (2.0 * (PI * self.account.area).sqrt());
+        for sample in LAW_SAMPLES {
+            let name = format!("the tension at {sample} times the mean concentration at the start");
+            push(&name, self.law.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
+        }
+        properties
+    }
+
+    fn warnings(&self, view: &FluidView) -> Vec<Warning> {
+        self.doubts(view).map(|doubt| self.warning(doubt)).collect()
+    }
+
+    fn save(&self) -> SavedState {
+        let Interventions { repair, inserted, removed } = self.account.kept;
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        reals.extend_from_slice(&self.derived.slip);
+        let account = &self.account;
+        reals.extend([account.spacing, account.area, account.number, repair.moved, self.derived.relaxation]);
+        let counts = [self.marker_count(), repair.segments, repair.furthest, inserted, removed];
+        SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
+    }
+
+    fn load(&mut self, view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
+        let [count, segments, furthest, inserted, removed] = saved.counts_of()?;
+        let per_marker = self.per_marker() + 1;
+        let count = usize::try_from(count).unwrap_or(usize::MAX).min(saved.reals.len());
+        at_least("markers of a saved interface", count, MINIMUM_MARKERS)?;
+        let (state, rest) = saved.reals_of(per_marker * count + 5)?.split_at((per_marker - 1) * count);
+        let (slip, numbers) = rest.split_at(count);
+        self.read_state(state)?;
+        self.fit(view)?;
+        self.derived.slip.copy_from_slice(slip);
+        self.derived.relaxation = numbers[4];
+        let account = &mut self.account;
+        (account.spacing, account.area, account.number) = (numbers[0], numbers[1], numbers[2]);
+        let repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
+        account.kept = Interventions { repair, inserted: inserted as usize, removed: removed as usize };
+        Ok(())
+    }
+}
+
+impl ActiveInterface {
+    /// Entries of the state for a marker.
+    pub(crate) fn per_marker(&self) -> usize {
+        if self.carries() { 3 } else { 2 }
+    }
+
+    /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
+    fn mean_viscosity(&self, view: &FluidView) -> f64 {
+        self.law.viscosity_inside.map_or(view.viscosity, |inside| 0.5 * (inside + view.viscosity))
+    }
+
+    /// A doubt, as cause, excess and message, as a warning of this body.
+    pub(crate) fn warning(&self, (cause, excess, message): (&'static str, f64, String)) -> Warning {
+        Warning { body: self.name.clone(), cause: cause.into(), excess, message }
+    }
+
+    /// Ends a step of length `dt` (time): markers, area, particle numbers, checks. `elsewhere` particles belong to the
+    /// interface that are not on it.
+    pub(crate) fn finish_step(&mut self, view: &FluidView, dt: f64, elsewhere: f64) -> Result<(), BodyError> {
+        self.move_markers(view, self.mean_viscosity(view), dt);
+        if self.law.keeps_area {
+            self.restore_area();
+        }
+        self.repair_numbers()?;
+        if let Some((first, second)) = self.crossing.first_crossing(&self.state.shape.markers)? {
+            let place = self.markers()[first];
+            return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
+        }
+        self.check_bounds(elsewhere)
+    }
+
+    /// Checks that area and particles are conserved, and that no tension law without a plateau has gathered the
+    /// particles in a point.
+    fn check_bounds(&self, elsewhere: f64) -> Result<(), BodyError> {
+        let total = self.number() + elsewhere;
+        let changes = [
+            ("the area", raw_area(self.markers()) / self.account.area - 1.0),
+            ("the number of particles", if total > 0.0 { total / self.account.number - 1.0 } else { 0.0 }),
+        ];
+        for ((what, change), bound) in changes.into_iter().zip(self.account.bounds) {
+            if change.is_nan() || change.abs() > bound {
+                return Err(BodyError::NotConserved { what, change, bound });
+            }
+        }
+        if total > 0.0 && self.law.tension.warning().is_some() {
+            let most = self.particle_numbers().iter().fold(0.0_f64, |a, &b| a.max(b));
+            if most > COLLAPSED * total {
+                return Err(InterfaceError::Collapse { part: most / total }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second
+    /// time for the quadratic part).
+    fn restore_area(&mut self) {
+        for _ in 0..2 {
+            let missing = self.account.area - raw_area(self.markers());
+            let total: f64 = self.geometry().weights.iter().sum();
+            self.inflate(missing / total);
+        }
+    }
+}

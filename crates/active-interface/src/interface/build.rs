@@ -1,0 +1,216 @@
+//! Making of an interface, and what can be read of it.
+
+use std::sync::Arc;
+
+use motile_base::{InputError, Vec2, all_finite, not_negative, positive, same_length};
+
+use super::{Account, ActiveInterface, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, State};
+use crate::{
+    Flux, InterfaceError, Tension,
+    concentration::{Repair, Transport},
+    curve::{CrossingFinder, polygon::raw_area},
+};
+
+impl Account {
+    /// Bounds unless a user gives others. An area that is 5 per cent off makes speeds wrong by per cents. Transport
+    /// keeps the number of particles to round-off, some 1e-16 a step.
+    const BOUNDS: [f64; 2] = [0.05, 1e-8];
+}
+
+impl ActiveInterface {
+    /// The interface through checked markers; without particles where there is no diffusion constant of theirs.
+    ///
+    /// # Errors
+    /// Lists of different length, negative or non-finite numbers, a negative diffusion constant.
+    pub(crate) fn build(
+        markers: Vec<Vec2>,
+        numbers: Vec<f64>,
+        tension: Arc<dyn Tension>,
+        diffusion: Option<f64>,
+    ) -> Result<Self, InterfaceError> {
+        let count = markers.len();
+        if let Some(diffusion) = diffusion {
+            same_length("particle numbers", count, numbers.len())?;
+            all_finite("the particle numbers", &numbers)?;
+            for &number in &numbers {
+                not_negative("a particle number", number)?;
+            }
+            not_negative("the diffusion constant", diffusion)?;
+        }
+        let scheme = Scheme {
+            transport: diffusion.map(|_| Transport::new(count, Flux::Weno5)),
+            stabiliser: Vec::new(),
+            diffusivities: Vec::new(),
+            other: Shape::default(),
+            filter: ShortWaveFilter::default(),
+            band: None,
+            spectral: None,
+        };
+        let law = Law {
+            tension,
+            diffusion: diffusion.unwrap_or(0.0),
+            motion: Motion::default(),
+            stabilised: true,
+            viscosity_inside: None,
+            keeps_area: false,
+        };
+        let account = Account {
+            spacing: 0.0,
+            markers: count,
+            area: raw_area(&markers),
+            number: numbers.iter().sum(),
+            bounds: Account::BOUNDS,
+            kept: Default::default(),
+            last: Default::default(),
+        };
+        let mut interface = Self {
+            name: "droplet".to_owned(),
+            law,
+            state: State { shape: Shape { markers, ..Shape::default() }, numbers },
+            derived: Derived { slip: vec![0.0; count], ..Derived::default() },
+            account,
+            scheme,
+            crossing: CrossingFinder::default(),
+        };
+        interface.update();
+        interface.account.spacing = interface.geometry().mean_length();
+        Ok(interface)
+    }
+
+    /// Gives the interface a name for messages.
+    #[must_use]
+    pub fn with_name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// Moves the markers in another way than [`Motion::default`].
+    #[must_use]
+    pub fn with_motion(mut self, motion: Motion) -> Self {
+        self.law.motion = motion;
+        self
+    }
+
+    /// Carries the particles by another flux than [`Flux::Weno5`].
+    #[must_use]
+    pub fn with_flux(mut self, flux: Flux) -> Self {
+        self.scheme.transport = self.scheme.transport.take().map(|transport| Transport::new(transport.len(), flux));
+        self
+    }
+
+    /// Restores the initial area after each step, by an equal normal displacement of all markers (off by default: the
+    /// motion keeps the area but for the error of the time step).
+    #[must_use]
+    pub fn with_area_constraint(mut self, on: bool) -> Self {
+        self.law.keeps_area = on;
+        self
+    }
+
+    /// Bounds the relative changes of the area and of the number of particles since the start, beyond which a step is
+    /// an error (5e-2 and 1e-8 by default; infinity for none).
+    ///
+    /// # Errors
+    /// A bound that is negative or not a number.
+    pub fn with_bounds(mut self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
+        for (name, value) in [("the bound on the area", area), ("the bound on the particles", particles)] {
+            if value.is_nan() || value < 0.0 {
+                return Err(InputError::Negative { name, value }.into());
+            }
+        }
+        self.account.bounds = [area, particles];
+        Ok(self)
+    }
+
+    /// Switches the stabiliser (on by default), which makes the fast relaxation of crowded particles implicit: a
+    /// diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and subtracted explicitly.
+    #[must_use]
+    pub fn with_stabiliser(mut self, on: bool) -> Self {
+        self.law.stabilised = on;
+        self
+    }
+
+    /// Gives the fluid inside another viscosity (stress times time) than that outside.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite.
+    pub fn with_viscosity_inside(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
+        self.law.viscosity_inside = Some(positive("the viscosity inside", viscosity)?);
+        Ok(self)
+    }
+
+    /// Switches off the check that the particles on the interface are conserved: for exchange with another body, such
+    /// as one that fills the droplet, which keeps the sum.
+    #[must_use]
+    pub fn with_open_number(mut self) -> Self {
+        self.account.bounds[1] = f64::INFINITY;
+        self
+    }
+
+    /// Marker positions (length), counter-clockwise, not wrapped into a periodic box.
+    #[must_use]
+    pub fn markers(&self) -> &[Vec2] {
+        &self.state.shape.markers
+    }
+
+    /// Velocities of the markers (length per time) as of the last [`motile_scene::Body::rate`]: along the normal those
+    /// of the fluid.
+    #[must_use]
+    pub fn marker_motion(&self) -> &[Vec2] {
+        &self.derived.motions
+    }
+
+    /// Particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive interface.
+    #[must_use]
+    pub fn particle_numbers(&self) -> &[f64] {
+        &self.state.numbers
+    }
+
+    /// Concentrations on the segments (particles per length).
+    #[must_use]
+    pub fn concentrations(&self) -> &[f64] {
+        &self.derived.concentrations
+    }
+
+    /// Tensions of the segments (force).
+    #[must_use]
+    pub fn tensions(&self) -> &[f64] {
+        &self.derived.tensions
+    }
+
+    /// Lengths of the segments (length).
+    #[must_use]
+    pub fn segment_lengths(&self) -> &[f64] {
+        &self.state.shape.geometry.lengths
+    }
+
+    /// Area of the polygon at the start (length squared).
+    #[must_use]
+    pub fn initial_area(&self) -> f64 {
+        self.account.area
+    }
+
+    /// Diffusion constant of the particles (length squared per time).
+    #[must_use]
+    pub fn diffusion(&self) -> f64 {
+        self.law.diffusion
+    }
+
+    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the exterior fluid.
+    #[must_use]
+    pub fn viscosity_inside(&self) -> Option<f64> {
+        self.law.viscosity_inside
+    }
+
+    /// Repairs of negative particle numbers since the start.
+    #[must_use]
+    pub fn repair(&self) -> Repair {
+        self.account.kept.repair
+    }
+
+    /// Numbers of markers inserted and removed since the start ([`Motion::WithFluid`]).
+    #[must_use]
+    pub fn redistributed(&self) -> (usize, usize) {
+        let kept = self.account.kept;
+        (kept.inserted, kept.removed)
+    }
+}
