@@ -100,6 +100,24 @@ pub enum LayerError {
     /// Rigid walls with a singular matrix, so that the forces on them are not determined.
     #[error("the forces on the rigid walls are not determined: use more nodes, or leave more fluid between the walls")]
     SingularWalls,
+    /// A curve that is not the meridian of a surface of revolution with its mirror image.
+    #[error(
+        "point {point} of curve {curve} at ({x}, {y}) is not on the meridian of a surface of revolution: give an even \
+         number of points, the first on the x axis, each the mirror image of its partner, the meridian off the axis"
+    )]
+    NotOfRevolution {
+        /// Number of the curve.
+        curve: usize,
+        /// Number of the point.
+        point: usize,
+        /// Its x coordinate (length).
+        x: f64,
+        /// Its y coordinate (length).
+        y: f64,
+    },
+    /// Surfaces with singular equations.
+    #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
+    SingularSurfaces,
     /// An interface beyond a rigid wall or inside an obstacle.
     #[error(
         "interface {curve} is beyond rigid wall {wall} at ({x}, {y}): move it away, use a smaller time step or more \

@@ -23,7 +23,7 @@ use motile_base::{Drive, FlowSample, Region};
 use rigid::RigidWalls;
 
 /// Largest ratio of viscosities: with round-off of 1e-16 velocities are then right to 1e-8.
-const MOST_CONTRAST: f64 = 1e8;
+pub(crate) const MOST_CONTRAST: f64 = 1e8;
 
 /// Effort and result of a solution for the velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

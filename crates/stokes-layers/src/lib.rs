@@ -57,10 +57,13 @@
 //! * At points and nodes close to a curve the quadrature uses the preimage of the point under the complex
 //!   parametrisation.
 //!
+//! Three dimensions, for surfaces of revolution and a tube around them, are in [`axisymmetric`].
+//!
 //! [`SingleLayer`] is the single layer as an operator, for forces that follow from the velocities. The cost of a
 //! solution grows with the square of the number of nodes of a curve and of its close neighbours; each pair of curves
 //! farther apart costs some microseconds. The method suits some tens of curves.
 
+pub mod axisymmetric;
 mod calculus;
 mod close_weights;
 mod curve;

@@ -1,0 +1,538 @@
+//! Stokes flow of surfaces of revolution about the x axis: interfaces, rigid bodies, and a container around them.
+
+mod calculus;
+mod container;
+mod meridian;
+mod panels;
+mod ring;
+
+use std::f64::consts::PI;
+
+use motile_base::{FlowSample, Vec2, positive, same_length, within};
+use nalgebra::{DMatrix, DVector};
+
+use crate::{Inside, Interface, LayerError, Settings, Solution, error::finite_vectors, interface_flow::MOST_CONTRAST};
+pub use calculus::MeridianCalculus;
+use container::Walls;
+pub use container::tube;
+use meridian::{Grid, Half, Meridian, Pair};
+use panels::{Panels, Spot};
+
+/// Distance over the size of a surface within which a point is taken for one on its outside.
+const CLOSEST: f64 = 1e-9;
+/// Distance over the size by which points may differ from the mirror image of one another.
+const ASYMMETRY: f64 = 1e-6;
+/// Most nodes of a closed curve: the matrix for a viscosity contrast then takes 36 MB.
+const MOST_NODES: f64 = 2048.0;
+
+/// Viscosities or rigidity of a surface, as they enter the equation times 8 pi.
+#[derive(Debug, Clone, Copy)]
+struct Sides {
+    /// Viscosity inside (stress times time); `None` for a rigid body.
+    inside: Option<f64>,
+    outside: f64,
+}
+
+impl Sides {
+    /// Factor of the unknown at its own surface.
+    fn mean(&self) -> f64 {
+        self.inside.map_or(0.5, |inside| 0.5 * (inside + self.outside))
+    }
+
+    /// Factor of the double layer of the unknown.
+    fn contrast(&self) -> f64 {
+        self.inside.map_or(-1.0, |inside| self.outside - inside)
+    }
+}
+
+/// Stokes flow in three dimensions of surfaces of revolution about the x axis, without swirl: velocities on interfaces
+/// and rigid bodies from the forces on them.
+///
+/// A surface is given as in the plane, [`Interface`]: by the closed curve of its meridian and the mirror image of that,
+/// an even number n of points, counter-clockwise, point 0 where x is largest on the axis, point n - k the mirror image
+/// of point k. The force at a point is that on half of its ring (on all of it at the poles): its component along x,
+/// summed over all points, is the force on the surface. Velocities are mirror images too.
+///
+/// With the meridian X(t), t from 0 to pi, the force g per t and azimuth, the velocity on an interface solves
+///
+/// ```text
+/// (eta_in + eta_out)/2 u - (eta_out - eta_in)/(8 pi) INT T(u) n r |X_t| dt = 1/(8 pi) INT G g dt
+/// ```
+///
+/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992, section 2.4) with Stokeslet and stress integrated over
+/// the azimuth: complete elliptic integrals. A rigid body is the limit of eta_in to infinity
+/// ([`InterfaceFlow`](crate::InterfaceFlow)). Shapes, forces and velocities are series of sines and cosines in t with
+/// `nodes/2` waves. A target on a surface or close to it is integrated over panels that double away from it, one far
+/// away by weights that are exact for sines; errors fall faster than any power of the number of nodes at any distance
+/// from the axis and between surfaces. The equation, of `nodes` unknowns a surface, is solved by elimination.
+///
+/// ```
+/// use motile_base::Vec2;
+/// use stokes_layers::{Interface, LayerError, Settings, axisymmetric::AxisymmetricFlow};
+///
+/// // A rigid sphere pulled by a force of 6 pi along the axis through fluid of viscosity 1 moves at a speed of 1.
+/// let count = 64;
+/// let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+/// let sphere: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(angle(k))).collect();
+/// // The force on a ring goes with its circumference.
+/// let share: f64 = (0..count).map(|k| angle(k).sin().abs()).sum();
+/// let pull = |k: usize| Vec2::new(6.0 * std::f64::consts::PI * angle(k).sin().abs() / share, 0.0);
+/// let forces: Vec<Vec2> = (0..count).map(pull).collect();
+///
+/// let mut flow = AxisymmetricFlow::new(1.0, Settings::default())?;
+/// flow.load([Interface::rigid(&sphere, &forces, 1.0)].into_iter())?;
+/// flow.solve()?;
+/// println!("speed {:.4}", flow.rigid_velocity(0).unwrap_or(f64::NAN));
+/// assert!((flow.rigid_velocity(0).unwrap() - 1.0).abs() < 1e-3); // as good as the sum over the points
+/// # Ok::<(), LayerError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct AxisymmetricFlow {
+    viscosity: f64,
+    settings: Settings,
+    grid: Grid,
+    panels: Panels,
+    halves: Vec<Half>,
+    surfaces: Vec<Meridian>,
+    sides: Vec<Sides>,
+    walls: Option<Box<Walls>>,
+    /// Unknown of each surface, cosines of x and sines of r: its velocity (length per time), or of a rigid body the
+    /// density of its double layer (length per time times viscosity).
+    solution: Vec<Pair>,
+    /// 8 pi times viscosity times velocity of the single layers at the nodes, x then r, surface after surface.
+    right: DVector<f64>,
+    matrix: DMatrix<f64>,
+    rows: [Vec<f64>; 2],
+}
+
+impl AxisymmetricFlow {
+    /// The flow in unbounded fluid of this viscosity (stress times time), without surfaces. `settings.nodes` are those
+    /// of the closed curve, an even number; of the others only these count here, since nothing is truncated.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, settings out of their range, more than 2048 nodes.
+    pub fn new(viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        positive("the viscosity", viscosity)?;
+        settings.check()?;
+        within("the number of nodes of a surface of revolution", settings.nodes as f64, 16.0, MOST_NODES)?;
+        let nodes = settings.nodes / 2;
+        Ok(Self {
+            viscosity,
+            settings,
+            grid: Grid::new(nodes),
+            panels: Panels::new(nodes),
+            halves: Vec::new(),
+            surfaces: Vec::new(),
+            sides: Vec::new(),
+            walls: None,
+            solution: Vec::new(),
+            right: DVector::zeros(0),
+            matrix: DMatrix::zeros(0, 0),
+            rows: [vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]],
+        })
+    }
+
+    /// Adds a rigid container at rest around all surfaces, given as they are ([`tube`] gives a closed tube), with
+    /// `nodes` nodes of its closed curve, in place of one that there was. The forces f on it cancel the velocity on it,
+    ///
+    /// ```text
+    /// INT G f dt  +  layers of the surfaces  =  0    on the wall;
+    /// ```
+    ///
+    /// the matrix of this equation is factorised here, once. The flux through any section is zero, and a few radii away
+    /// from its ends a closed tube is an infinite one without flux: flows decay like exp(-4.47 x/radius).
+    ///
+    /// # Errors
+    /// Points that are no meridian with its mirror image; fewer than 16 nodes, more than 2048 or than points.
+    pub fn with_container(mut self, points: &[Vec2], nodes: usize) -> Result<Self, LayerError> {
+        within("the number of nodes of a container", nodes as f64, 16.0, MOST_NODES)?;
+        let grid = Grid::new(nodes / 2);
+        let mut meridian = Meridian::new(&grid);
+        self.panels.reserve(grid.largest());
+        load(&mut self.halves, &grid, &mut meridian, points, &[], 0)?;
+        self.walls = Some(Box::new(Walls::new(grid, meridian, &mut self.panels)?));
+        Ok(self)
+    }
+
+    /// Viscosity of the exterior fluid (stress times time).
+    #[must_use]
+    pub fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    /// Resolution.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Number of surfaces.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.surfaces.len()
+    }
+
+    /// True without surfaces.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.surfaces.is_empty()
+    }
+
+    /// Volume inside a surface (length cubed) and its area (length squared); `None` if there is no such surface.
+    #[must_use]
+    pub fn measures(&self, surface: usize) -> Option<[f64; 2]> {
+        self.surfaces.get(surface).map(|meridian| meridian.measures(&self.grid))
+    }
+
+    /// Takes over surfaces, truncated to the waves that the nodes carry.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one;
+    /// positions or forces that are not finite, an odd number of points or too few, points that are not the mirror
+    /// image of one another or cross the axis, a clockwise curve, a node beyond the container.
+    pub fn load<'a>(&mut self, surfaces: impl Iterator<Item = Interface<'a>>) -> Result<(), LayerError> {
+        let mut count = 0;
+        self.sides.clear();
+        for Interface { positions, forces, inside, viscosity_outside: outside, .. } in surfaces {
+            let inside = if let Inside::Fluid { viscosity } = inside { Some(viscosity) } else { None };
+            for (what, viscosity) in [
+                ("the viscosity inside an interface", inside.unwrap_or(outside)),
+                ("the viscosity outside an interface", outside),
+            ] {
+                let ratio = positive(what, viscosity)? / self.viscosity;
+                within("the ratio of viscosities to the exterior one", ratio, 1.0 / MOST_CONTRAST, MOST_CONTRAST)?;
+            }
+            if self.surfaces.len() == count {
+                self.surfaces.push(Meridian::new(&self.grid));
+                self.solution.push(Pair::new(self.grid.largest() + 1));
+            }
+            load(&mut self.halves, &self.grid, &mut self.surfaces[count], positions, forces, count)?;
+            self.sides.push(Sides { inside, outside });
+            if let Some(walls) = &self.walls
+                && let Some(node) = self.surfaces[count].nodes.iter().find(|node| !walls.meridian.holds(node.place))
+            {
+                return Err(LayerError::CrossesWall { curve: count, x: node.place.x, y: node.place.y, wall: 0 });
+            }
+            count += 1;
+        }
+        self.surfaces.truncate(count);
+        self.solution.truncate(count);
+        Ok(())
+    }
+
+    /// True where the equation needs a matrix.
+    fn has_contrast(&self) -> bool {
+        self.sides.iter().any(|sides| sides.contrast() != 0.0)
+    }
+
+    /// Solves for the velocities on the surfaces.
+    ///
+    /// # Errors
+    /// Equations that are singular to round-off, as where surfaces touch.
+    pub fn solve(&mut self) -> Result<Solution, LayerError> {
+        let n = 2 * self.grid.nodes;
+        let count = n * self.len();
+        if self.right.len() != count {
+            self.right = DVector::zeros(count);
+        }
+        self.right.fill(0.0);
+        let with_matrix = self.has_contrast();
+        let size = if with_matrix { count } else { 0 };
+        if self.matrix.nrows() != size {
+            self.matrix = DMatrix::zeros(size, size);
+        }
+        self.matrix.fill(0.0);
+        for target in 0..self.len() {
+            for j in 0..self.grid.nodes {
+                for source in 0..self.len() {
+                    self.add_pair(target, j, source);
+                }
+            }
+        }
+        self.add_walls();
+        if with_matrix {
+            for surface in 0..self.len() {
+                self.grid.add_values(8.0 * PI * self.sides[surface].mean(), &mut self.matrix, n * surface);
+                self.complete(surface);
+            }
+            let mut unknown = self.right.clone();
+            let factors = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0)).lu();
+            if !factors.solve_mut(&mut unknown) || unknown.iter().any(|value| !value.is_finite()) {
+                return Err(LayerError::SingularSurfaces);
+            }
+            for (solution, values) in self.solution.iter_mut().zip(unknown.as_slice().chunks_exact(n)) {
+                let (x, r) = values.split_at(n / 2);
+                solution.cos[..n / 2].copy_from_slice(x);
+                solution.sin[1..=n / 2].copy_from_slice(r);
+            }
+        } else {
+            for ((solution, values), sides) in
+                self.solution.iter_mut().zip(self.right.as_mut_slice().chunks_exact_mut(n)).zip(&self.sides)
+            {
+                values.iter_mut().for_each(|value| *value /= 8.0 * PI * sides.mean());
+                let (x, r) = values.split_at(n / 2);
+                self.grid.analyse(x, r, solution);
+            }
+        }
+        self.settle_walls();
+        Ok(Solution::default())
+    }
+
+    /// Adds the layers of one surface at a node of another to the right-hand side and the matrix.
+    fn add_pair(&mut self, target: usize, j: usize, source: usize) {
+        let Self { grid, panels, surfaces, sides, right, matrix, rows, .. } = self;
+        let (n, contrast) = (grid.nodes, sides[source].contrast());
+        let place = surfaces[target].nodes[j].place;
+        let spot = if target == source {
+            Spot { place, foot: grid.parameters[j], offset: Vec2::ZERO, gap: 0.0 }
+        } else {
+            surfaces[source].spot(grid, place, panels)
+        };
+        let meridian = &surfaces[source];
+        rows.iter_mut().for_each(|row| row.fill(0.0));
+        let mut sum = Vec2::ZERO;
+        panels.each((grid, meridian), &spot, false, |source| {
+            let [[xx, xr], [rx, rr]] = source.ring.single();
+            let force = source.weight * meridian.force_at(&source);
+            sum += Vec2::new(xx * force.x + xr * force.y, rx * force.x + rr * force.y);
+            if contrast != 0.0 {
+                let factor = -contrast * source.weight * source.point.place.y;
+                let kernel = source.ring.double(source.point.normal());
+                for (row, [x, r]) in rows.iter_mut().zip(kernel) {
+                    add_waves(row, [factor * x, factor * r], &source.waves.cos[..n], &source.waves.sin[1..=n]);
+                }
+            }
+        });
+        let row = 2 * n * target + j;
+        right[row] += sum.x;
+        right[row + n] += sum.y;
+        if contrast != 0.0 {
+            for (row, values) in [row, row + n].into_iter().zip(rows.iter()) {
+                for (k, value) in values.iter().enumerate() {
+                    matrix[(row, 2 * n * source + k)] += value;
+                }
+            }
+        }
+    }
+
+    /// Adds to the equation of a surface the mean velocity of a rigid body, or the flux through an interface, which is
+    /// zero and makes the equation of an inside of little viscosity regular.
+    fn complete(&mut self, surface: usize) {
+        let Self { grid, surfaces, sides, matrix, .. } = self;
+        let n = grid.nodes;
+        let (meridian, start) = (&surfaces[surface], 2 * n * surface);
+        if sides[surface].inside.is_none() {
+            for k in 0..n {
+                let mean = 8.0 * PI * meridian.mean(grid, grid.waves.iter().map(|waves| waves.cos[k]));
+                for j in 0..n {
+                    matrix[(start + j, start + k)] += mean;
+                }
+            }
+            return;
+        }
+        let factor = 8.0 * PI * sides[surface].outside / meridian.measures(grid)[1] * 2.0 * PI;
+        for k in 0..n {
+            let mut flux = [0.0; 2];
+            for ((point, weight), waves) in meridian.nodes.iter().zip(&grid.weights).zip(&grid.waves) {
+                let normal = weight * point.place.y * point.normal();
+                flux[0] += normal.x * waves.cos[k];
+                flux[1] += normal.y * waves.sin[k + 1];
+            }
+            for (j, point) in meridian.nodes.iter().enumerate() {
+                let normal = factor * point.normal().normalize();
+                for (column, flux) in [k, n + k].into_iter().zip(flux) {
+                    matrix[(start + j, start + column)] += normal.x * flux;
+                    matrix[(start + n + j, start + column)] += normal.y * flux;
+                }
+            }
+        }
+    }
+
+    /// Velocity (length per time) of a rigid body in the last solution; `None` if there is no rigid body of that
+    /// number.
+    #[must_use]
+    pub fn rigid_velocity(&self, surface: usize) -> Option<f64> {
+        let sides = self.sides.get(surface).filter(|sides| sides.inside.is_none())?;
+        let cos = &self.solution.get(surface)?.cos;
+        let values = self.grid.waves.iter().map(|waves| meridian::dot(cos, &waves.cos));
+        Some(self.surfaces[surface].mean(&self.grid, values) / sides.outside)
+    }
+
+    /// Writes the velocities (length per time) of the last solution at the points of a surface.
+    ///
+    /// # Errors
+    /// No such surface, another number of points, velocities that are not finite.
+    pub fn velocities(&self, surface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
+        let expected = self.surfaces.get(surface).map_or(0, |meridian| meridian.points);
+        same_length("the velocities of a surface", expected, out.len())?;
+        if let Some(velocity) = self.rigid_velocity(surface) {
+            out.fill(Vec2::new(velocity, 0.0));
+        } else if let Some(half) = self.halves.iter().find(|half| 2 * half.intervals() == expected) {
+            let waves = self.grid.nodes.min(half.intervals()) + 1;
+            for k in 0..=half.intervals() {
+                let (x, r) = half.value(&self.solution[surface], waves, k);
+                out[k] = Vec2::new(x, r);
+                out[(expected - k) % expected] = Vec2::new(x, -r);
+            }
+            (out[0].y, out[expected / 2].y) = (0.0, 0.0);
+        }
+        finite_vectors("the velocity", surface, out)
+    }
+
+    /// Flow at points anywhere (length; y is the distance from the axis, of either sign), at any distance from the
+    /// surfaces, for the last solution: velocity, pressure, and the gradient in the meridian plane. The velocity
+    /// gradient across it is the negative sum of its diagonal. Points on a surface are taken for points outside of it.
+    ///
+    /// # Errors
+    /// Points that are not finite, slices of different length.
+    pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
+        same_length("out", points.len(), out.len())?;
+        finite_vectors("the position", 0, points)?;
+        for (point, out) in points.iter().zip(out) {
+            let side = if point.y < 0.0 { -1.0 } else { 1.0 };
+            *out = self.flow_at(Vec2::new(point.x, point.y.abs()));
+            out.velocity.y *= side;
+            (out.gradient[0][1], out.gradient[1][0]) = (side * out.gradient[0][1], side * out.gradient[1][0]);
+        }
+        Ok(())
+    }
+
+    /// Flow at a point of the upper half plane.
+    fn flow_at(&mut self, place: Vec2) -> FlowSample {
+        let Self { grid, panels, surfaces, sides, solution, walls, viscosity, .. } = self;
+        let mut fluid = (*viscosity, f64::INFINITY);
+        let mut sum = ([0.0; 2], 0.0, [[0.0; 2]; 2]);
+        let mut add = |factor: f64, (u, p, g): ([f64; 2], f64, [[f64; 2]; 2])| {
+            sum.0.iter_mut().zip(u).for_each(|(sum, u)| *sum += factor * u);
+            sum.1 += factor * p;
+            let gradient = sum.2.as_flattened_mut().iter_mut().zip(g.as_flattened());
+            gradient.for_each(|(sum, g)| *sum += factor * g);
+        };
+        for ((meridian, sides), solution) in surfaces.iter().zip(sides.iter()).zip(solution.iter()) {
+            let mut spot = meridian.spot(grid, place, panels);
+            let size = meridian.spacing * grid.nodes as f64;
+            if spot.gap < CLOSEST * size {
+                panels.waves.fill(spot.foot);
+                let point = meridian.at(&panels.waves);
+                let away = CLOSEST * size * point.normal().normalize();
+                let place = Vec2::new(point.place.x + away.x, (point.place.y + away.y).abs());
+                spot = Spot { place, offset: -away, gap: away.length(), ..spot };
+            }
+            // The innermost surface around a point has the least volume.
+            let volume = meridian.measures(grid)[0];
+            if volume < fluid.1 && meridian.holds_spot(&spot, panels) {
+                fluid = (sides.inside.unwrap_or(f64::INFINITY), volume);
+            }
+            let contrast = sides.contrast();
+            panels.each((grid, meridian), &spot, true, |source| {
+                add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
+                if contrast != 0.0 {
+                    let density = Vec2::new(
+                        meridian::dot(&solution.cos, &source.waves.cos),
+                        meridian::dot(&solution.sin, &source.waves.sin),
+                    );
+                    let factor = contrast * source.weight * source.point.place.y;
+                    add(factor, source.ring.double_flow(source.point.normal(), density));
+                }
+            });
+        }
+        if let Some(walls) = walls {
+            let Walls { grid, meridian, .. } = &**walls;
+            let spot = meridian.spot(grid, place, panels);
+            panels.each((grid, meridian), &spot, true, |source| {
+                add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
+            });
+        }
+        let (velocity, pressure, gradient) = sum;
+        let rate = 1.0 / (8.0 * PI * fluid.0);
+        let mut sample = FlowSample {
+            velocity: rate * Vec2::from(velocity),
+            pressure: pressure / (8.0 * PI),
+            gradient: gradient.map(|row| row.map(|value| rate * value)),
+        };
+        // Inside a rigid body.
+        if fluid.0 == f64::INFINITY {
+            let holds = |surface: &usize| (surfaces[*surface].measures(grid)[0] - fluid.1).abs() == 0.0;
+            let body = (0..surfaces.len()).find(holds).and_then(|surface| self.rigid_velocity(surface));
+            sample = FlowSample { velocity: Vec2::new(body.unwrap_or(0.0), 0.0), ..FlowSample::default() };
+        }
+        sample
+    }
+}
+
+/// Adds multiples of waves of cosines and sines to a row of a matrix.
+fn add_waves(row: &mut [f64], [x, r]: [f64; 2], cos: &[f64], sin: &[f64]) {
+    let (of_x, of_r) = row.split_at_mut(cos.len());
+    for ((of_x, of_r), (cos, sin)) in of_x.iter_mut().zip(of_r).zip(cos.iter().zip(sin)) {
+        *of_x += x * cos;
+        *of_r += r * sin;
+    }
+}
+
+/// Takes over a surface given by the points of its closed curve, without forces if the list is empty.
+fn load(
+    halves: &mut Vec<Half>,
+    grid: &Grid,
+    meridian: &mut Meridian,
+    positions: &[Vec2],
+    forces: &[Vec2],
+    curve: usize,
+) -> Result<(), LayerError> {
+    let count = positions.len();
+    if !forces.is_empty() {
+        same_length("the forces on a curve", count, forces.len())?;
+    }
+    let (least, most) = (2 * grid.nodes, crate::calculus::MOST_POINTS as usize);
+    if !(least..=most).contains(&count) {
+        return Err(LayerError::Count { kind: "curve", curve, what: "points", found: count, least, most });
+    }
+    finite_vectors("the position", curve, positions)?;
+    finite_vectors("the force", curve, forces)?;
+    let intervals = count / 2;
+    let mirrored = |k: usize| {
+        let image = positions[(count - k) % count];
+        Vec2::new(image.x, -image.y)
+    };
+    let size = positions[0].distance(positions[intervals]);
+    let differs = |k: &usize| positions[*k].distance(mirrored(*k)) > ASYMMETRY * size;
+    if !count.is_multiple_of(2) || (0..=intervals).any(|k| differs(&k)) {
+        let point = (0..=intervals).find(differs).unwrap_or(count - 1);
+        let Vec2 { x, y } = positions[point];
+        return Err(LayerError::NotOfRevolution { curve, point, x, y });
+    }
+    let found = halves.iter().position(|half| half.intervals() == intervals);
+    let half = found.unwrap_or_else(|| {
+        halves.push(Half::new(intervals));
+        halves.len() - 1
+    });
+    let half = &halves[half];
+    half.analyse(
+        grid.nodes,
+        |k| ((0.5 * (positions[k] + mirrored(k))).x, 0.5 * (positions[k].y + mirrored(k).y)),
+        &mut meridian.shape,
+    );
+    meridian.points = count;
+    meridian.update(grid);
+    if let Some(point) = meridian.nodes.iter().position(|node| node.place.y <= 0.0) {
+        let Vec2 { x, y } = meridian.nodes[point].place;
+        return Err(LayerError::NotOfRevolution { curve, point, x, y });
+    }
+    if meridian.measures(grid)[0] <= 0.0 {
+        return Err(LayerError::Clockwise { curve });
+    }
+    // Force on both halves of a ring, per parameter and azimuth.
+    let factor = count as f64 / (2.0 * PI * PI);
+    let force = |k: usize| match forces {
+        [] => Vec2::ZERO,
+        _ => {
+            let image = forces[(count - k) % count];
+            0.5 * factor * (forces[k] + Vec2::new(image.x, -image.y))
+        }
+    };
+    half.analyse(grid.nodes, |k| (force(k).y, force(k).x), &mut meridian.force);
+    meridian.update_forces(grid);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,234 @@
+//! Rigid containers: closed tubes around the surfaces.
+
+use std::f64::consts::PI;
+
+use motile_base::{Vec2, positive, within};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
+
+use super::{
+    AxisymmetricFlow, add_waves,
+    meridian::{Grid, Meridian},
+    panels::{Panels, Spot},
+};
+use crate::LayerError;
+
+/// A rigid container at rest, with the matrix of its forces factorised. The force of a uniform pressure moves nothing:
+/// with the product of this force and the normal added the matrix is regular, and forces found have no such part.
+#[derive(Debug, Clone)]
+pub(super) struct Walls {
+    pub(super) grid: Grid,
+    pub(super) meridian: Meridian,
+    factors: LU<f64, Dyn, Dyn>,
+    /// 8 pi times viscosity times velocity at the nodes of the surfaces, by the coefficients of the forces: sines of x,
+    /// cosines of r.
+    onto_surfaces: DMatrix<f64>,
+    /// Forces for the single layers of the surfaces, and for unit coefficients of the unknowns.
+    from_forces: DVector<f64>,
+    from_unknowns: DMatrix<f64>,
+}
+
+impl Walls {
+    pub(super) fn new(grid: Grid, meridian: Meridian, panels: &mut Panels) -> Result<Self, LayerError> {
+        let n = grid.nodes;
+        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+        for j in 0..n {
+            let place = meridian.nodes[j].place;
+            let spot = Spot { place, foot: grid.parameters[j], offset: Vec2::ZERO, gap: 0.0 };
+            add_rows(&mut matrix, j, n, (&grid, &meridian), &spot, panels);
+        }
+        let (mut x, mut r) = (vec![0.0; n], vec![0.0; n]);
+        for (j, point) in meridian.nodes.iter().enumerate() {
+            let normal = point.place.y * point.normal();
+            (x[j], r[j]) = (normal.x, normal.y);
+        }
+        // r n |X_t| has sines along x and cosines from the axis, the parity of a force.
+        let mut pressure = super::Pair::new(grid.largest() + 1);
+        grid.analyse(&r, &x, &mut pressure);
+        let null: Vec<f64> = pressure.sin[1..=n].iter().chain(&pressure.cos[..n]).copied().collect();
+        let square: f64 = null.iter().map(|value| value * value).sum();
+        let scale = matrix.amax() / square;
+        for (j, point) in meridian.nodes.iter().enumerate() {
+            let normal = scale * point.normal().normalize();
+            for (k, value) in null.iter().enumerate() {
+                matrix[(j, k)] += normal.x * value;
+                matrix[(n + j, k)] += normal.y * value;
+            }
+        }
+        let factors = LU::new(matrix);
+        if !factors.is_invertible() {
+            return Err(LayerError::SingularWalls);
+        }
+        let empty = DMatrix::zeros(0, 0);
+        let from_forces = DVector::zeros(2 * n);
+        Ok(Self { grid, meridian, factors, onto_surfaces: empty.clone(), from_forces, from_unknowns: empty })
+    }
+}
+
+/// Adds the single layer of a meridian at a spot to rows `row` and `row + n` of a matrix by coefficients of its forces.
+fn add_rows(
+    matrix: &mut DMatrix<f64>,
+    row: usize,
+    n: usize,
+    source: (&Grid, &Meridian),
+    spot: &Spot,
+    panels: &mut Panels,
+) {
+    let waves = source.0.nodes;
+    let mut rows = [vec![0.0; 2 * waves], vec![0.0; 2 * waves]];
+    panels.each(source, spot, false, |source| {
+        for (row, [x, r]) in rows.iter_mut().zip(source.ring.single()) {
+            let factors = [source.weight * x, source.weight * r];
+            add_waves(row, factors, &source.waves.sin[1..=waves], &source.waves.cos[..waves]);
+        }
+    });
+    for (row, values) in [row, row + n].into_iter().zip(&rows) {
+        for (k, value) in values.iter().enumerate() {
+            matrix[(row, k)] += value;
+        }
+    }
+}
+
+impl AxisymmetricFlow {
+    /// Eliminates the forces on the container from the equation of the surfaces.
+    pub(super) fn add_walls(&mut self) {
+        let with_matrix = self.has_contrast();
+        let Self { grid, panels, surfaces, sides, walls, right, matrix, .. } = self;
+        let Some(walls) = walls else { return };
+        let (n, wall_nodes, count) = (grid.nodes, walls.grid.nodes, surfaces.len());
+        let mut onto = DMatrix::zeros(2 * n * count, 2 * wall_nodes);
+        for (surface, meridian) in surfaces.iter().enumerate() {
+            let mut rows = onto.rows_mut(2 * n * surface, 2 * n).into_owned();
+            for (j, node) in meridian.nodes.iter().enumerate() {
+                let spot = walls.meridian.spot(&walls.grid, node.place, panels);
+                add_rows(&mut rows, j, n, (&walls.grid, &walls.meridian), &spot, panels);
+            }
+            onto.rows_mut(2 * n * surface, 2 * n).copy_from(&rows);
+        }
+        let mut forces = DVector::zeros(2 * wall_nodes);
+        let mut unknowns = DMatrix::zeros(2 * wall_nodes, if with_matrix { 2 * n * count } else { 0 });
+        for (j, node) in walls.meridian.nodes.iter().enumerate() {
+            for (surface, meridian) in surfaces.iter().enumerate() {
+                let contrast = sides[surface].contrast();
+                let spot = meridian.spot(grid, node.place, panels);
+                let mut rows = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
+                let mut sum = Vec2::ZERO;
+                panels.each((grid, meridian), &spot, false, |source| {
+                    let [[xx, xr], [rx, rr]] = source.ring.single();
+                    let force = source.weight * meridian.force_at(&source);
+                    sum += Vec2::new(xx * force.x + xr * force.y, rx * force.x + rr * force.y);
+                    if contrast != 0.0 {
+                        let factor = contrast * source.weight * source.point.place.y;
+                        for (row, [x, r]) in rows.iter_mut().zip(source.ring.double(source.point.normal())) {
+                            let waves = source.waves;
+                            add_waves(row, [factor * x, factor * r], &waves.cos[..n], &waves.sin[1..=n]);
+                        }
+                    }
+                });
+                forces[j] -= sum.x;
+                forces[wall_nodes + j] -= sum.y;
+                if contrast != 0.0 {
+                    for (row, values) in [j, wall_nodes + j].into_iter().zip(&rows) {
+                        for (k, value) in values.iter().enumerate() {
+                            unknowns[(row, 2 * n * surface + k)] -= value;
+                        }
+                    }
+                }
+            }
+        }
+        walls.factors.solve_mut(&mut forces);
+        right.gemv(1.0, &onto, &forces, 1.0);
+        if with_matrix {
+            walls.factors.solve_mut(&mut unknowns);
+            matrix.gemm(-1.0, &onto, &unknowns, 1.0);
+        }
+        (walls.onto_surfaces, walls.from_forces, walls.from_unknowns) = (onto, forces, unknowns);
+    }
+
+    /// Computes the forces on the container for the solution.
+    pub(super) fn settle_walls(&mut self) {
+        let Self { grid, walls, solution, .. } = self;
+        let Some(walls) = walls else { return };
+        let n = grid.nodes;
+        let mut forces = walls.from_forces.clone();
+        if walls.from_unknowns.ncols() > 0 {
+            for (surface, solution) in solution.iter().enumerate() {
+                for k in 0..n {
+                    forces.axpy(solution.cos[k], &walls.from_unknowns.column(2 * n * surface + k), 1.0);
+                    forces.axpy(solution.sin[k + 1], &walls.from_unknowns.column(2 * n * surface + n + k), 1.0);
+                }
+            }
+        }
+        let (x, r) = forces.as_slice().split_at(walls.grid.nodes);
+        walls.meridian.force.sin[1..=x.len()].copy_from_slice(x);
+        walls.meridian.force.cos[..r.len()].copy_from_slice(r);
+        walls.meridian.update_forces(&walls.grid);
+    }
+}
+
+/// Points of a closed tube of revolution about the x axis, for [`AxisymmetricFlow::with_container`]: the sides at the
+/// distance `radius(x)` (length) from the axis for |x| < `half_length` (length), flat ends, corners rounded over about
+/// the radius there; equally spaced along a straight tube. `radius` should be constant near the ends.
+///
+/// # Errors
+/// A radius or length that is not positive and finite, a tube shorter than its radius, fewer than 16 points or an odd
+/// number.
+pub fn tube(radius: impl Fn(f64) -> f64, half_length: f64, points: usize) -> Result<Vec<Vec2>, LayerError> {
+    let end = positive("the radius of a tube", radius(half_length))?;
+    within("the half length of a tube over its radius", half_length / end, 1.0, 1e3)?;
+    within("the number of points of a tube", points as f64, 16.0, 1e6)?;
+    // Tangent angles step by a right angle at the corner of a straight tube's end, rounded by an error function.
+    let (width, quarter) = (0.3 * end, end + half_length);
+    let fine = 64 * points;
+    let step = quarter / fine as f64;
+    let angle = |s: f64| 0.25 * PI * (1.0 + erf((s - end) / width));
+    let mut places = Vec::with_capacity(fine + 1);
+    let mut place = Vec2::ZERO;
+    places.push(place);
+    for i in 0..fine {
+        // Gauss points of an interval.
+        for offset in [0.211_324_865_405_187_1, 0.788_675_134_594_812_9] {
+            let turn = angle((i as f64 + offset) * step);
+            place += 0.5 * step * Vec2::new(-turn.sin(), turn.cos());
+        }
+        places.push(place);
+    }
+    let (middle, widest) = (place.x, place.y);
+    let half = points / 2;
+    let mut out = vec![Vec2::ZERO; 2 * half];
+    for k in 0..=half {
+        let s = 2.0 * quarter * k as f64 / half as f64;
+        let (s, side) = if s > quarter { (2.0 * quarter - s, -1.0) } else { (s, 1.0) };
+        let i = ((s / step) as usize).min(fine - 1);
+        let f = s / step - i as f64;
+        // Cubic through the tangents.
+        let (a, b) = (places[i], places[i + 1]);
+        let slope = |j: usize| {
+            let turn = angle(j as f64 * step);
+            step * Vec2::new(-turn.sin(), turn.cos())
+        };
+        let (da, db) = (slope(i), slope(i + 1));
+        let at = (1.0 - f).powi(2) * ((1.0 + 2.0 * f) * a + f * da) + f * f * ((3.0 - 2.0 * f) * b - (1.0 - f) * db);
+        let x = side * (at.x - middle) * half_length / -middle;
+        let r = at.y / widest * positive("the radius of a tube", radius(x))?;
+        (out[k], out[(2 * half - k) % (2 * half)]) = (Vec2::new(x, r), Vec2::new(x, -r));
+    }
+    (out[0].y, out[half].y) = (0.0, 0.0);
+    Ok(out)
+}
+
+/// Error function, to round-off: its series, or the continued fraction of its complement.
+fn erf(x: f64) -> f64 {
+    if x.abs() > 6.0 {
+        return x.signum();
+    }
+    let (mut term, mut sum) = (x, x);
+    for n in 1..200 {
+        let n = f64::from(n);
+        term *= 2.0 * x * x / (2.0 * n + 1.0);
+        sum += term;
+        if term.abs() < 1e-17 * sum.abs() {
+            break;
+        }
+    }
+    2.0 / PI.sqrt() * (-x * x).exp() * sum
+}

@@ -1,0 +1,365 @@
+//! Meridians: series of sines and cosines on half a turn, and surfaces of revolution.
+
+use std::f64::consts::PI;
+
+use motile_base::Vec2;
+use nalgebra::DMatrix;
+
+use super::panels::{LONGEST, Panels, Source, Spot};
+
+/// Waves that are multiplied at once by one factor.
+const LANES: usize = 8;
+
+/// cos(k t) and sin(k t) for k = 0, 1, ...
+#[derive(Debug, Clone, Default)]
+pub(super) struct Waves {
+    pub(super) cos: Vec<f64>,
+    pub(super) sin: Vec<f64>,
+}
+
+impl Waves {
+    pub(super) fn new(count: usize) -> Self {
+        let zeros = vec![0.0; count.next_multiple_of(LANES)];
+        Self { cos: zeros.clone(), sin: zeros }
+    }
+
+    /// Takes the waves of an angle, by products that keep the relative accuracy of the sines of small angles.
+    pub(super) fn fill(&mut self, angle: f64) {
+        let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
+        let (s, c) = angle.sin_cos();
+        for k in 1..LANES {
+            (cos[k], sin[k]) = (cos[k - 1] * c - sin[k - 1] * s, sin[k - 1] * c + cos[k - 1] * s);
+        }
+        let (s, c) = (angle * LANES as f64).sin_cos();
+        for (out_cos, out_sin) in self.cos.chunks_exact_mut(LANES).zip(self.sin.chunks_exact_mut(LANES)) {
+            out_cos.copy_from_slice(&cos);
+            out_sin.copy_from_slice(&sin);
+            for (a, b) in cos.iter_mut().zip(&mut sin) {
+                (*a, *b) = (*a * c - *b * s, *b * c + *a * s);
+            }
+        }
+    }
+}
+
+/// Sum of products.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    for (a, b) in a.zip(b) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    sums.iter().sum()
+}
+
+/// A series of cosines and one of sines in t from 0 to pi, coefficient k at the wave k.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pair {
+    pub(super) cos: Vec<f64>,
+    pub(super) sin: Vec<f64>,
+}
+
+impl Pair {
+    pub(super) fn new(waves: usize) -> Self {
+        let zeros = vec![0.0; waves.next_multiple_of(LANES)];
+        Self { cos: zeros.clone(), sin: zeros }
+    }
+}
+
+/// Half a turn of a number of points, with the transforms between values there and series.
+#[derive(Debug, Clone)]
+pub(super) struct Half {
+    /// Intervals of the half turn.
+    intervals: usize,
+    /// cos(pi m/intervals) for m = 0 .. 2 intervals - 1.
+    cosines: Vec<f64>,
+}
+
+impl Half {
+    pub(super) fn new(intervals: usize) -> Self {
+        let angle = |m: usize| PI * m as f64 / intervals as f64;
+        Self { intervals, cosines: (0..2 * intervals).map(|m| angle(m).cos()).collect() }
+    }
+
+    pub(super) fn intervals(&self) -> usize {
+        self.intervals
+    }
+
+    /// cos(k t) and sin(k t) at point j of the intervals' ends.
+    fn wave(&self, k: usize, j: usize) -> (f64, f64) {
+        let (turn, m) = (2 * self.intervals, k * j);
+        // sin(x) = cos(x - pi/2) has no table of its own where pi/2 is between two entries.
+        let cos = self.cosines[m % turn];
+        if self.intervals.is_multiple_of(2) {
+            (cos, self.cosines[(m + turn - self.intervals / 2) % turn])
+        } else {
+            (cos, (PI * (m % turn) as f64 / self.intervals as f64).sin())
+        }
+    }
+
+    /// The series through values at the points 0 to `intervals`: (even part, odd part) of point j from `value`,
+    /// truncated to the waves below `waves`.
+    pub(super) fn analyse(&self, waves: usize, value: impl Fn(usize) -> (f64, f64), out: &mut Pair) {
+        let n = self.intervals;
+        out.cos.fill(0.0);
+        out.sin.fill(0.0);
+        for j in 0..=n {
+            let (even, odd) = value(j);
+            let weight = if j == 0 || j == n { 1.0 } else { 2.0 } / n as f64;
+            for k in 0..waves {
+                let (cos, sin) = self.wave(k, j);
+                out.cos[k] += weight * if k == 0 || k == n { 0.5 } else { 1.0 } * cos * even;
+                out.sin[k] += weight * sin * odd;
+            }
+        }
+    }
+
+    /// Values (even part, odd part) at point j.
+    pub(super) fn value(&self, series: &Pair, waves: usize, j: usize) -> (f64, f64) {
+        let mut sums = (0.0, 0.0);
+        for k in 0..waves {
+            let (cos, sin) = self.wave(k, j);
+            sums.0 += series.cos[k] * cos;
+            sums.1 += series.sin[k] * sin;
+        }
+        sums
+    }
+}
+
+/// What all surfaces of one number of nodes share: nodes `t_j = pi (j + 1/2)/N`, their waves, quadrature weights.
+#[derive(Debug, Clone)]
+pub(super) struct Grid {
+    /// N, the number of nodes.
+    pub(super) nodes: usize,
+    pub(super) parameters: Vec<f64>,
+    pub(super) waves: Vec<Waves>,
+    /// Weights of Fejer, exact for sines, which all integrands of surfaces of revolution are.
+    pub(super) weights: Vec<f64>,
+}
+
+impl Grid {
+    pub(super) fn new(nodes: usize) -> Self {
+        let n = nodes as f64;
+        let parameters: Vec<f64> = (0..nodes).map(|j| PI * (j as f64 + 0.5) / n).collect();
+        let weight = |t: &f64| {
+            let wave = |k: usize| (if k == nodes { 2.0 } else { 4.0 }) / (n * k as f64) * (k as f64 * t).sin();
+            (1..=nodes).step_by(2).map(wave).sum()
+        };
+        let weights = parameters.iter().map(weight).collect();
+        let waves = parameters.iter().map(|t| {
+            let mut waves = Waves::new(nodes + 1);
+            waves.fill(*t);
+            waves
+        });
+        Self { nodes, waves: waves.collect(), parameters, weights }
+    }
+
+    /// Largest wave that the nodes carry, of sines; cosines have one less.
+    pub(super) fn largest(&self) -> usize {
+        self.nodes
+    }
+
+    /// Matrix from coefficients to values at the nodes: cosines 0 .. N - 1 at the rows of the x components, sines 1 ..
+    /// N at those of the r components, with a factor.
+    pub(super) fn add_values(&self, factor: f64, matrix: &mut DMatrix<f64>, start: usize) {
+        let n = self.nodes;
+        for (j, waves) in self.waves.iter().enumerate() {
+            for k in 0..n {
+                matrix[(start + j, start + k)] += factor * waves.cos[k];
+                matrix[(start + n + j, start + n + k)] += factor * waves.sin[k + 1];
+            }
+        }
+    }
+
+    /// Coefficients of even values x and odd values r at the nodes.
+    pub(super) fn analyse(&self, x: &[f64], r: &[f64], out: &mut Pair) {
+        out.cos.fill(0.0);
+        out.sin.fill(0.0);
+        let factor = 2.0 / self.nodes as f64;
+        for ((waves, x), r) in self.waves.iter().zip(x).zip(r) {
+            for k in 0..self.nodes {
+                out.cos[k] += factor * if k == 0 { 0.5 } else { 1.0 } * waves.cos[k] * x;
+                out.sin[k + 1] += factor * if k + 1 == self.nodes { 0.5 } else { 1.0 } * waves.sin[k + 1] * r;
+            }
+        }
+    }
+}
+
+/// Place on a meridian and slopes of the position by the parameter (length).
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Point {
+    pub(super) place: Vec2,
+    pub(super) tangent: Vec2,
+}
+
+impl Point {
+    /// Outward normal times |X_t| (length), for a meridian that runs from the largest x to the least.
+    pub(super) fn normal(&self) -> Vec2 {
+        -self.tangent.perp()
+    }
+}
+
+/// A surface of revolution: x a series of cosines, the distance r from the axis one of sines, both in t from 0 to pi;
+/// the force on it per t and angle, x a series of sines and r one of cosines.
+#[derive(Debug, Clone)]
+pub(super) struct Meridian {
+    pub(super) shape: Pair,
+    /// Derivative by t: cosines of r, sines of x.
+    slope: Pair,
+    /// Force on the fluid per parameter and azimuth (force).
+    pub(super) force: Pair,
+    /// Places and forces at the nodes.
+    pub(super) nodes: Vec<Point>,
+    forces: Vec<Vec2>,
+    /// Largest distance of two nodes (length).
+    pub(super) spacing: f64,
+    /// Points that the surface was given by, on the closed curve of meridian and mirror image.
+    pub(super) points: usize,
+}
+
+impl Meridian {
+    pub(super) fn new(grid: &Grid) -> Self {
+        let pair = || Pair::new(grid.largest() + 1);
+        let nodes = vec![Point::default(); grid.nodes];
+        let forces = vec![Vec2::ZERO; grid.nodes];
+        Self { shape: pair(), slope: pair(), force: pair(), nodes, forces, spacing: 0.0, points: 0 }
+    }
+
+    /// Takes over a shape whose coefficients have been set.
+    pub(super) fn update(&mut self, grid: &Grid) {
+        let Self { shape, slope, .. } = self;
+        for (k, (cos, sin)) in slope.cos.iter_mut().zip(&mut slope.sin).enumerate() {
+            (*cos, *sin) = (k as f64 * shape.sin[k], -(k as f64) * shape.cos[k]);
+        }
+        self.spacing = 0.0;
+        for (j, waves) in grid.waves.iter().enumerate() {
+            self.nodes[j] = self.at(waves);
+            self.spacing = self.spacing.max(self.nodes[j].tangent.length() * PI / grid.nodes as f64);
+        }
+    }
+
+    /// Place and tangent at the parameter of waves.
+    pub(super) fn at(&self, waves: &Waves) -> Point {
+        Point {
+            place: Vec2::new(dot(&self.shape.cos, &waves.cos), dot(&self.shape.sin, &waves.sin)),
+            tangent: Vec2::new(dot(&self.slope.sin, &waves.sin), dot(&self.slope.cos, &waves.cos)),
+        }
+    }
+
+    /// Place at t + s less that at t, accurate relative to itself, from the waves of t + s/2 and s/2.
+    pub(super) fn difference(&self, middle: &Waves, half: &Waves) -> Vec2 {
+        let (mut x, mut r) = ([0.0; LANES], [0.0; LANES]);
+        let chunks = |values: &[f64], k: usize| -> [f64; LANES] { std::array::from_fn(|i| values[k + i]) };
+        for k in (0..self.shape.cos.len()).step_by(LANES) {
+            let (cos, sin) = (chunks(&middle.cos, k), chunks(&middle.sin, k));
+            let (b, a, h) = (chunks(&self.shape.cos, k), chunks(&self.shape.sin, k), chunks(&half.sin, k));
+            for i in 0..LANES {
+                x[i] -= b[i] * sin[i] * h[i];
+                r[i] += a[i] * cos[i] * h[i];
+            }
+        }
+        2.0 * Vec2::new(x.iter().sum(), r.iter().sum())
+    }
+
+    /// Takes over forces whose coefficients have been set.
+    pub(super) fn update_forces(&mut self, grid: &Grid) {
+        for (j, waves) in grid.waves.iter().enumerate() {
+            self.forces[j] = self.force_of(waves);
+        }
+    }
+
+    fn force_of(&self, waves: &Waves) -> Vec2 {
+        Vec2::new(dot(&self.force.sin, &waves.sin), dot(&self.force.cos, &waves.cos))
+    }
+
+    /// Force per parameter and azimuth at a point of a quadrature.
+    pub(super) fn force_at(&self, source: &Source<'_>) -> Vec2 {
+        source.node.map_or_else(|| self.force_of(source.waves), |j| self.forces[j])
+    }
+
+    /// The spot of a place in the meridian plane (length): its nearest point of the surface and the way there.
+    pub(super) fn spot(&self, grid: &Grid, place: Vec2, panels: &mut Panels) -> Spot {
+        let nearest = (0..grid.nodes)
+            .min_by(|a, b| {
+                let distance = |j: &usize| self.nodes[*j].place.distance(place);
+                distance(a).total_cmp(&distance(b))
+            })
+            .unwrap_or(0);
+        let mut foot = grid.parameters[nearest];
+        let mut best = self.nodes[nearest].place - place;
+        if best.length() < LONGEST * self.spacing {
+            let step = PI / grid.nodes as f64;
+            let range = [(foot - step).max(0.0), (foot + step).min(PI)];
+            let distance = |t: f64, panels: &mut Panels| {
+                panels.waves.fill(t);
+                let Point { place: at, tangent } = self.at(&panels.waves);
+                (at - place, tangent)
+            };
+            // Newton's method for the foot of the perpendicular, kept within two intervals; ends where it stalls.
+            for _ in 0..40 {
+                let (d, tangent) = distance(foot, panels);
+                let next = (foot - d.dot(tangent) / tangent.length_squared()).clamp(range[0], range[1]);
+                let moved = (next - foot).abs();
+                foot = next;
+                if moved < 1e-15 {
+                    break;
+                }
+            }
+            let (d, _) = distance(foot, panels);
+            if d.length() <= best.length() {
+                best = d;
+            } else {
+                foot = grid.parameters[nearest];
+            }
+        }
+        Spot { place, foot, offset: best, gap: best.length() }
+    }
+
+    /// True for a place in the meridian plane inside the closed curve through the nodes.
+    pub(super) fn holds(&self, place: Vec2) -> bool {
+        let mut inside = false;
+        let mut before = Vec2::new(self.nodes[0].place.x, -self.nodes[0].place.y);
+        let last = self.nodes[self.nodes.len() - 1].place;
+        let image = Vec2::new(last.x, -last.y);
+        for point in self.nodes.iter().map(|node| node.place).chain([image]) {
+            // A ray up from the place crosses the upper half alone.
+            if (before.x > place.x) != (point.x > place.x) {
+                let height = before.y + (point.y - before.y) * (place.x - before.x) / (point.x - before.x);
+                inside ^= height > place.y;
+            }
+            before = point;
+        }
+        inside
+    }
+
+    /// The same of a spot, to the accuracy of the series close to the curve.
+    pub(super) fn holds_spot(&self, spot: &Spot, panels: &mut Panels) -> bool {
+        if spot.gap > self.spacing || spot.gap == 0.0 {
+            return self.holds(spot.place);
+        }
+        panels.waves.fill(spot.foot);
+        self.at(&panels.waves).normal().dot(spot.offset) > 0.0
+    }
+
+    /// Volume (length cubed), `pi INT r^2 |x_t| dt`, and area of the surface (length squared).
+    pub(super) fn measures(&self, grid: &Grid) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (Point { place, tangent }, weight) in self.nodes.iter().zip(&grid.weights) {
+            sums[0] -= weight * PI * place.y * place.y * tangent.x;
+            sums[1] += weight * 2.0 * PI * place.y * tangent.length();
+        }
+        sums
+    }
+
+    /// Mean over the area of even values at the nodes.
+    pub(super) fn mean(&self, grid: &Grid, values: impl Iterator<Item = f64>) -> f64 {
+        let [mut sum, mut area] = [0.0; 2];
+        for ((Point { place, tangent }, weight), value) in self.nodes.iter().zip(&grid.weights).zip(values) {
+            let weight = weight * place.y * tangent.length();
+            sum += weight * value;
+            area += weight;
+        }
+        sum / area
+    }
+}

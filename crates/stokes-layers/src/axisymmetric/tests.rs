@@ -1,0 +1,312 @@
+use std::f64::consts::TAU;
+
+use super::*;
+use crate::TensionPlacement;
+
+/// Closed curve of a meridian `(x, r)` of t with its mirror image.
+fn closed(count: usize, meridian: impl Fn(f64) -> (f64, f64)) -> Vec<Vec2> {
+    let angle = |k: usize| TAU * k as f64 / count as f64;
+    let mut points: Vec<Vec2> = (0..count).map(|k| meridian(angle(k))).map(|(x, r)| Vec2::new(x, r)).collect();
+    (points[0].y, points[count / 2].y) = (0.0, 0.0);
+    points
+}
+
+fn sphere(count: usize) -> Vec<Vec2> {
+    closed(count, |t| (t.cos(), t.sin()))
+}
+
+fn flow(nodes: usize) -> AxisymmetricFlow {
+    AxisymmetricFlow::new(1.0, Settings { nodes, ..Settings::default() }).unwrap()
+}
+
+/// Forces at the points of force densities `f(t)` per area on a sphere.
+fn on_sphere(count: usize, f: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
+    (0..count)
+        .map(|k| {
+            let t = TAU * k as f64 / count as f64;
+            let force = TAU * PI / count as f64 * t.sin() * f(t);
+            if 2 * k > count { Vec2::new(-force.x, -force.y) } else { force }
+        })
+        .collect()
+}
+
+fn tensions(points: &[Vec2], gamma: impl Fn(f64) -> f64) -> Vec<Vec2> {
+    let count = points.len();
+    let values: Vec<f64> = (0..count).map(|k| gamma(TAU * k as f64 / count as f64)).collect();
+    let mut forces = vec![Vec2::ZERO; count];
+    MeridianCalculus::new(count)
+        .unwrap()
+        .tension_forces(points, &values, TensionPlacement::Points, &mut forces)
+        .unwrap();
+    forces
+}
+
+fn velocities(flow: &AxisymmetricFlow, surface: usize, count: usize) -> Vec<Vec2> {
+    let mut out = vec![Vec2::ZERO; count];
+    flow.velocities(surface, &mut out).unwrap();
+    out
+}
+
+const RATIOS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 100.0];
+
+/// `INT T n dS = -4 pi` on a surface: the double layer of a translation, for a sphere and a pear.
+#[test]
+fn double_layer_of_a_translation_is_its_jump() {
+    let pear = |t: f64| {
+        let radius = 1.0 + 0.2 * t.cos() + 0.1 * (3.0 * t).cos();
+        (radius * t.cos(), radius * t.sin())
+    };
+    let errors = [32, 64, 96].map(|nodes| {
+        let points = closed(nodes, pear);
+        let mut flow = flow(nodes);
+        let forces = vec![Vec2::ZERO; nodes];
+        flow.load([Interface::closed(&points, &forces, [2.0, 1.0])].into_iter()).unwrap();
+        let n = nodes / 2;
+        (flow.right, flow.matrix) = (DVector::zeros(2 * n), DMatrix::zeros(2 * n, 2 * n));
+        (0..n).for_each(|j| flow.add_pair(0, j, 0));
+        let of_translation = flow.matrix.column(0);
+        let error = |j: usize| (of_translation[j] + 4.0 * PI).abs().max(of_translation[n + j].abs());
+        (0..n).map(error).fold(0.0, f64::max)
+    });
+    assert!(errors.iter().all(|error| *error < 1e-12), "{errors:?}");
+}
+
+/// Hadamard and Rybczynski: a drop with the load f = e_x/(4 pi) per area, a force of one, moves at
+/// `(eta_in + eta_out)/(2 pi eta_out (2 eta_out + 3 eta_in))`, here divided by the normal load alone; Marangoni: the
+/// tension gamma0 + g cos moves it at `-2 g/(3 (2 eta_out + 3 eta_in))`.
+#[test]
+fn drops_settle_and_swim_at_their_exact_speeds() {
+    let count = 64;
+    let points = sphere(count);
+    let shape = |t: f64| Vec2::new(t.cos(), t.sin());
+    let (mut settling, mut marangoni) = (Vec::new(), Vec::new());
+    for ratio in RATIOS {
+        let mut flow = flow(count);
+        let load = on_sphere(count, |t| 3.0 / (2.0 * TAU) * t.cos() * shape(t));
+        flow.load([Interface::closed(&points, &load, [ratio, 1.0])].into_iter()).unwrap();
+        flow.solve().unwrap();
+        let exact = (ratio + 1.0) / (TAU * (2.0 + 3.0 * ratio));
+        settling.push((velocities(&flow, 0, count)[0].x / exact - 1.0).abs());
+
+        let g = 0.5;
+        let forces = tensions(&points, |t| 1.0 + g * t.cos());
+        flow.load([Interface::closed(&points, &forces, [ratio, 1.0])].into_iter()).unwrap();
+        flow.solve().unwrap();
+        let speed = -2.0 * g / (3.0 * (2.0 + 3.0 * ratio));
+        let surface = -(speed + g / (2.0 + 3.0 * ratio));
+        let errors = velocities(&flow, 0, count).into_iter().enumerate().map(|(k, u)| {
+            let t = TAU * k as f64 / count as f64;
+            let u_theta = u.dot(shape(t).perp());
+            (u.dot(shape(t)) - speed * t.cos()).abs().max((u_theta - surface * t.sin()).abs())
+        });
+        marangoni.push(errors.fold(0.0, f64::max) / speed.abs());
+    }
+    assert!(settling.iter().chain(&marangoni).all(|error| *error < 1e-12), "{settling:?} {marangoni:?}");
+}
+
+/// Velocities on a fixed spheroid, `x = 1.3 cos t`, of the tension exp(cos t): u_x at t = 0, pi/4, ..., pi and u_r at
+/// pi/4, pi/2, 3 pi/4 from `axisymmetric_fixed_shapes.csv`, computed by another program to some 1e-12.
+#[test]
+fn velocities_on_a_spheroid_are_the_independent_ones_with_spectral_order() {
+    let reference = [
+        (
+            1.0,
+            [-0.321567228398753, -0.0470391285575312, 0.0455103405493707, 0.0184099921422823, 0.0173513809811626],
+            [-0.0764756310276157, 0.053613430400907, 0.0473753658935238],
+        ),
+        (
+            10.0,
+            [-0.0572245192154756, -0.0116679917175824, 0.00679786063804396, 0.00769244833463978, 0.00966961424135847],
+            [-0.00688870760149047, 0.010077673529866, 0.00658119545716612],
+        ),
+        (
+            0.1,
+            [-0.0699521158309059, -0.00824200108398138, 0.0131202015970868, -0.00149148204571282, -0.00714020845618032],
+            [-0.0275561287370688, 0.0107901801095036, 0.0166979812454954],
+        ),
+    ];
+    for (ratio, along, across) in reference {
+        let errors = [24, 48, 96].map(|count| {
+            let points = closed(count, |t| (1.3 * t.cos(), t.sin() / 1.3f64.sqrt()));
+            let forces = tensions(&points, |t| t.cos().exp());
+            let outside = if ratio < 1.0 { 10.0 } else { 1.0 };
+            let settings = Settings { nodes: count, ..Settings::default() };
+            let mut flow = AxisymmetricFlow::new(outside, settings).unwrap();
+            flow.load([Interface::closed(&points, &forces, [ratio * outside, outside])].into_iter()).unwrap();
+            flow.solve().unwrap();
+            let u = velocities(&flow, 0, count);
+            let x = (0..5).map(|k| (u[k * count / 8].x - along[k]).abs());
+            let r = (1..4).map(|k| (u[k * count / 8].y - across[k - 1]).abs());
+            x.chain(r).fold(0.0, f64::max)
+        });
+        assert!(errors[1] < 1e-3 * errors[0] && errors[2] < 1e-3 * errors[1], "ratio {ratio}: {errors:?}");
+        assert!(errors[2] < 1e-11, "ratio {ratio}: {errors:?}");
+    }
+}
+
+/// Stokes' sphere: velocity, pressure and gradient of the flow around it, at any distance from the surface.
+#[test]
+fn flow_around_a_sphere_is_that_of_stokes_at_any_distance() {
+    let count = 64;
+    let points = sphere(count);
+    let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
+    let mut flow = flow(count);
+    flow.load([Interface::rigid(&points, &forces, 1.0)].into_iter()).unwrap();
+    flow.solve().unwrap();
+    assert!((flow.rigid_velocity(0).unwrap() - 1.0).abs() < 1e-13);
+    for (distance, tolerance) in [(3.0, 1e-12), (0.4, 1e-12), (0.02, 1e-11), (1e-6, 1e-8)] {
+        for t in [0.0, 0.03, 0.7, 1.9, 3.1, -2.0] {
+            let r = 1.0 + distance;
+            let place = r * Vec2::from_angle(t);
+            let mut sample = [FlowSample::default()];
+            flow.sample(&[place], &mut sample).unwrap();
+            let velocity = |x: Vec2| {
+                let r = x.length();
+                let a = 0.75 / r + 0.25 / r.powi(3);
+                let b = (0.75 / r - 0.75 / r.powi(3)) * x.x / (r * r);
+                Vec2::new(a, 0.0) + b * x
+            };
+            let error = (sample[0].velocity - velocity(place)).length();
+            assert!(error < tolerance, "velocity at {place:?}: {error:e}");
+            let error = (sample[0].pressure - 1.5 * place.x / r.powi(3)).abs();
+            assert!(error < tolerance, "pressure at {place:?}: {error:e}");
+            let h = 1e-3;
+            for k in 0..2 {
+                let at =
+                    |s: f64| velocity(place + s * h * if k == 0 { Vec2::new(1.0, 0.0) } else { Vec2::new(0.0, 1.0) });
+                let slope =
+                    (45.0 * (at(1.0) - at(-1.0)) - 9.0 * (at(2.0) - at(-2.0)) + at(3.0) - at(-3.0)) / (60.0 * h);
+                for (j, exact) in [slope.x, slope.y].into_iter().enumerate() {
+                    let error = (sample[0].gradient[j][k] - exact).abs();
+                    assert!(error < 10.0 * tolerance.max(1e-11), "gradient {j}{k} at {place:?}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Two spheres that fall along their line of centres: the drag factor of Stimson and Jeffery (Proc. R. Soc. A 111,
+/// 1926) for a gap over the radius.
+fn stimson_jeffery(gap: f64) -> f64 {
+    let alpha = (1.0 + 0.5 * gap).acosh();
+    let sum: f64 = (1..2000)
+        .map(|n| {
+            let n = f64::from(n);
+            let m = 2.0 * n + 1.0;
+            // Divided by exp(m alpha), which overflows.
+            let down = (-m * alpha).exp();
+            let top = 0.5 * (1.0 - down).powi(2) * 2.0 - 0.5 * (m * alpha.sinh()).powi(2) * 2.0 * down;
+            let bottom = (1.0 - down * down) + m * (2.0 * alpha).sinh() * down;
+            n * (n + 1.0) / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * (1.0 - top / bottom)
+        })
+        .sum();
+    4.0 / 3.0 * alpha.sinh() * sum
+}
+
+#[test]
+fn two_spheres_fall_at_their_exact_speed_however_close() {
+    for (gap, count) in [(2.0, 48), (0.5, 64), (0.1, 128), (0.02, 192)] {
+        let spheres = [1.0, -1.0].map(|side| {
+            let centre = side * (1.0 + 0.5 * gap);
+            closed(count, |t| (centre + t.cos(), t.sin()))
+        });
+        let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
+        let mut flow = flow(count);
+        flow.load(spheres.iter().map(|points| Interface::rigid(points, &forces, 1.0))).unwrap();
+        flow.solve().unwrap();
+        let speeds = [0, 1].map(|k| flow.rigid_velocity(k).unwrap());
+        let exact = 1.0 / stimson_jeffery(gap);
+        let error = speeds.iter().map(|speed| (speed / exact - 1.0).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-10, "gap {gap}: {error:e}");
+    }
+}
+
+/// Drag factors in a tube without flux (Haberman and Sayre, David Taylor Model Basin Report 1143, 1958, to the digits of
+/// their table; more digits from `axisymmetric.csv`).
+#[test]
+fn drag_of_a_sphere_in_a_tube_is_that_of_the_literature() {
+    let count = 48;
+    let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
+    for (radius, factor) in [(0.1, 1.26321393), (0.3, 2.37009490), (0.5, 5.94737425)] {
+        let wall = 1.0 / radius;
+        let points = tube(|_| wall, 5.0 * wall, 1000).unwrap();
+        let mut flow = flow(count).with_container(&points, 250).unwrap();
+        flow.load([Interface::rigid(&sphere(count), &forces, 1.0)].into_iter()).unwrap();
+        flow.solve().unwrap();
+        let error = 1.0 / flow.rigid_velocity(0).unwrap() / factor - 1.0;
+        assert!(error.abs() < 3e-8, "radius {radius}: {error:e}");
+    }
+}
+
+/// No flow on the wall, none through a section; and the net force on the drop, zero, is that on the wall.
+#[test]
+fn a_drop_with_another_viscosity_meets_the_conditions_on_a_tube() {
+    let count = 64;
+    let points = sphere(count);
+    let forces = tensions(&points, |t| 1.0 + 0.5 * t.cos());
+    for (ratio, speed) in [(1.0, -0.051_647_950_76), (10.0, -0.008_215_588_674_6)] {
+        let wall = tube(|_| 2.0, 10.0, 1000).unwrap();
+        let mut flow = flow(count).with_container(&wall, 280).unwrap();
+        flow.load([Interface::closed(&points, &forces, [ratio, 1.0])].into_iter()).unwrap();
+        flow.solve().unwrap();
+        // Mean velocity over the volume: INT x u.n dS over the volume.
+        let u = velocities(&flow, 0, count);
+        let grid = Grid::new(count / 2);
+        let half = Half::new(count / 2);
+        let mut series = Pair::new(count / 2 + 1);
+        half.analyse(count / 2, |k| (u[k].x, u[k].y), &mut series);
+        let mean: f64 = (0..count / 2)
+            .map(|j| {
+                let (t, waves) = (grid.parameters[j], &grid.waves[j]);
+                let flux =
+                    meridian::dot(&series.cos, &waves.cos) * t.cos() + meridian::dot(&series.sin, &waves.sin) * t.sin();
+                grid.weights[j] * 1.5 * t.cos() * flux * t.sin()
+            })
+            .sum();
+        assert!((mean / speed - 1.0).abs() < 1e-7, "ratio {ratio}: {mean}");
+        for x in [0.3, 3.0] {
+            let mut sample = [FlowSample::default(); 2];
+            flow.sample(&[Vec2::new(x, 2.0 - 1e-9), Vec2::new(x, 1.7)], &mut sample).unwrap();
+            assert!(sample[0].velocity.length() < 1e-7 * speed.abs(), "at the wall: {:?}", sample[0].velocity);
+        }
+    }
+}
+
+/// A ratio of viscosities of 1e4 or 1e-4 keeps volume and speed; a bubble's limit is regular.
+#[test]
+fn extreme_ratios_of_viscosities_lose_few_digits() {
+    let count = 64;
+    let points = sphere(count);
+    let forces = tensions(&points, |t| 1.0 + 0.5 * t.cos());
+    for ratio in [1e-4, 1e4] {
+        let mut flow = flow(count);
+        flow.load([Interface::closed(&points, &forces, [ratio, 1.0])].into_iter()).unwrap();
+        flow.solve().unwrap();
+        let exact = -1.0 / (3.0 * (2.0 + 3.0 * ratio));
+        let error = velocities(&flow, 0, count)[0].x / exact - 1.0;
+        assert!(error.abs() < 1e-9, "ratio {ratio}: {error:e}");
+    }
+}
+
+#[test]
+fn points_that_are_no_meridian_are_refused() {
+    let none = vec![Vec2::ZERO; 64];
+    let mut flow = flow(64);
+    let mut load = |points: &[Vec2]| {
+        flow.load([Interface::closed(points, &none[..points.len()], [1.0, 1.0])].into_iter()).map_err(|e| e.to_string())
+    };
+    let off_axis: Vec<Vec2> = sphere(64).iter().map(|x| *x + Vec2::new(0.0, 0.1)).collect();
+    assert!(load(&off_axis).unwrap_err().contains("mirror image"));
+    let clockwise: Vec<Vec2> = sphere(64).iter().map(|x| Vec2::new(x.x, -x.y)).collect();
+    assert!(load(&clockwise).is_err());
+    assert!(load(&sphere(32)).unwrap_err().contains("give it 64"));
+    let mut nan = sphere(64);
+    nan[3].x = f64::NAN;
+    assert!(load(&nan).unwrap_err().contains("finite"));
+    assert!(tube(|_| -1.0, 5.0, 100).is_err());
+    let wall = tube(|_| 1.5, 6.0, 400).unwrap();
+    let mut flow = AxisymmetricFlow::new(1.0, Settings::default()).unwrap().with_container(&wall, 128).unwrap();
+    let large = closed(64, |t| (1.6 * t.cos(), 1.6 * t.sin()));
+    let error = flow.load([Interface::closed(&large, &none, [1.0, 1.0])].into_iter()).unwrap_err();
+    assert!(error.to_string().contains("beyond"), "{error}");
+}
