@@ -36,7 +36,7 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
     markers
 }
 
-/// What is timed.
+/// Program to be timed, with its name.
 struct Row {
     name: String,
     run: Box<dyn FnMut()>,

@@ -1,4 +1,4 @@
-//! What is done at markers, in units of the bare transforms of the grid measured by turns in the same run: spreading,
+//! Work at markers, in units of the bare transforms of the grid measured by turns in the same run: spreading,
 //! interpolation, forces of a droplet and of solids. `cargo bench --bench markers`.
 
 use std::hint::black_box;

@@ -19,7 +19,8 @@ use motile_output::run::say;
 #[derive(Debug, Parser)]
 struct Flags {
     /// Numbers of cells at first
-    #[arg(long, value_delimiter = ',', default_values_t = [1, 4, 11], value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 4, 11],
+        value_parser = clap::value_parser!(u32).range(1..=1000))]
     cells: Vec<u32>,
     /// Rate lambda at which a cell divides (1 per time)
     #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]

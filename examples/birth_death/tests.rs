@@ -14,8 +14,9 @@ fn the_series_is_the_closed_form_on_both_sides_of_equal_rates() {
     assert!(series(1, f64::NAN).is_err() && series(1, 0.0).is_err());
 }
 
-/// Probability of no cells at a time from `d P_k/dt = lambda (k - 1) P_(k-1) + mu (k + 1) P_(k+1) - (lambda + mu) k P_k`
-/// up to 400 cells, by Runge and Kutta's method of fourth order.
+/// Probability of no cells at a time from
+/// `d P_k/dt = lambda (k - 1) P_(k-1) + mu (k + 1) P_(k+1) - (lambda + mu) k P_k` up to 400 cells, by Runge and Kutta's
+/// method of fourth order.
 fn integrated(rates: Rates, n: usize, time: f64, steps: u32) -> f64 {
     let change = |p: &[f64]| -> Vec<f64> {
         let flux = |k: usize, rate: f64| p.get(k).map_or(0.0, |p| rate * k as f64 * p);

@@ -25,7 +25,7 @@ const STARTS: [(&str, &str, Start); 2] = [
     ("polarised", "c = (1 - cos(theta)) c0, Cowley (2.46)", Start::Polarised),
     ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 1 }),
 ];
-/// What drives the flow along a channel.
+/// Drives of the flow along a channel.
 const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-flux", "No net flux", Drive::ZeroFlux),
     ("zero-gradient", "No mean pressure gradient, as in Cowley", Drive::ZeroGradient),

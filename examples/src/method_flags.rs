@@ -49,7 +49,7 @@ pub struct MethodFlags {
     /// Time step, 'auto' (half of what is stable), 'adaptive' or 'adaptive:TOLERANCE'; without it the preset's
     #[arg(long, value_parser = time_step, allow_hyphen_values = true)]
     pub dt: Option<StepSize>,
-    /// What takes the steps; without it the scene's, which is the midpoint rule unless a file says otherwise
+    /// Integrator; without it the scene's, which is the midpoint rule unless a file says otherwise
     #[arg(long, value_parser = one_of(&INTEGRATORS))]
     pub integrator: Option<IntegratorKind>,
     /// Time to be simulated

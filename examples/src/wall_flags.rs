@@ -17,7 +17,7 @@ const LEAST_ALONG: f64 = 6.0;
 /// Most points of the walls: a run with as many would take weeks.
 const MOST_POINTS: f64 = 4e6;
 
-/// What the walls are made of.
+/// Materials of the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Material {
     /// Springs, Cowley section 4.1.
@@ -35,7 +35,7 @@ const MESHES: [(&str, &str, MeshKind); 2] = [
 /// A channel with elastic walls, periodic in x.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct ElasticFlags {
-    /// What the walls are made of
+    /// Material of the walls
     #[arg(long, value_enum, default_value_t = Material::Springs)]
     pub material: Material,
     /// Stiffness of the walls as Cowley's spring constant k [default: 1e4]

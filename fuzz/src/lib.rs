@@ -1,4 +1,4 @@
-//! What is fuzzed: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and
+//! Targets of fuzzing: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and
 //! must neither panic nor run out of memory or time.
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};

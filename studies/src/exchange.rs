@@ -1,5 +1,5 @@
-//! Droplets that exchange their particles with the inside: speed, and two caps instead of one; errors of rates and speed
-//! over the resolution.
+//! Droplets that exchange their particles with the inside: speed, and two caps instead of one; errors of rates and
+//! speed over the resolution.
 //!
 //! `cargo run --release -p studies -- exchange` prints two tables, which `--write` keeps as `docs/tables/exchange.csv`
 //! and `exchange-2.csv`.

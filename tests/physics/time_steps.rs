@@ -340,3 +340,38 @@ fn the_stabilised_coupling_is_stable_up_to_its_limit() {
         assert!(below < 1e-2 && above > 1e3, "{nodes} nodes: {below:e} {above:e}");
     }
 }
+
+/// Largest distance of the markers from the unit circle, over that at the start, of a passive droplet in fluid of
+/// viscosity 1 after 400 steps of `part` of the limit.
+fn wrinkled(viscosity_inside: f64, part: f64) -> f64 {
+    let nodes = 32;
+    let settings = Settings { nodes, ..Settings::default() };
+    let flow = BoundaryIntegral::new(Region::Plane, 1.0, settings).expect("a solver");
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / (4 * nodes) as f64;
+    let waves = |t: f64| (2..nodes / 2).map(|m| (m as f64 * t + (m * m) as f64).cos()).sum::<f64>();
+    let markers = (0..4 * nodes).map(|k| (1.0 + 1e-9 * waves(angle(k))) * Vec2::from_angle(angle(k)));
+    let droplet = ActiveDroplet::passive(&markers.collect::<Vec<_>>(), 1.0).expect("a droplet");
+    let droplet = droplet.with_motion(Motion::Equidistributed { relaxation: 0.0, filter: false });
+    let mut scene = Scene::new(flow);
+    let droplet = scene.add(droplet.with_viscosity_inside(viscosity_inside).expect("a viscosity"));
+    // The limit is that of the viscosities once the flow has been computed.
+    scene.step(1e-9).expect("a step");
+    let (limit, reason, _) = scene.step_limit().expect("a limit");
+    assert_eq!(reason, "the surface tension");
+    let distance = |scene: &Scene<BoundaryIntegral>| {
+        let markers = scene.body(droplet).expect("its droplet").markers();
+        markers.iter().map(|x| (x.length() - 1.0).abs()).fold(0.0, f64::max)
+    };
+    let start = distance(&scene);
+    (0..400).for_each(|_| scene.step(part * limit).expect("a step"));
+    distance(&scene) / start
+}
+
+/// A wave of wave number q relaxes at `gamma q/(2 (eta_in + eta_out))`, the mean of both viscosities counted once.
+#[test]
+fn the_tension_is_stable_up_to_its_limit_at_any_viscosity_inside() {
+    for inside in [0.02, 1.0, 10.0] {
+        let [below, above] = [0.98, 1.2].map(|part| wrinkled(inside, part));
+        assert!(below < 0.1 && above > 1e3, "{inside}: {below:e} {above:e}");
+    }
+}

@@ -99,8 +99,8 @@ impl BoundaryIntegral {
 
 impl Hydrodynamics for BoundaryIntegral {
     /// A wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`. The stiffness is
-    /// `q eta_out/(2 (eta_in + eta_out))` (1/length) with the largest q that the nodes carry, the largest over the
-    /// interfaces of the last evaluation; before the first one it is `q/4` with the reference perimeter.
+    /// `q/4` (1/length) with the largest q that the nodes carry on the shortest interface of the last evaluation;
+    /// before the first one with the reference perimeter.
     fn fluid_view(&self) -> FluidView {
         FluidView {
             domain: Domain::from(*self.region()),

@@ -280,7 +280,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         }
         let Outcome { iterations, residual } = self.solve_nodes(markers)?;
         self.work.evaluations += 1;
-        self.interfaces.set_lengths(markers.groups(), self.curves.interface_lengths());
+        self.interfaces.set_lengths(self.curves.interface_lengths());
         self.interfaces.tell_dipoles(markers)?;
         let viscosity = self.solver.viscosity();
         self.curves.write(1.0 / viscosity, markers.velocities_mut())?;

@@ -316,9 +316,9 @@ impl Body for ParticlesInDroplet {
                 fastest = fastest.max(length / self.cells.areas[node]);
             }
         }
-        // Diffusion, which is implicit, spreads what a cell at the interface loses before the cell is empty: on a circle
-        // of radius R, k_on times the integral of C^2 along the interface is at most D times that of |grad C|^2 inside,
-        // plus (2 k_on/R + k_on^2/D) times that of C^2.
+        // Diffusion, which is implicit, spreads what a cell at the interface loses before the cell is empty: on a
+        // circle of radius R, k_on times the integral of C^2 along the interface is at most D times that of |grad C|^2
+        // inside, plus (2 k_on/R + k_on^2/D) times that of C^2.
         let (binding, radius) = (self.exchange.binding(), self.lengths.iter().sum::<f64>() / TAU);
         let spread = binding * (2.0 / radius + binding / self.constant);
         let rate = self.exchange.unbinding() + spread.min(binding * fastest);

@@ -8,10 +8,7 @@ pub use error::CheckpointError;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError,
-    scene::{Findings, StepReport},
-};
+use crate::{Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, scene::Findings, step_report::StepReport};
 use motile_base::{SolveReport, Vec2};
 
 /// The whole state of a scene, to go on from later, bitwise as if it had never stopped.

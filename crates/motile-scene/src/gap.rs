@@ -138,8 +138,9 @@ impl Surfaces {
         self.sort();
     }
 
-    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where (length).
-    /// Of interfaces inside one another that is a gap below what the polygons through their markers tell of the curves.
+    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
+    /// (length). Of interfaces inside one another that is a gap below what the polygons through their markers tell of
+    /// the curves.
     #[must_use]
     pub fn contact(&self, view: &FluidView) -> Option<(usize, usize, Vec2)> {
         let interfaces = |bodies: [usize; 2]| bodies.iter().all(|&body| self.kinds[body].is_closed_curve());

@@ -56,8 +56,8 @@ pub struct FluidView {
     /// Fourier modes along an interface that the flow resolves; `None` where the markers themselves are the resolution.
     pub shape_modes: Option<usize>,
     /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
-    /// displacement normal to an interface of tension gamma decays at most at the rate
-    /// `stiffness * gamma / viscosity`.
+    /// displacement normal to an interface of tension gamma decays at most at the rate `stiffness * gamma / viscosity`,
+    /// with the mean of the viscosities on both sides: a quarter of the largest wave number on a flat interface.
     pub interface_stiffness: f64,
 }
 

@@ -36,6 +36,7 @@ pub mod integrator;
 pub mod points;
 mod saved_state;
 mod scene;
+pub mod step_report;
 
 pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning};
 pub use error::{BodyError, FlowError, SceneError};
@@ -43,4 +44,4 @@ pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers,
     Substrate,
 };
-pub use scene::{Every, Handle, Limiting, Observer, Run, Scene, StepReport, StepSize, System, Warnings};
+pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System, Warnings};

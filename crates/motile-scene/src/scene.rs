@@ -12,7 +12,7 @@ pub(crate) use handle::SceneId;
 use mirror::Mirror;
 pub use run::{Every, Observer, Run};
 pub(crate) use step_control::StepControl;
-pub use step_control::{Limiting, StepReport, StepSize};
+pub use step_control::StepSize;
 pub(crate) use system::Findings;
 pub use system::System;
 pub use warnings::Warnings;
@@ -25,6 +25,7 @@ use crate::{
     gap::Repulsion,
     integrator::{Dynamics as _, ErrorEstimate, Integrator, IntegratorKind, IntegratorWork},
     saved_state::SavedState,
+    step_report::StepReport,
 };
 
 /// Bodies coupled by a fluid, and the integrator that advances them.

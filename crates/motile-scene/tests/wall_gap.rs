@@ -137,7 +137,7 @@ fn present_and_least_gap() {
     assert_eq!(scene.system().minimum_wall_gap(), Some(0.1875));
 }
 
-/// What is not a number is not hidden by a gap that is one.
+/// A gap that is not a number is not hidden by one that is.
 #[test]
 fn no_gap_of_a_place_that_is_not_a_number() {
     for heights in [[f64::NAN, 0.5], [0.5, f64::NAN]] {

@@ -52,7 +52,7 @@ fn setup(line: &str) -> Result<Setup, String> {
     over(None, line)
 }
 
-/// The same over a scene file.
+/// Scene of a command line over a scene file.
 fn over(file: Option<Setup>, line: &str) -> Result<Setup, String> {
     let flags = parse(line).unwrap();
     let setup = || {

@@ -109,9 +109,9 @@ impl Mode {
     }
 }
 
-/// Growth rate (1/time) of a mode at an activity (force times length), on `markers` markers and half as many nodes and a
-/// mesh of that spacing (length), from a short step and the Rayleigh quotient: its error is that of the operator, as it
-/// is symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
+/// Growth rate (1/time) of a mode at an activity (force times length), on `markers` markers and half as many nodes and
+/// a mesh of that spacing (length), from a short step and the Rayleigh quotient: its error is that of the operator, as
+/// it is symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
 ///
 /// # Errors
 /// Scenes that cannot be set up, a step that fails.
@@ -159,8 +159,8 @@ pub fn rate(mode: Mode, activity: f64, markers: usize, spacing: f64) -> Result<f
     Ok((1.0 + above / below).ln() / STEP)
 }
 
-/// Speed (length per time) at a time of a swimmer of activity -4 with such a field inside, on `markers` markers and half
-/// as many nodes, in the plane.
+/// Speed (length per time) at a time of a swimmer of activity -4 with such a field inside, on `markers` markers and
+/// half as many nodes, in the plane.
 ///
 /// # Errors
 /// Scenes that cannot be set up, a run that fails.

@@ -219,7 +219,8 @@ fn caption(setup: &Setup, particles: &Particles, region: &str) -> String {
         Exclusion::Step(strength) => format!("A = {strength},  "),
         _ => String::new(),
     };
-    let text = format!("ζΔμ = {},  {strength}η = {inside}{}", particles.activity, setup.viscosity).replace('-', "−");
+    let text = format!("ζΔμ = {},  {strength}η = {inside}{}", particles.activity, setup.viscosity);
+    let text = text.replace('-', "−");
     if region.is_empty() { text } else { format!("{text},  {region}") }
 }
 

@@ -65,7 +65,7 @@ impl MarkerBody {
     /// Markers at `positions` (length) that `forces` gives the forces on the fluid (force; all zero before the call),
     /// and that move with the fluid.
     ///
-    /// What the forces make decay bounds the time step. The fastest decay is found once, where the markers are when it
+    /// The fastest decay that the forces cause bounds the time step. It is found once, where the markers are when it
     /// is first asked for, in at most thirty calls of `forces`: the largest eigenvalue, by the power method, of the
     /// derivative of the forces times a mobility of `(ln(L/r) + 1)/(4 pi eta)` between markers at the distance r, L
     /// being the smallest width of the domain and r the grid spacing for a marker's own force. It is an estimate from

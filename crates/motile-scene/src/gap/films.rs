@@ -159,12 +159,12 @@ impl Films {
         self.contacts.iter().map(each).sum()
     }
 
-    /// The fastest relaxation of films under a repulsion (1/time), in fluid of viscosity eta: that of the gap, and, as
-    /// `stiffness` (1/length) says, that of what it adds to the tension.
-    pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, stiffness: f64) -> f64 {
+    /// The fastest relaxation of films under a repulsion (1/time), in fluid of that viscosity (stress times time): that
+    /// of the gap, and that of what it adds to the tension, which relaxes at `unit` (1/(force times time)) times it.
+    pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, unit: f64) -> f64 {
         let rate = |contact: &Contact| {
             let tension = contact.share() * repulsion.energy(contact.gap);
-            repulsion.rate(contact.gap, viscosity) + stiffness * tension / viscosity
+            repulsion.rate(contact.gap, viscosity) + unit * tension
         };
         self.contacts.iter().map(rate).fold(0.0, f64::max)
     }

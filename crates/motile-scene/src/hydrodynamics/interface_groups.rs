@@ -17,8 +17,7 @@ pub struct InterfaceGroups {
 }
 
 impl InterfaceGroups {
-    /// Groups that move with a flow. Until interfaces are known the stiffness is that of one of perimeter 2 pi without
-    /// a contrast.
+    /// Groups that move with a flow. Until interfaces are known the stiffness is that of one of perimeter 2 pi.
     #[must_use]
     pub fn new(flow: InterfaceFlow) -> Self {
         let stiffness = stiffness(flow.settings().nodes, std::f64::consts::TAU);
@@ -26,21 +25,23 @@ impl InterfaceGroups {
     }
 
     /// Fastest relaxation of the interfaces ([`crate::FluidView::interface_stiffness`], 1/length): a wave number q
-    /// decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes carry.
+    /// decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the shortest interface
+    /// carry.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// The stiffness of an interface of that perimeter (length) without a contrast, until interfaces are known.
+    /// The stiffness of an interface of that perimeter (length), until interfaces are known.
     pub fn set_reference_perimeter(&mut self, perimeter: f64) {
         self.stiffness = stiffness(self.flow.settings().nodes, perimeter);
     }
 
-    /// Takes the stiffness from the interfaces among the groups, which have these lengths (length).
-    pub fn set_lengths(&mut self, groups: &[MarkerGroup], lengths: impl Iterator<Item = f64>) {
-        let (nodes, viscosity) = (self.flow.settings().nodes, self.flow.viscosity());
-        self.stiffness = fastest(nodes, viscosity, groups, lengths).unwrap_or(self.stiffness);
+    /// Takes the stiffness from the lengths of the interfaces (length), where there are any.
+    pub fn set_lengths(&mut self, lengths: impl Iterator<Item = f64>) {
+        if let Some(shortest) = lengths.reduce(f64::min) {
+            self.set_reference_perimeter(shortest);
+        }
     }
 
     /// Takes over positions and forces of the interfaces.
@@ -68,10 +69,6 @@ impl InterfaceGroups {
         let Solution { iterations, residual, pressure_gradient, .. } = flow.solve()?;
         work.iterations += iterations;
         work.most_iterations = work.most_iterations.max(iterations);
-        let lengths = (0..flow.len()).filter_map(|interface| flow.perimeter(interface));
-        if let Some(fastest) = fastest(flow.settings().nodes, flow.viscosity(), &markers.groups, lengths) {
-            self.stiffness = fastest;
-        }
         let mut interface = 0;
         for MarkerGroup { range, kind, .. } in &markers.groups {
             let velocities = &mut markers.velocities[range.clone()];
@@ -84,6 +81,8 @@ impl InterfaceGroups {
                 velocities.iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
             }
         }
+        let shortest = (0..flow.len()).filter_map(|interface| flow.perimeter(interface)).reduce(f64::min);
+        shortest.into_iter().for_each(|perimeter| self.set_reference_perimeter(perimeter));
         self.tell_dipoles(markers)?;
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
     }
@@ -149,16 +148,6 @@ impl InterfaceGroups {
 /// The groups that are interfaces.
 fn interfaces(markers: &Markers) -> impl Iterator<Item = &MarkerGroup> + Clone {
     markers.groups.iter().filter(|group| group.kind.is_closed_curve())
-}
-
-/// The largest stiffness of interfaces of these lengths; `None` where there are none.
-fn fastest(nodes: usize, exterior: f64, groups: &[MarkerGroup], lengths: impl Iterator<Item = f64>) -> Option<f64> {
-    let interfaces = groups.iter().filter(|group| group.kind.is_closed_curve());
-    let rates = interfaces.zip(lengths).map(|(group, length)| {
-        let [inside, outside] = group.viscosities(exterior);
-        stiffness(nodes, length) * 2.0 * outside / (outside + inside)
-    });
-    rates.reduce(f64::max)
 }
 
 /// A quarter of the largest wave number of a curve.

@@ -1,7 +1,6 @@
 //! Bodies in a fluid: the system of equations that an integrator advances.
 
 mod bodies;
-mod clock;
 mod contacts;
 mod findings;
 mod forces;
@@ -17,7 +16,6 @@ use crate::{
     saved_state::{Record, SavedState},
 };
 use bodies::Bodies;
-use clock::Clock;
 use contacts::Contacts;
 pub(crate) use findings::Findings;
 use motile_base::{Drive, FlowSample, SolveReport, Vec2};
@@ -42,6 +40,30 @@ enum Known {
     Apart,
     /// The markers hold the flow.
     Flow,
+}
+
+/// Time and steps since the start of a scene.
+#[derive(Debug, Clone, Copy)]
+struct Clock {
+    /// Time (time).
+    time: f64,
+    steps: usize,
+    /// The next step is the first since bodies were put in or changed: no step before it tells how fast they move,
+    /// which bounds its length.
+    first_step: bool,
+}
+
+impl Clock {
+    /// Time 0, before the first step.
+    fn new() -> Self {
+        Self { time: 0.0, steps: 0, first_step: true }
+    }
+
+    /// Counts a step of `dt` (time).
+    fn advance(&mut self, dt: f64) {
+        self.time += dt;
+        self.steps += 1;
+    }
 }
 
 /// The bodies of a scene, the fluid between them, and the time.

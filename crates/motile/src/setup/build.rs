@@ -6,7 +6,7 @@ use active_interface::{ActiveDroplet, Curve, InitialConcentration};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
-use interior_fields::GelInBox;
+use interior_fields::{GelInBox, ParticlesInDroplet};
 use motile_base::{Region, Vec2};
 use motile_scene::{Body, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
@@ -43,6 +43,9 @@ const LAYER_TOLERANCE: f64 = 1e-6;
 const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
+
+/// Spacing of a mesh over that of the markers where there is no grid.
+const MARKERS_APART: f64 = 5.0;
 
 impl Setup {
     /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
@@ -81,6 +84,23 @@ impl Setup {
             scene = scene.held_symmetric()?;
         }
         Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels })
+    }
+
+    /// The particles that diffuse inside a droplet, made to be the body `host`.
+    fn particles_inside(
+        &self,
+        setup: &DropletSetup,
+        droplet: &ActiveDroplet,
+        host: Handle<ActiveDroplet>,
+    ) -> Result<Option<ParticlesInDroplet>, SetupError> {
+        let Some((particles, exchange)) = setup.particles.as_ref().and_then(|all| Some((all, all.exchange?))) else {
+            return Ok(None);
+        };
+        let Some(diffusion) = exchange.diffusion_inside else { return Ok(None) };
+        let density = exchange.number(particles.concentration, droplet.initial_area())? / droplet.initial_area();
+        let grid = || self.method.spacing().unwrap_or(MARKERS_APART * droplet.segment_lengths()[0]);
+        let spacing = exchange.spacing_inside.unwrap_or_else(grid);
+        Ok(Some(ParticlesInDroplet::new(droplet, host, exchange.rates()?, diffusion, |_| density, spacing)?))
     }
 
     /// A droplet of this scene, for scenes that are put together by hand.

@@ -10,7 +10,6 @@ mod file;
 mod fill;
 mod gel;
 mod gel_in_box;
-mod inside;
 mod method;
 mod particles_entry;
 mod places;

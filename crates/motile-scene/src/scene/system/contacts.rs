@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use crate::{
-    FluidView, Hydrodynamics,
+    FluidView, Hydrodynamics, MarkerGroup,
     body::{StepCause, StepLimit},
     gap::{Films, Gaps, REACH, Repulsion, Surfaces, Surroundings},
 };
@@ -58,7 +58,9 @@ impl Contacts {
         self.find_films(bodies, flow, self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale));
         self.closing = self.films.closing(&self.surfaces, bodies.markers.velocities(), THINNEST * scale);
         if let Some(repulsion) = &self.repulsion {
-            self.opening = self.films.relaxation(repulsion, view.viscosity, view.interface_stiffness);
+            let mean = |group: &MarkerGroup| 0.5 * group.viscosities(view.viscosity).iter().sum::<f64>();
+            let least = bodies.markers.groups().iter().map(mean).fold(f64::INFINITY, f64::min);
+            self.opening = self.films.relaxation(repulsion, view.viscosity, view.interface_stiffness / least);
         }
     }
 
