@@ -11,6 +11,7 @@ mod exchange;
 mod fixed_shapes;
 mod gel;
 mod headings;
+mod imposed_flows;
 mod interfaces;
 mod linear_theory;
 mod mirror;

@@ -1,7 +1,7 @@
 //! Hydrodynamics of a scene of interfaces by boundary integrals.
 
 use crate::RigidWall;
-use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2, positive, told_apart};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, positive, told_apart};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers, Warning,
     checkpoint::SavedState, gap::Boundary,
@@ -114,6 +114,18 @@ impl Hydrodynamics for BoundaryIntegral {
 
     fn drive(&self) -> Option<Drive> {
         self.region().drive()
+    }
+
+    fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
+        Ok(self.interfaces.flow.impose(flow, strain)?)
+    }
+
+    fn imposed(&self) -> ImposedFlow {
+        self.interfaces.flow.imposed()
+    }
+
+    fn strain(&self) -> f64 {
+        self.interfaces.flow.strain()
     }
 
     fn walls(&self) -> Option<&Boundary> {

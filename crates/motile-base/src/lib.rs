@@ -49,6 +49,7 @@ mod complex;
 mod drive;
 mod explanation;
 mod flow;
+mod imposed;
 mod input;
 pub mod polygon;
 mod real;
@@ -63,6 +64,7 @@ pub use complex::ComplexTransform;
 pub use drive::Drive;
 pub use explanation::{explanation, told_apart};
 pub use flow::{FlowSample, SolveReport};
+pub use imposed::ImposedFlow;
 pub use input::{
     InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,
 };

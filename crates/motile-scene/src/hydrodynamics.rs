@@ -15,7 +15,7 @@ pub use substrate::Substrate;
 
 use std::borrow::Cow;
 
-use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2};
 use serde::{Deserialize, Serialize};
 
 use crate::{FlowError, Warning, gap::Boundary, saved_state::SavedState};
@@ -116,6 +116,29 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
+    /// Imposes a flow in place of the one that there was, with images that it has displaced by a strain (no dimension),
+    /// the time integral of the shear rate; by default only none is possible.
+    ///
+    /// # Errors
+    /// A flow that the method or the region does not have.
+    fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
+        if flow.is_none() && strain == 0.0 {
+            return Ok(());
+        }
+        Err(FlowError::Unsupported { what: "an imposed flow", remedy: "use boundary integrals (the method integral)" })
+    }
+
+    /// The flow that is imposed, which velocities and samples are the sum of it and of the bodies' own; what the drive
+    /// of a channel drives is none of it.
+    fn imposed(&self) -> ImposedFlow {
+        ImposedFlow::NONE
+    }
+
+    /// Strain by which images are displaced (no dimension): one above by that times the period across.
+    fn strain(&self) -> f64 {
+        0.0
+    }
+
     /// The rigid walls and obstacles at rest that there are besides the straight walls of the domain, sorted, with what
     /// is rigid to the left of their sides; by default none.
     fn walls(&self) -> Option<&Boundary> {
@@ -162,6 +185,18 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn drive(&self) -> Option<Drive> {
         self.as_ref().drive()
+    }
+
+    fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
+        self.as_mut().impose(flow, strain)
+    }
+
+    fn imposed(&self) -> ImposedFlow {
+        self.as_ref().imposed()
+    }
+
+    fn strain(&self) -> f64 {
+        self.as_ref().strain()
     }
 
     fn walls(&self) -> Option<&Boundary> {

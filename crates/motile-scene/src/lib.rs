@@ -33,6 +33,7 @@ mod error;
 pub mod gap;
 mod hydrodynamics;
 pub mod integrator;
+mod observables;
 pub mod points;
 mod saved_state;
 mod scene;
@@ -44,4 +45,5 @@ pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers,
     Substrate,
 };
-pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System, Warnings};
+pub use observables::{Deformation, Stress};
+pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

@@ -14,7 +14,7 @@ pub use run::{Every, Observer, Run};
 pub(crate) use step_control::StepControl;
 pub use step_control::StepSize;
 pub(crate) use system::Findings;
-pub use system::System;
+pub use system::{Imposed, System};
 pub use warnings::Warnings;
 
 use motile_base::{InputError, finite, positive};
@@ -96,6 +96,16 @@ impl<H: Hydrodynamics> Scene<H> {
     pub fn held_symmetric(mut self) -> Result<Self, SceneError> {
         self.mirror = Some(Mirror::of(&mut self.system)?);
         Ok(self)
+    }
+
+    /// Imposes a flow from now on, in place of the one that there was (none at the start): an
+    /// [`ImposedFlow`](motile_base::ImposedFlow), or [`Imposed::of_time`]. In a box a shear displaces the periodic
+    /// images, so that its strain is part of the state.
+    ///
+    /// # Errors
+    /// [`SceneError::Flow`] for a flow that the method or the region does not have.
+    pub fn impose(&mut self, flow: impl Into<Imposed>) -> Result<(), SceneError> {
+        self.system.impose(flow.into())
     }
 
     /// Adds a body; the handle gives it back.

@@ -2,6 +2,8 @@
 //! [`crate::setup`] and in the crates of the parts.
 
 pub use crate::SetupError;
-pub use crate::setup::{Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup};
+pub use crate::setup::{
+    Built, DropletSetup, FlowSetup, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup,
+};
 pub use motile_base::{Drive, Region, Vec2};
 pub use motile_scene::{Every, Scene, SceneError, StepSize};

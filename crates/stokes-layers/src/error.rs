@@ -85,6 +85,14 @@ pub enum LayerError {
     /// Rigid walls in a region that is no channel.
     #[error("rigid walls and obstacles need a channel around them: use a channel wider than they are")]
     NoChannel,
+    /// A flow imposed on a region that does not have it.
+    #[error("{flow} is not possible: {remedy}")]
+    NoSuchFlow {
+        /// The flow and the region.
+        flow: &'static str,
+        /// Alternative.
+        remedy: &'static str,
+    },
     /// Rigid walls that cross or touch each other, or themselves.
     #[error("wall {first} crosses or touches wall {second} near ({x}, {y}): leave fluid between them")]
     WallsCross {

@@ -4,7 +4,7 @@ mod equation;
 mod interface;
 mod rigid;
 
-use motile_base::{Vec2, positive, same_length, within};
+use motile_base::{Vec2, finite, positive, same_length, within};
 
 use crate::images::Images;
 use crate::{
@@ -19,7 +19,7 @@ use crate::{
 };
 use equation::Equation;
 pub use interface::{Inside, Interface};
-use motile_base::{Drive, FlowSample, Region};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region};
 use rigid::RigidWalls;
 
 /// Largest ratio of viscosities: with round-off of 1e-16 velocities are then right to 1e-8.
@@ -131,6 +131,48 @@ impl InterfaceFlow {
             RigidWalls::new(&mut self.layers, &mut self.sampler, [length, width], drive, self.viscosity, walls)?;
         self.walls = Some(Box::new(walls));
         Ok(self)
+    }
+
+    /// Imposes a flow in place of the one that there was: in the plane any one, in a channel that of walls that slide
+    /// ([`ImposedFlow::couette`]), a prescribed flux then being that of all.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or a flow that does not keep areas; [`LayerError::NoSuchFlow`] for a flow that the
+    /// region does not have.
+    pub fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), LayerError> {
+        flow.check()?;
+        finite("the strain of the images", strain)?;
+        let refuse = |flow, remedy| Err(LayerError::NoSuchFlow { flow, remedy });
+        let along = ImposedFlow { velocity: [flow.velocity[0], 0.0], ..ImposedFlow::shear(flow.shear_rate()) };
+        match self.region {
+            _ if flow.is_none() => {}
+            Region::Plane => {}
+            Region::Box { .. } => return refuse("a flow imposed on a box", "use the plane"),
+            Region::Channel { .. } if flow != along => {
+                return refuse(
+                    "a flow that is not that of sliding walls, imposed on a channel",
+                    "let the walls slide, prescribe a pressure gradient or a flux, or use the plane",
+                );
+            }
+            Region::Channel { .. } if self.walls.is_some() => {
+                return refuse("sliding walls behind rigid walls", "leave one of them out");
+            }
+            Region::Channel { .. } => {}
+        }
+        self.layers.imposed = flow;
+        Ok(())
+    }
+
+    /// Strain by which the images of a box are displaced (no dimension).
+    #[must_use]
+    pub fn strain(&self) -> f64 {
+        0.0
+    }
+
+    /// The imposed flow, without what the drive of a channel drives.
+    #[must_use]
+    pub fn imposed(&self) -> ImposedFlow {
+        self.layers.imposed
     }
 
     /// Forces of the rigid walls on the fluid (force), wall by wall, from the last solution; those by which a pressure
@@ -262,10 +304,16 @@ impl InterfaceFlow {
             self.respond();
             self.equation.add_flow(&self.layers);
         }
-        for ((right, mobility), curve) in self.equation.right_sides().zip(&self.layers.curves) {
-            for (value, z) in right[..nodes].iter_mut().zip(&curve.nodes.position) {
-                let [forced, _] = self.layers.forced_flow(z.im + curve.centre.im, self.viscosity);
-                *value += forced * self.viscosity * mobility;
+        let forced = self.layers.forced_flow(self.viscosity);
+        if !forced.is_none() {
+            for ((right, mobility), curve) in self.equation.right_sides().zip(&self.layers.curves) {
+                let (along, across) = right.split_at_mut(nodes);
+                for ((u, v), z) in along.iter_mut().zip(across).zip(&curve.nodes.position) {
+                    let z = z + curve.centre;
+                    let velocity = forced.velocity_at(Vec2::new(z.re, z.im));
+                    *u += velocity.x * self.viscosity * mobility;
+                    *v += velocity.y * self.viscosity * mobility;
+                }
             }
         }
         let Outcome { iterations, residual } = self.solve_equation()?;

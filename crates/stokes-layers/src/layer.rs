@@ -28,7 +28,7 @@ use crate::{
 };
 use close::CloseCorrection;
 pub(crate) use close::Crossing;
-use motile_base::{Drive, Region};
+use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
 
 /// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
@@ -46,6 +46,8 @@ pub(crate) struct Layers {
     direct: DirectSums,
     multipoles: Multipoles,
     pub(crate) walls: Option<Walls>,
+    /// The imposed flow, without what the drive of a channel drives.
+    pub(crate) imposed: ImposedFlow,
     close: CloseCorrection,
     /// Flow of the last layer at the nodes.
     pub(crate) flow: Vec<Vectors>,
@@ -78,6 +80,7 @@ impl Layers {
             direct: DirectSums::default(),
             multipoles: Multipoles::new(region, tolerance)?,
             walls,
+            imposed: ImposedFlow::NONE,
             close: CloseCorrection::new(tolerance, symmetry),
             flow: Vec::new(),
             fine: Vec::new(),
@@ -240,10 +243,12 @@ impl Layers {
         close.add_dipoles(density, flow);
     }
 
-    /// Velocity (length per time) and shear rate (1/time) at the height y of the flow that the drive of a channel
-    /// drives in fluid of that viscosity.
-    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> [f64; 2] {
-        self.walls.as_ref().map_or([0.0; 2], |walls| walls.forced_flow(y, viscosity))
+    /// The imposed flow together with what the drive of a channel drives in fluid of that viscosity.
+    pub(crate) fn forced_flow(&self, viscosity: f64) -> ImposedFlow {
+        match &self.walls {
+            Some(walls) => self.imposed + walls.driven_flow(&self.imposed, viscosity),
+            None => self.imposed,
+        }
     }
 
     /// Prescribes the mean pressure gradient along a channel (force per volume).
@@ -271,7 +276,9 @@ impl Layers {
 
     /// Mean pressure gradient along a channel (force per volume), zero elsewhere.
     pub(crate) fn pressure_gradient(&self, density: Density<'_>, viscosity: f64) -> f64 {
-        self.walls.as_ref().map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, viscosity))
+        self.walls
+            .as_ref()
+            .map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, &self.imposed, viscosity))
     }
 
     /// Interpolates velocities to the fine nodes.

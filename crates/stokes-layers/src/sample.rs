@@ -35,7 +35,7 @@ impl Sampler {
         Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default() }
     }
 
-    /// Writes the flow at points, the single layer less the double layer and the forced flow of a channel. Fluid inside
+    /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside
     /// a curve, or outside of all, has the viscosity `viscosity(curve)`; the curves that have a motion are rigid
     /// bodies.
     pub(crate) fn sample(
@@ -55,6 +55,9 @@ impl Sampler {
             walls.prepare_points(&layers.curves, density, &layers.fine, points.clone());
         }
         let exterior = viscosity(None);
+        let forced = layers.forced_flow(exterior);
+        // The mean pressure gradient of a channel is no part of a sample.
+        let pressure_slope = exterior * layers.imposed.bend;
         for (index, (point, out)) in points.zip(out).enumerate() {
             let (flow, inside) = self.flow_at(layers, index, point, density);
             if let Some(motion) = inside.and_then(&motion) {
@@ -65,13 +68,18 @@ impl Sampler {
             }
             let viscosity = viscosity(inside);
             let scale = 1.0 / (4.0 * PI * viscosity);
-            let [forced, shear] = layers.forced_flow(point.im, exterior).map(|value| value * exterior / viscosity);
+            let place = Vec2::new(point.re, point.im);
+            let share = exterior / viscosity;
             *out = FlowSample {
-                velocity: Vec2::new(flow.velocity.re * scale + forced, flow.velocity.im * scale),
-                pressure: flow.pressure / (4.0 * PI),
+                velocity: Vec2::new(flow.velocity.re * scale, flow.velocity.im * scale)
+                    + forced.velocity_at(place) * share,
+                pressure: flow.pressure / (4.0 * PI) + pressure_slope * place.x,
                 gradient: flow.gradient().map(|row| row.map(|slope| slope * scale)),
             };
-            out.gradient[0][1] += shear;
+            let forced = forced.gradient_at(place);
+            for (row, forced) in out.gradient.iter_mut().zip(forced) {
+                row.iter_mut().zip(forced).for_each(|(slope, forced)| *slope += forced * share);
+            }
         }
     }
 

@@ -33,6 +33,8 @@ pub enum ReferenceFile {
     CurvedWalls,
     /// Flux and forces on curved walls of fixed shapes between them.
     CurvedWallsGlobal,
+    /// Drops, capsules and rigid ellipses in imposed flows.
+    ImposedFlows,
 }
 
 impl ReferenceFile {
@@ -51,6 +53,7 @@ impl ReferenceFile {
             Self::ChannelSwimmers => include_str!("../../reference/channel_steady_swimmer.csv"),
             Self::ChannelStability => include_str!("../../reference/channel_lateral_stability.csv"),
             Self::CurvedWalls => include_str!("../../reference/curved_walls_velocities.csv"),
+            Self::ImposedFlows => include_str!("../../reference/imposed_flows.csv"),
             Self::CurvedWallsGlobal => include_str!("../../reference/curved_walls_global.csv"),
         }
     }

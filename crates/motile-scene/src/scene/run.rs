@@ -219,8 +219,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
             let Some(tolerance) = self.tolerance() else {
                 self.scene.step(dt)?;
                 self.scene.report.count(dt, dt < wanted, reason, &body);
-                self.arrive(dt, remaining, goal);
-                return Ok(());
+                return self.arrive(dt, remaining, goal);
             };
             match self.scene.attempt(dt, Some(tolerance)) {
                 Ok(error) => {
@@ -232,8 +231,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
                             self.scene.control.next = next.max(self.scene.control.next);
                         }
                         self.scene.report.count(dt, shortened, reason, &body);
-                        self.arrive(dt, remaining, goal);
-                        return Ok(());
+                        return self.arrive(dt, remaining, goal);
                     }
                     self.scene.report.rejections += 1;
                     cause = None;
@@ -273,10 +271,8 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
     }
 
     /// A step of length `dt` that had to take `remaining` ends at `goal`, without round-off.
-    fn arrive(&mut self, dt: f64, remaining: f64, goal: f64) {
-        if dt == remaining {
-            self.scene.system_mut().set_time(goal);
-        }
+    fn arrive(&mut self, dt: f64, remaining: f64, goal: f64) -> Result<(), SceneError> {
+        if dt == remaining { self.scene.system_mut().set_time(goal) } else { Ok(()) }
     }
 
     /// The bound on the next step (time), what sets it, and of which body; `None` where there is none.

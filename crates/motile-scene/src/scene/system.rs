@@ -7,6 +7,7 @@ mod forces;
 mod gaps;
 mod guests;
 mod handles;
+mod imposed;
 mod state;
 
 use crate::{
@@ -18,6 +19,8 @@ use crate::{
 use bodies::Bodies;
 use contacts::Contacts;
 pub(crate) use findings::Findings;
+use imposed::Background;
+pub use imposed::Imposed;
 use motile_base::{Drive, FlowSample, SolveReport, Vec2};
 
 /// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and
@@ -78,6 +81,7 @@ pub struct System<H> {
     pub(crate) findings: Findings,
     report: SolveReport,
     known: Known,
+    background: Background,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -90,6 +94,7 @@ impl<H: Hydrodynamics> System<H> {
             findings: Findings::default(),
             report: SolveReport::default(),
             known: Known::Nothing,
+            background: Background::none(),
         }
     }
 
@@ -115,8 +120,9 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Takes the round-off of summed steps off the time.
-    pub(crate) fn set_time(&mut self, time: f64) {
+    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), SceneError> {
         self.clock.time = time;
+        self.set_flow_time()
     }
 
     /// A step is over and stays.
@@ -177,6 +183,7 @@ impl<H: Hydrodynamics> System<H> {
             Drive::ZeroFlux => ("the imposed flux", 0.0),
             Drive::Flux(flux) => ("the imposed flux", flux),
         }));
+        properties.extend(self.flow_properties());
         if let Some(repulsion) = &self.contacts.repulsion {
             properties.push(("the strength of the repulsion", repulsion.strength()));
             properties.push(("the range of the repulsion", repulsion.range()));
@@ -207,6 +214,7 @@ impl<H: Hydrodynamics> System<H> {
         // Later on bodies have saved how fast they move.
         self.clock = Clock { time, steps, first_step: steps == 0 };
         self.hydrodynamics.load(flow);
+        self.set_flow_time()?;
         let view = self.hydrodynamics.fluid_view();
         self.bodies.try_each(time, |_, body, _| bodies.next().map_or(Ok(()), |saved| body.load(&view, saved)))?;
         self.find_gaps();

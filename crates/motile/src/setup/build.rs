@@ -7,8 +7,8 @@ use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
 use interior_fields::{GelInBox, ParticlesInDroplet};
-use motile_base::{Region, Vec2};
-use motile_scene::{Body, Handle, Hydrodynamics, Scene};
+use motile_base::{Region, Vec2, polygon};
+use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
@@ -68,6 +68,9 @@ impl Setup {
         if let Some(bound) = self.least_gap {
             scene = scene.with_least_gap(bound).map_err(motile_scene::FlowError::from)?;
         }
+        if !self.flow.is_none() {
+            scene.impose(self.flow.imposed(&self.region)?)?;
+        }
         for (k, plan) in plans.into_iter().enumerate() {
             (plan.add)(&mut scene).map_err(keyed(k))?;
         }
@@ -115,7 +118,7 @@ impl Setup {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let markers = curve.markers(self.marker_count(&curve, &droplet.name)?)?;
+        let markers = self.outline(&curve, &droplet.name)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -150,6 +153,20 @@ impl Setup {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
         })
+    }
+
+    /// Markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, the area of the
+    /// smooth curve through them is that of the outline; otherwise, as on grids, that of the polygon is.
+    pub(super) fn outline(&self, curve: &Curve, name: &str) -> Result<Vec<Vec2>, SetupError> {
+        let mut markers = curve.markers(self.marker_count(curve, name)?)?;
+        if !self.flow.is_none() {
+            let still = vec![Vec2::ZERO; markers.len()];
+            let Deformation { area, centroid, .. } =
+                Deformation::of(&markers, &still).map_err(motile_scene::FlowError::from)?;
+            let factor = (polygon::area(&markers) / area).sqrt();
+            markers.iter_mut().for_each(|marker| *marker = centroid + factor * (*marker - centroid));
+        }
+        Ok(markers)
     }
 
     /// Number of markers of a body's outline.

@@ -41,6 +41,10 @@ impl Setup {
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
         }
+        self.flow.check(self)?;
+        if !self.flow.is_none() {
+            self.computed("imposed flows", &[MethodKind::Integral])?;
+        }
         if !self.walls.is_empty() {
             self.computed("rigid walls that stand in a channel", &[MethodKind::Integral])?;
         }

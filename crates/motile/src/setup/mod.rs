@@ -8,6 +8,7 @@ mod droplet;
 #[cfg(feature = "toml")]
 mod file;
 mod fill;
+mod flow;
 mod gel;
 mod gel_in_box;
 mod method;
@@ -20,6 +21,7 @@ mod wall;
 
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particles, Squeezed, Start};
+pub use flow::{FlowSetup, PoiseuilleSetup};
 pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
 pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
@@ -72,6 +74,9 @@ pub struct Setup {
     pub method: Method,
     /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
+    /// A flow that is imposed from outside.
+    #[serde(skip_serializing_if = "FlowSetup::is_none")]
+    pub flow: FlowSetup,
     /// Length of the steps of runs.
     pub step: StepSize,
     /// Integrator of the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids.
@@ -111,6 +116,7 @@ impl Default for Setup {
             region: Region::Box { lengths: [6.0, 6.0] },
             method: Method::default(),
             viscosity: 100.0,
+            flow: FlowSetup::default(),
             step: StepSize::default(),
             integrator: IntegratorKind::default(),
             repulsion: None,

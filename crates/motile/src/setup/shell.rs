@@ -63,7 +63,7 @@ impl BodySetup for ShellSetup {
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
         let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
-        let markers = curve.markers(setup.marker_count(&curve, &self.name)?)?;
+        let markers = setup.outline(&curve, &self.name)?;
         let mut shell = Shell::new(&markers, self.stretching, self.bending)?.named(&self.name);
         if let Some(curvature) = self.reference_curvature {
             shell = shell.with_reference_curvature(curvature)?;

@@ -16,7 +16,7 @@ use crate::{
     plan::Plan,
     transforms::REFINEMENT,
 };
-use motile_base::Drive;
+use motile_base::{Drive, ImposedFlow};
 
 /// Part of the half width by which a node may lie beyond a wall: round-off of positions that touch it, which are sums
 /// of some thousand steps.
@@ -193,23 +193,33 @@ impl Walls {
         self.add_modes(out);
     }
 
-    /// Velocity (length per time) and shear rate (1/time) at the height y of the parabolic flow that the forcing
-    /// drives.
-    pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> [f64; 2] {
+    /// The parabolic flow that the drive drives besides an imposed one.
+    pub(crate) fn driven_flow(&self, imposed: &ImposedFlow, viscosity: f64) -> ImposedFlow {
         let h = self.half;
         let factor = match self.drive.flux() {
             None => -self.drive.gradient() / (2.0 * viscosity),
-            Some(flux) => 0.75 * flux / (h * h * h),
+            Some(flux) => 0.75 * (flux - self.flux(imposed)) / (h * h * h),
         };
-        [factor * (h * h - y * y), -2.0 * factor * y]
+        ImposedFlow { velocity: [factor * (h * h), 0.0], bend: -2.0 * factor, ..ImposedFlow::NONE }
+    }
+
+    /// Flux of the imposed flow through the channel (area per time), which walls that slide have.
+    fn flux(&self, imposed: &ImposedFlow) -> f64 {
+        2.0 * self.half * imposed.velocity[0]
     }
 
     /// Mean pressure gradient along x (force per volume).
-    pub(crate) fn pressure_gradient(&self, curves: &[Curve], density: Density<'_>, viscosity: f64) -> f64 {
+    pub(crate) fn pressure_gradient(
+        &self,
+        curves: &[Curve],
+        density: Density<'_>,
+        imposed: &ImposedFlow,
+        viscosity: f64,
+    ) -> f64 {
         let h = self.half;
         let Some(flux) = self.drive.flux() else { return self.drive.gradient() };
         let sum = self.force_moment(curves) - self.dipole_moment(curves, density);
-        1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * flux)
+        1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * (flux - self.flux(imposed)))
     }
 
     /// Sum of (h^2 - y^2) F_x (force times area): 2 l eta times the flux of the forces at zero mean pressure gradient.

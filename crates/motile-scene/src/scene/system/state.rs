@@ -5,13 +5,14 @@ use crate::{Hydrodynamics, SceneError, integrator::Dynamics};
 
 impl<H: Hydrodynamics> Dynamics for System<H> {
     fn state_len(&self) -> usize {
-        self.bodies.list.iter().map(|body| body.state_len()).sum()
+        self.bodies.list.iter().map(|body| body.state_len()).sum::<usize>() + self.clock_len()
     }
 
     fn write_state(&self, state: &mut Vec<f64>) {
         state.resize(self.state_len(), 0.0);
         let mut rest = state.as_mut_slice();
         self.bodies.list.iter().for_each(|body| body.write_state(part(&mut rest, body.as_ref())));
+        self.write_clock(rest);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
@@ -19,19 +20,20 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
         let mut rest = state;
         self.bodies.try_each(self.clock.time, |_, body, _| {
             body.read_state(rest.split_off(..body.state_len()).unwrap_or_default())
-        })
+        })?;
+        self.read_clock(rest)
     }
 
     fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
         self.read_state(state)?;
         self.compute_flow()?;
-        self.bodies.write_rates(rate);
+        self.write_rates(rate);
         Ok(())
     }
 
     fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
         self.evaluate()?;
-        self.bodies.write_rates(rate);
+        self.write_rates(rate);
         Ok(())
     }
 
@@ -67,7 +69,15 @@ impl<H: Hydrodynamics> System<H> {
         let mut rest = state;
         self.bodies.try_each(self.clock.time, |index, body, _| {
             body.read_state(rest.split_off(..lengths[index]).unwrap_or_default())
-        })
+        })?;
+        self.read_clock(rest)
+    }
+
+    /// Writes the explicit rates of all bodies and of the clock.
+    fn write_rates(&mut self, rate: &mut [f64]) {
+        let (bodies, clock) = rate.split_at_mut(rate.len() - self.clock_len());
+        self.bodies.write_rates(bodies);
+        self.write_clock_rate(clock);
     }
 
     pub(crate) fn write_lengths(&self, lengths: &mut Vec<usize>) {

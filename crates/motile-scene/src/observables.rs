@@ -1,0 +1,21 @@
+//! What can be measured on bodies of any kind: deformations and stresses.
+
+mod deformation;
+mod stress;
+
+use crate::{Body, Handle, Hydrodynamics, SceneError, System};
+
+pub use deformation::Deformation;
+pub use stress::Stress;
+
+impl<H: Hydrodynamics> System<H> {
+    /// Deformation of a body that is a closed curve, and its motion along itself, in the present state.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`]; those of [`System::evaluate`]; a body of fewer than eight markers.
+    pub fn deformation(&mut self, handle: impl Into<Handle<dyn Body>>) -> Result<Deformation, SceneError> {
+        self.evaluate()?;
+        let flow = self.flow_at(handle)?;
+        Ok(Deformation::of(flow.positions, flow.velocities)?)
+    }
+}

@@ -1,0 +1,136 @@
+//! Descriptions of imposed flows.
+
+use motile_base::{ImposedFlow, Region};
+use motile_scene::FlowError;
+use serde::{Deserialize, Serialize};
+
+use super::{Setup, checked::Checked};
+use crate::SetupError;
+
+/// A flow that is imposed from outside, the sum of its parts: linear flows and a Poiseuille flow in the plane, a shear
+/// in a box, the flow of sliding walls in a channel (whose pressure gradient or flux is the `drive` of the region).
+/// Velocities of bodies and samples are those of the whole flow.
+///
+/// ```
+/// use motile::prelude::*;
+///
+/// // A drop of the fluid around it in a shear flow, at a capillary number of 0.1.
+/// let setup = Setup {
+///     region: Region::Plane,
+///     viscosity: 1.0,
+///     flow: FlowSetup { shear: 1.0, ..FlowSetup::default() },
+///     droplets: vec![DropletSetup::passive(10.0)],
+///     ..Setup::default()
+/// };
+/// let Built { mut scene, droplets, .. } = setup.build()?;
+/// scene.run(12.0).go()?;
+/// let seen = scene.system_mut().deformation(droplets[0])?;
+/// println!("deformation {:.4}, angle {:.1} degrees", seen.by_moments, seen.angle_of_moments.to_degrees());
+/// assert!((seen.by_moments - 0.09927).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FlowSetup {
+    /// Shear rate G of `u = (G y, 0)` (1/time).
+    pub shear: f64,
+    /// Extension rate E of `u = (E x, -E y)` (1/time).
+    pub extension: f64,
+    /// Angular velocity W of `u = W (-y, x)` (1/time), counter-clockwise.
+    pub rotation: f64,
+    /// A Poiseuille flow along x in the plane.
+    pub poiseuille: Option<PoiseuilleSetup>,
+    /// Velocities along x of the walls of a channel, the lower one first (length per time).
+    pub wall_velocity: Option<[f64; 2]>,
+}
+
+/// The Poiseuille flow `u = U (1 - y^2/h^2)` along x.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PoiseuilleSetup {
+    /// Velocity U in its middle, y = 0 (length per time).
+    pub speed: f64,
+    /// Distance h from its middle at which it is zero (length).
+    pub half_width: f64,
+}
+
+impl FlowSetup {
+    /// True where there is no flow.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The flow in a region.
+    ///
+    /// # Errors
+    /// A half width that is not positive and finite.
+    pub fn imposed(&self, region: &Region) -> Result<ImposedFlow, SetupError> {
+        let mut flow = ImposedFlow::shear(self.shear)
+            + ImposedFlow::extension(self.extension)
+            + ImposedFlow::rotation(self.rotation);
+        if let Some(PoiseuilleSetup { speed, half_width }) = self.poiseuille {
+            flow = flow + ImposedFlow::poiseuille(speed, half_width).map_err(FlowError::from)?;
+        }
+        if let (Some(walls), &Region::Channel { width, .. }) = (self.wall_velocity, region) {
+            flow = flow + ImposedFlow::couette(walls, width);
+        }
+        Ok(flow)
+    }
+
+    /// Refuses numbers that are not finite, and parts that the region does not have.
+    pub(super) fn check(&self, setup: &Setup) -> Result<(), SetupError> {
+        let checked = Checked { place: "flow" };
+        let linear = [("shear", self.shear), ("extension", self.extension), ("rotation", self.rotation)];
+        for (key, value) in linear {
+            checked.finite(key, value)?;
+        }
+        if let Some(PoiseuilleSetup { speed, half_width }) = self.poiseuille {
+            checked.finite("poiseuille.speed", speed)?;
+            checked.positive("poiseuille.half-width", half_width)?;
+        }
+        for (number, velocity) in self.wall_velocity.into_iter().flatten().enumerate() {
+            checked.finite(&format!("wall-velocity[{number}]"), velocity)?;
+        }
+        match setup.region {
+            Region::Plane => {}
+            Region::Box { .. } => {
+                if let Some((key, value)) = linear.into_iter().skip(1).find(|(_, value)| *value != 0.0) {
+                    let remedy = "the images of a box can be sheared along x only: give shear, or the region \"plane\"";
+                    return checked.refuse(key, &value, remedy);
+                }
+                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
+                    let remedy = "it does not continue periodically across a box: give the region \"plane\", or a \
+                                  channel with a flux";
+                    return checked.refuse("poiseuille.speed", &speed, remedy);
+                }
+            }
+            Region::Channel { width, .. } => {
+                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
+                    let slide = 0.5 * value * width;
+                    let remedy = if key == "shear" {
+                        format!("the walls of a channel hold it fast: give wall-velocity = [{}, {slide}]", -slide)
+                    } else {
+                        "a channel with straight walls has none: give the region \"plane\"".to_owned()
+                    };
+                    return checked.refuse(key, &value, remedy);
+                }
+                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
+                    let flux = 2.0 / 3.0 * speed * width;
+                    let remedy = format!("give region.channel.drive = {{ flux = {flux} }} in its place");
+                    return checked.refuse("poiseuille.speed", &speed, remedy);
+                }
+            }
+        }
+        if let (Some([below, above]), false) = (self.wall_velocity, matches!(setup.region, Region::Channel { .. })) {
+            let remedy = "only a channel has walls that slide: give shear in its place, or a channel";
+            return checked.refuse("wall-velocity", &format!("[{below}, {above}]"), remedy);
+        }
+        if self.wall_velocity.is_some() && !setup.walls.is_empty() {
+            let remedy = "the walls of the channel lie behind the walls in it, or beside obstacles at rest: leave one \
+                          of them out";
+            return checked.refuse("wall-velocity", &"given", remedy);
+        }
+        Ok(())
+    }
+}
