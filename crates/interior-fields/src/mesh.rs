@@ -1,25 +1,27 @@
 //! Triangular mesh inside a droplet that follows the interface.
 
+mod ring;
+
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{Vec2, at_least, positive};
+use motile_base::{PeriodicSeries, Vec2, at_least, positive};
 
 use crate::InteriorError;
+use ring::{Ring, RingValues};
 
 /// Growth of the spacing from one ring to the next inner one, up to the spacing asked for.
 const GROWTH: f64 = 1.25;
 /// Distance of rings over the spacing of their nodes: the height sqrt(3)/2 of equilateral triangles.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
-/// Largest number of nodes, and of weights, one for each inner node and marker: 800 MB.
+/// Largest number of nodes.
 const MOST_NODES: usize = 1 << 17;
-const MOST_WEIGHTS: f64 = 1e8;
 
 /// Triangulation of the inside of a closed curve of M markers: the first M nodes are the markers, the others lie on
 /// rings within.
 ///
 /// Inner nodes lie where the harmonic map takes them that has the markers' positions on the boundary of the unit disc:
-/// a node at radius r and angle a of the disc lies at `SUM_j w_j x_j`, `w_j = (1/M) SUM_{|k| <= M/2} r^|k| cos k(a - 2
-/// pi j/M)`, Poisson's kernel of the markers' Fourier modes. So the mesh has no state of its own, moves as smoothly as
+/// a node at radius r and angle a of the disc lies at `SUM_k r^|k| x_k exp(i k a)`, x_k the Fourier coefficients of the
+/// markers, |k| < M/2. So the mesh has no state of its own, moves as smoothly as
 /// the interface, follows any translation and stretching exactly, and cannot fold inside a convex curve (Rado, Kneser,
 /// Choquet), nor inside another one as long as its modes are small.
 ///
@@ -27,7 +29,7 @@ const MOST_WEIGHTS: f64 = 1e8;
 /// use interior_fields::DiscMesh;
 /// use motile_base::Vec2;
 ///
-/// let mesh = DiscMesh::new(64, 0.1)?;
+/// let mut mesh = DiscMesh::new(64, 0.1)?;
 /// let circle = |k: usize| Vec2::from_angle(std::f64::consts::TAU * k as f64 / 64.0);
 /// let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(circle).collect();
 /// mesh.place(&mut nodes);
@@ -35,13 +37,13 @@ const MOST_WEIGHTS: f64 = 1e8;
 /// assert!(nodes[64..].iter().all(|node| node.length() < 0.95));
 /// # Ok::<(), interior_fields::InteriorError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct DiscMesh {
     markers: usize,
     nodes: usize,
     triangles: Vec<[usize; 3]>,
-    /// Weights of the markers, inner node after inner node.
-    weights: Vec<f64>,
+    rings: Vec<RingValues>,
+    series: PeriodicSeries,
 }
 
 impl DiscMesh {
@@ -49,35 +51,33 @@ impl DiscMesh {
     /// `spacing`, in units of the radius of a circle of the curve's length.
     ///
     /// # Errors
-    /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes or 1e8 weights.
+    /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes.
     pub fn new(markers: usize, spacing: f64) -> Result<Self, InteriorError> {
         at_least("markers", markers, 8)?;
         positive("the spacing of the mesh inside", spacing)?;
         let first = TAU / markers as f64;
         let coarsest = spacing.max(first).min(0.5);
         let estimate = markers as f64 + PI / (HEIGHT * coarsest * coarsest) + 4.0 * markers as f64;
-        if estimate > MOST_NODES as f64 || estimate * markers as f64 > MOST_WEIGHTS {
+        if estimate > MOST_NODES as f64 {
             return Err(InteriorError::TooFine { nodes: estimate, most: MOST_NODES });
         }
-        let rings = rings(first, coarsest);
-        let (mut triangles, mut weights) = (Vec::new(), Vec::new());
+        let sizes = sizes(first, coarsest);
+        let (mut triangles, mut rings) = (Vec::new(), Vec::new());
         let mut outer = Ring { start: 0, count: markers, turn: 0.0 };
-        for (number, &(radius, spacing)) in rings.iter().enumerate() {
+        for (number, &(radius, spacing)) in sizes.iter().enumerate() {
             let count = ((TAU * radius / spacing).round() as usize).clamp(3, outer.count);
             // Half a spacing from ring to ring, so that triangles are closer to equilateral.
             let turn = outer.turn + PI / count as f64;
             let inner = Ring { start: outer.start + outer.count, count, turn };
             stitch(&outer, &inner, &mut triangles);
-            for node in 0..count {
-                add_weights(radius, inner.angle(node), markers, &mut weights);
-            }
-            if number + 1 == rings.len() {
+            rings.push(RingValues::new(&inner, radius, markers)?);
+            if number + 1 == sizes.len() {
                 let first = inner.start;
                 triangles.extend((2..count).map(|k| [first, first + k - 1, first + k]));
             }
             outer = inner;
         }
-        Ok(Self { markers, nodes: outer.start + outer.count, triangles, weights })
+        Ok(Self { markers, nodes: outer.start + outer.count, triangles, rings, series: PeriodicSeries::new(markers)? })
     }
 
     /// Number M of markers, which are the first nodes.
@@ -100,46 +100,31 @@ impl DiscMesh {
 
     /// Positions (length) or velocities (length per time) of inner nodes from those of the markers: fills the entries
     /// after the first M of a list for all nodes. Lists of another length are left as they are.
-    pub fn place(&self, nodes: &mut [Vec2]) {
-        if nodes.len() != self.nodes {
+    pub fn place(&mut self, nodes: &mut [Vec2]) {
+        let Some((markers, mut inner)) = nodes.split_at_mut_checked(self.markers) else { return };
+        if self.markers + inner.len() != self.nodes || self.series.analyse_vectors(markers).is_err() {
             return;
         }
-        let (markers, inner) = nodes.split_at_mut(self.markers);
-        for (node, weights) in inner.iter_mut().zip(self.weights.chunks_exact(self.markers)) {
-            *node = weights.iter().zip(&*markers).map(|(weight, marker)| *weight * *marker).sum();
+        for ring in &mut self.rings {
+            let (nodes, rest) = inner.split_at_mut(ring.len());
+            ring.write(&self.series, nodes);
+            inner = rest;
         }
-    }
-}
-
-/// Nodes on a circle: number of the first one, number of nodes, angle of the first one.
-struct Ring {
-    start: usize,
-    count: usize,
-    turn: f64,
-}
-
-impl Ring {
-    fn angle(&self, node: usize) -> f64 {
-        self.turn + TAU * node as f64 / self.count as f64
-    }
-
-    fn node(&self, number: usize) -> usize {
-        self.start + number % self.count
     }
 }
 
 /// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the innermost ring is a triangle.
-fn rings(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
+fn sizes(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
     let (mut spacing, mut depth) = (first, 0.0);
-    let mut rings = Vec::new();
+    let mut sizes = Vec::new();
     while 1.0 - depth > spacing {
         spacing = (GROWTH * spacing).min(coarsest);
         depth += HEIGHT * spacing;
-        rings.push((depth, spacing));
+        sizes.push((depth, spacing));
     }
     // A triangle of side s has the radius s/sqrt(3).
     let fit = (1.0 - spacing / 3.0_f64.sqrt()) / depth;
-    rings.into_iter().map(|(depth, spacing)| (1.0 - fit * depth, spacing)).collect()
+    sizes.into_iter().map(|(depth, spacing)| (1.0 - fit * depth, spacing)).collect()
 }
 
 /// Adds the triangles between two rings, advancing on the ring whose next node comes first.
@@ -159,22 +144,6 @@ fn stitch(outer: &Ring, inner: &Ring, triangles: &mut Vec<[usize; 3]>) {
             k += 1;
         }
     }
-}
-
-/// Adds the weights of the markers at a point of the disc.
-fn add_weights(radius: f64, angle: f64, markers: usize, weights: &mut Vec<f64>) {
-    let count = markers as f64;
-    weights.extend((0..markers).map(|j| {
-        let apart = angle - TAU * j as f64 / count;
-        let (sin, cos) = apart.sin_cos();
-        // SUM_k r^k cos(k a) by powers of r e^(ia).
-        let (mut wave, mut sum) = ([radius * cos, radius * sin], 0.0);
-        for k in 1..=markers / 2 {
-            sum += if 2 * k == markers { 0.5 * wave[0] } else { wave[0] };
-            wave = [radius * (wave[0] * cos - wave[1] * sin), radius * (wave[0] * sin + wave[1] * cos)];
-        }
-        (1.0 + 2.0 * sum) / count
-    }));
 }
 
 #[cfg(test)]

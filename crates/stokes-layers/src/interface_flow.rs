@@ -1,6 +1,7 @@
 //! The flow of fluid interfaces: velocities on them from the forces on them, for any viscosity inside and outside.
 
 mod equation;
+mod inside;
 mod interface;
 mod rigid;
 
@@ -18,8 +19,10 @@ use crate::{
     sample::Sampler,
 };
 use equation::Equation;
+use inside::InsideFlow;
 pub use interface::{Inside, Interface};
 use motile_base::{Drive, FlowSample, ImposedFlow, Region};
+use num_complex::Complex64;
 use rigid::RigidWalls;
 
 /// Largest ratio of viscosities: with round-off of 1e-16 velocities are then right to 1e-8.
@@ -89,6 +92,7 @@ pub struct InterfaceFlow {
     motion: Vec<f64>,
     walls: Option<Box<RigidWalls>>,
     sampler: Sampler,
+    inside: InsideFlow,
 }
 
 impl InterfaceFlow {
@@ -103,8 +107,8 @@ impl InterfaceFlow {
         let [velocities, motion] = Default::default();
         let (layers, sampler) =
             (Layers::new(region, settings.tolerance, Symmetry::ToResolution)?, Sampler::new(settings.tolerance));
-        let equation = Equation::new();
-        Ok(Self { region, viscosity, settings, layers, equation, velocities, motion, walls: None, sampler })
+        let (equation, inside) = (Equation::new(), InsideFlow::default());
+        Ok(Self { region, viscosity, settings, layers, equation, velocities, motion, walls: None, sampler, inside })
     }
 
     /// Adds rigid walls and obstacles at rest to a channel, in place of those that there were: open walls with the
@@ -461,6 +465,26 @@ impl InterfaceFlow {
         if walls.is_some() {
             layers.set_gradient(0.0);
         }
+        Ok(())
+    }
+
+    /// Velocities (length per time) at points inside an interface that encloses no others, for the velocities on it
+    /// that were solved for or set; they are all that is needed, whatever lies outside. Spectrally accurate up to the
+    /// interface, and far cheaper than [`InterfaceFlow::sample`], which also gives pressure and gradient, anywhere.
+    ///
+    /// # Errors
+    /// Points that are not finite, slices of different length, no such interface, no solution, no convergence.
+    pub fn velocities_inside(&mut self, interface: usize, points: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
+        same_length("out", points.len(), out.len())?;
+        finite_vectors("the position", 0, points)?;
+        within("the number of an interface", interface as f64, 0.0, self.len() as f64 - 1.0)?;
+        self.check_solved()?;
+        let (range, images) = (self.values(interface), Images::of(&self.region));
+        let Self { layers, inside, velocities, settings, .. } = self;
+        let curve = &layers.curves[interface];
+        let transforms = &mut layers.plans[curve.plan].transforms;
+        inside.prepare(curve, transforms, &velocities[range], settings)?;
+        inside.write(points, |point| images.wrap(Complex64::new(point.x, point.y) - curve.centre), out);
         Ok(())
     }
 

@@ -1,5 +1,7 @@
 //! Projection of fluxes between cells onto those of a given divergence.
 
+use motile_base::{Vec2, dot};
+
 use super::cells::Cells;
 use crate::InteriorError;
 
@@ -14,6 +16,8 @@ const MOST_ENTRIES: usize = 1 << 26;
 #[derive(Debug, Clone)]
 pub(super) struct Projection {
     weights: Vec<f64>,
+    /// Row of each node.
+    places: Vec<usize>,
     /// Column of the first entry of each row and start of the row in the factor; the potential of the last node is 0.
     rows: Vec<(usize, usize)>,
     factor: Vec<f64>,
@@ -21,12 +25,16 @@ pub(super) struct Projection {
 }
 
 impl Projection {
-    pub(super) fn new(cells: &Cells) -> Result<Self, InteriorError> {
+    pub(super) fn new(cells: &Cells, nodes: &[Vec2]) -> Result<Self, InteriorError> {
         let count = cells.areas.len();
+        // In the order of a sweep across the droplet neighbours have numbers that differ little.
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|&i, &j| nodes[i].x.total_cmp(&nodes[j].x));
+        let mut places = vec![0; count];
+        order.iter().enumerate().for_each(|(place, &node)| places[node] = place);
+        let pairs = || cells.edges.iter().map(|edge| edge.map(|node| places[node])).map(|[i, j]| [i.min(j), i.max(j)]);
         let mut firsts: Vec<usize> = (0..count).collect();
-        for &[i, j] in &cells.edges {
-            firsts[j] = firsts[j].min(i);
-        }
+        pairs().for_each(|[i, j]| firsts[j] = firsts[j].min(i));
         let entries: usize = firsts.iter().enumerate().map(|(row, first)| row + 1 - first).sum();
         if entries > MOST_ENTRIES {
             return Err(InteriorError::TooFine { nodes: count as f64, most: count / 2 });
@@ -41,7 +49,7 @@ impl Projection {
             })
             .collect();
         let mut factor = vec![0.0; start];
-        for (&[i, j], weight) in cells.edges.iter().zip(&cells.weights) {
+        for ([i, j], weight) in pairs().zip(&cells.weights) {
             for node in [i, j] {
                 if let Some((first, start)) = rows.get(node) {
                     factor[start + node - first] += weight;
@@ -58,24 +66,22 @@ impl Projection {
                 let from = first.max(other);
                 let before = &factor[start + from - first..start + column - first];
                 let above = &factor[other_start + from - other..other_start + column - other];
-                let sum: f64 = before.iter().zip(above).map(|(a, b)| a * b).sum();
-                let entry = factor[start + column - first] - sum;
+                let entry = factor[start + column - first] - dot(before, above);
                 factor[start + column - first] =
                     if column == row { entry.sqrt() } else { entry / factor[other_start + column - other] };
             }
         }
-        Ok(Self { weights: cells.weights.clone(), rows, factor, potential: vec![0.0; count] })
+        Ok(Self { weights: cells.weights.clone(), places, rows, factor, potential: vec![0.0; count] })
     }
 
     /// Adds to the fluxes the amounts `missing` by which too little leaves each cell (length squared per time), of sum
     /// zero.
     pub(super) fn correct(&mut self, edges: &[[usize; 2]], missing: &[f64], fluxes: &mut [f64]) {
-        let Self { weights, rows, factor, potential } = self;
-        potential.copy_from_slice(missing);
+        let Self { weights, places, rows, factor, potential } = self;
+        places.iter().zip(missing).for_each(|(&place, missing)| potential[place] = *missing);
         for (row, &(first, start)) in rows.iter().enumerate() {
             let (entries, diagonal) = (&factor[start..start + row - first], factor[start + row - first]);
-            let sum: f64 = entries.iter().zip(&potential[first..row]).map(|(entry, x)| entry * x).sum();
-            potential[row] = (potential[row] - sum) / diagonal;
+            potential[row] = (potential[row] - dot(entries, &potential[first..row])) / diagonal;
         }
         for (row, &(first, start)) in rows.iter().enumerate().rev() {
             let value = potential[row] / factor[start + row - first];
@@ -85,7 +91,7 @@ impl Projection {
         }
         potential[rows.len()] = 0.0;
         for ((&[i, j], weight), flux) in edges.iter().zip(&*weights).zip(fluxes) {
-            *flux += weight * (potential[i] - potential[j]);
+            *flux += weight * (potential[places[i]] - potential[places[j]]);
         }
     }
 }

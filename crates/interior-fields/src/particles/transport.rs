@@ -27,28 +27,47 @@ pub(super) struct Transport {
     /// For each node the largest rise and fall of density to a neighbour, the added fluxes that would raise and lower
     /// it, and the sum of the diffusions that its edges lack.
     bounds: Vec<[f64; 5]>,
-    /// Largest flux through the faces of a cell over its area (1/time).
-    pub(super) fastest: f64,
+    pub(super) pace: Pace,
+}
+
+/// How fast the fluid moves relative to the mesh.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pace {
+    /// Largest flux through the faces of a cell, in and out, over its area (1/time).
+    pub(super) turnover: f64,
+    /// Largest speed at a node (length per time).
+    pub(super) speed: f64,
+}
+
+impl Pace {
+    /// Longest stable step (time) of explicit transport beside an implicit diffusion of a constant (length squared per
+    /// time): no cell is emptied, or diffusion outweighs transport at all wave numbers. The midpoint rule multiplies a
+    /// wave of wave number q by `((1 - s)(1 + s) - b^2/2 + i b)/(1 + s)^2`, `s = D q^2 dt/2`, `b = u q dt`, which for
+    /// large s is less than one where `dt < 2 D/u^2`.
+    pub(super) fn longest_step(self, diffusion: f64) -> f64 {
+        // As much as is in a cell leaves it: what flows in has been counted too.
+        (2.0 / self.turnover).max(diffusion / self.speed.powi(2))
+    }
 }
 
 impl Transport {
-    pub(super) fn new(cells: &Cells) -> Result<Self, InteriorError> {
+    pub(super) fn new(cells: &Cells, nodes: &[Vec2]) -> Result<Self, InteriorError> {
         let (count, edges) = (cells.areas.len(), cells.edges.len());
         Ok(Self {
-            projection: Projection::new(cells)?,
+            projection: Projection::new(cells, nodes)?,
             fluxes: vec![0.0; edges],
             growth: vec![0.0; count],
             densities: vec![0.0; count],
             missing: vec![0.0; edges],
             bounds: vec![[0.0; 5]; count],
-            fastest: 0.0,
+            pace: Pace::default(),
         })
     }
 
     /// Takes over the velocities of the fluid and of the nodes at the nodes (length per time).
-    pub(super) fn set_motion(&mut self, cells: &Cells, nodes: &[Vec2], motions: (&[Vec2], &[Vec2])) {
+    pub(super) fn set_motion(&mut self, cells: &Cells, nodes: &[Vec2], (fluid, motion): (&[Vec2], &[Vec2])) {
         let Self { projection, fluxes, growth, .. } = self;
-        cells.write_fluxes(nodes, motions, fluxes, growth);
+        cells.write_fluxes(nodes, (fluid, motion), fluxes, growth);
         // Nothing crosses the interface: the growth of the whole mesh is spread evenly.
         let expansion = growth.iter().sum::<f64>() / cells.areas.iter().sum::<f64>();
         for (growth, area) in growth.iter_mut().zip(&cells.areas) {
@@ -64,7 +83,9 @@ impl Transport {
             growth[i] += flux.abs();
             growth[j] += flux.abs();
         }
-        self.fastest = growth.iter().zip(&cells.areas).map(|(flux, area)| flux / area).fold(0.0, f64::max);
+        let turnover = growth.iter().zip(&cells.areas).map(|(flux, area)| flux / area).fold(0.0, f64::max);
+        let square = fluid.iter().zip(motion).map(|(fluid, motion)| (*fluid - *motion).length_squared());
+        self.pace = Pace { turnover, speed: square.fold(0.0, f64::max).sqrt() };
     }
 
     /// Adds the rates of the numbers of particles (1/time) by transport and by diffusion of a constant (length squared

@@ -70,11 +70,14 @@ impl InterfaceGroups {
         work.iterations += iterations;
         work.most_iterations = work.most_iterations.max(iterations);
         let mut interface = 0;
-        for MarkerGroup { range, kind, .. } in &markers.groups {
+        for MarkerGroup { range, kind, host, .. } in &markers.groups {
             let velocities = &mut markers.velocities[range.clone()];
             if kind.is_closed_curve() {
                 flow.velocities(interface, velocities)?;
                 interface += 1;
+            } else if let Some(host) = *host {
+                let curve = markers.groups[..host].iter().filter(|group| group.kind.is_closed_curve()).count();
+                flow.velocities_inside(curve, &markers.positions[range.clone()], velocities)?;
             } else {
                 samples.resize(range.len(), FlowSample::default());
                 flow.sample(&markers.positions[range.clone()], samples)?;

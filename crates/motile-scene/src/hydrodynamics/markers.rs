@@ -67,6 +67,8 @@ pub struct MarkerGroup {
     /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` where it is
     /// that of the exterior fluid.
     pub viscosity_outside: Option<f64>,
+    /// Group of the interface that they fill, of points that do, where nothing else lies inside.
+    pub host: Option<usize>,
 }
 
 impl MarkerGroup {
@@ -125,7 +127,13 @@ impl Markers {
     /// Adds the markers of a body like [`Markers::push_group`], with its surface ([`crate::Body::surfaces`]).
     pub fn push_body(&mut self, count: usize, kind: MarkerKind, surfaces: Vec<SurfaceCurve>) {
         let start = self.positions.len();
-        self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces, viscosity_outside: None });
+        self.groups.push(MarkerGroup {
+            range: start..start + count,
+            kind,
+            surfaces,
+            viscosity_outside: None,
+            host: None,
+        });
         self.rigid_dipoles.push([[0.0; 2]; 2]);
         self.resize(start + count);
     }
@@ -165,10 +173,10 @@ impl Markers {
         Ok(())
     }
 
-    /// Sets the viscosities outside of all groups in their order ([`Markers::set_viscosity_outside`]).
-    pub(crate) fn set_outside(&mut self, viscosities: &[Option<f64>]) {
-        for (group, viscosity) in self.groups.iter_mut().zip(viscosities) {
-            group.viscosity_outside = *viscosity;
+    /// Sets viscosities outside ([`Markers::set_viscosity_outside`]) and hosts of all groups in their order.
+    pub(crate) fn set_surroundings(&mut self, surroundings: impl Iterator<Item = (Option<f64>, Option<usize>)>) {
+        for (group, (viscosity, host)) in self.groups.iter_mut().zip(surroundings) {
+            (group.viscosity_outside, group.host) = (viscosity, host);
         }
     }
 

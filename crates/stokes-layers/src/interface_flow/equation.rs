@@ -228,7 +228,7 @@ impl Operator<'_> {
 
 /// Adds `lacking` times the mean of v.n along n: moves the eigenvalue of uniform growth, which incompressible flow does
 /// not have, to that of the other motions.
-fn growth(curve: &Curve, lacking: f64, v: &[f64], out: &mut [f64]) {
+pub(super) fn growth(curve: &Curve, lacking: f64, v: &[f64], out: &mut [f64]) {
     let (vx, vy) = v.split_at(curve.len());
     let (x, y) = out.split_at_mut(curve.len());
     let tangents = &curve.nodes.tangent;

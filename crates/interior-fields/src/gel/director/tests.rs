@@ -12,7 +12,7 @@ const PASSIVE: GelMaterial = GelMaterial { frank: 2.0, rotational_viscosity: 3.0
 
 /// A bent disc with a director that turns a lot.
 fn bent(material: GelMaterial, anchoring: Anchoring) -> (Director, Vec<Vec2>) {
-    let mesh = DiscMesh::new(24, 0.3).unwrap();
+    let mut mesh = DiscMesh::new(24, 0.3).unwrap();
     let curve = |k: usize| {
         let angle = TAU * k as f64 / 24.0;
         Vec2::new(1.3 * angle.cos() + 0.1 * (2.0 * angle).cos(), angle.sin())
@@ -107,7 +107,7 @@ fn rods_lie_down_in_a_shear_flow() {
 
 #[test]
 fn defects_are_found_where_they_are() {
-    let mesh = DiscMesh::new(64, 0.1).unwrap();
+    let mut mesh = DiscMesh::new(64, 0.1).unwrap();
     let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(|k| Vec2::from_angle(TAU * k as f64 / 64.0)).collect();
     mesh.place(&mut nodes);
     let places = [Vec2::new(0.413, 0.121), Vec2::new(-0.307, -0.222)];

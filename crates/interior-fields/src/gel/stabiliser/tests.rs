@@ -7,7 +7,7 @@ use crate::{DiscMesh, gel::elements::Elements};
 
 /// On a disc, with the places of the nodes that are not anchored.
 fn frozen(anchored: usize) -> (Stabiliser, Vec<Vec2>) {
-    let mesh = DiscMesh::new(40, 0.2).unwrap();
+    let mut mesh = DiscMesh::new(40, 0.2).unwrap();
     let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(|k| Vec2::from_angle(TAU * k as f64 / 40.0)).collect();
     mesh.place(&mut nodes);
     let mut elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);

@@ -84,7 +84,7 @@ impl Bodies {
             for body in &self.list {
                 self.markers.push_body(body.marker_count(), body.kind(), body.surfaces());
             }
-            self.markers.set_outside(&self.viscosity_around);
+            self.tell_surroundings();
         }
     }
 
@@ -134,7 +134,19 @@ impl Bodies {
             self.viscosity_around[index] =
                 enclosing.take(self.list.len()).find_map(|outer| self.list[outer].kind().viscosity_inside());
         }
-        self.markers.set_outside(&self.viscosity_around);
+        self.tell_surroundings();
+    }
+
+    /// Tells the markers what they lie in.
+    fn tell_surroundings(&mut self) {
+        let Self { guests, enclosing, viscosity_around, markers, .. } = self;
+        let is_guest = |body: usize| guests.iter().any(|&[_, guest]| guest == body);
+        // A guest has its host for itself if no other body lies inside.
+        let alone =
+            |host: usize| enclosing.iter().enumerate().all(|(body, outer)| *outer != Some(host) || is_guest(body));
+        let host_of =
+            |body: usize| guests.iter().find(|&&[host, guest]| guest == body && alone(host)).map(|&[host, _]| host);
+        markers.set_surroundings(viscosity_around.iter().enumerate().map(|(body, outside)| (*outside, host_of(body))));
     }
 
     /// Refuses that a body has come into an interface or out of it since it was last looked for.
