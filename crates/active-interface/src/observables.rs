@@ -8,6 +8,7 @@ mod fourier;
 mod frame;
 mod least_squares;
 mod moments;
+mod polar;
 mod profile;
 mod squirmer;
 
@@ -16,7 +17,11 @@ use motile_scene::{BodyFlow, Enclosed, FluidView, Handle, Hydrodynamics, SceneEr
 
 use crate::curve::polygon::{edges, raw_perimeter};
 use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments};
+use ellipse_fit::raw_ellipse;
+use fourier::{raw_concentration_modes, raw_shape_modes};
 use frame::{aspect_ratio_of, raw_centroid_velocity};
+use polar::PolarMarkers;
+use squirmer::raw_squirmer;
 
 pub use active_region::{ActiveRegion, active_curvature, active_region};
 pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
@@ -131,6 +136,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     let velocity = raw_centroid_velocity(markers, velocities, &area);
     let frame = Frame::of_motion(area.centroid, velocity)?;
 
+    let polar = PolarMarkers::new(markers, &frame);
     let mut moments = force_moments(markers, forces, velocities, viscosities, convention, &frame)?;
     for body in enclosed {
         moments.add_body(body, convention, &frame)?;
@@ -144,21 +150,24 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         inside,
         concentration_range: None,
         aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
-        ellipse: fit_ellipse(markers, &frame).ok(),
+        ellipse: raw_ellipse(markers, &area, &frame).ok(),
         active_region: None,
         active_curvature: None,
         moments,
         convention,
-        squirmer: squirmer_coefficients(markers, velocities, VelocityFrame::CoMoving, &frame)?,
-        squirmer_laboratory: squirmer_coefficients(markers, velocities, VelocityFrame::Laboratory, &frame)?,
-        shape_modes: shape_modes(markers, &frame, MODES)?,
+        squirmer: raw_squirmer(&polar, velocities, velocity, &frame),
+        squirmer_laboratory: raw_squirmer(&polar, velocities, Vec2::ZERO, &frame),
+        shape_modes: raw_shape_modes(&polar, MODES),
         concentration_modes: FourierModes { mean: 0.0, cosines: vec![0.0; MODES], sines: vec![0.0; MODES] },
     };
     if !numbers.is_empty() {
         same_length("numbers", markers.len(), numbers.len())?;
         all_finite("the particle numbers", numbers)?;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
-        record.concentration_modes = concentration_modes(markers, numbers, &frame, MODES)?;
+        if let Some(index) = lengths.iter().position(|length| *length == 0.0) {
+            return Err(InterfaceError::CoincidentPoints { index });
+        }
+        record.concentration_modes = raw_concentration_modes(&polar, numbers, &lengths, MODES);
         record.particle_number = numbers.iter().sum();
         let range = [f64::NEG_INFINITY, f64::INFINITY];
         record.concentration_range = Some(

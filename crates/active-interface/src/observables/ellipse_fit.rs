@@ -4,7 +4,10 @@ use motile_base::{Vec2, at_least};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
 use super::least_squares::NormalEquations;
-use crate::{InterfaceError, curve::polygon_moments};
+use crate::{
+    InterfaceError,
+    curve::{polygon::AreaMoments, polygon_moments},
+};
 
 /// An ellipse with its axes along those of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,9 +41,17 @@ impl EllipseFit {
 /// Fewer than four markers, markers that are not finite or enclose no area, no convergence.
 pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, InterfaceError> {
     at_least("markers", markers.len(), 4)?;
-    let moments = polygon_moments(markers)?;
+    raw_ellipse(markers, &polygon_moments(markers)?, frame)
+}
+
+/// Least squares ellipse through markers whose polygon has these moments.
+pub(super) fn raw_ellipse(
+    markers: &[Vec2],
+    moments: &AreaMoments,
+    frame: &Frame,
+) -> Result<EllipseFit, InterfaceError> {
     let no_fit = InterfaceError::NoFit { what: "an ellipse", points: markers.len() };
-    let ratio = aspect_ratio_of(&moments, frame)?;
+    let ratio = aspect_ratio_of(moments, frame)?;
     let radius = (moments.area.abs() / std::f64::consts::PI).sqrt();
     let centroid = frame.coordinates(moments.centroid);
     let points: Vec<(Vec2, f64)> = markers
@@ -52,19 +63,16 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
     let (mut p, mut q, mut centre) = (ratio.sqrt().recip(), ratio.sqrt(), Vec2::ZERO);
     let mut last = f64::INFINITY;
     for _ in 0..100 {
-        let (mut equations, mut sum, mut weights) = (NormalEquations::new(), 0.0, 0.0);
+        let mut equations = NormalEquations::new();
         for &(point, weight) in &points {
             let r = point - centre;
             let (x, y) = (r.x * p, r.y * q);
-            let rho = x.hypot(y);
+            let rho = (x * x + y * y).sqrt();
             if rho == 0.0 {
                 return Err(no_fit);
             }
-            let row = [x * r.x, y * r.y, -x * p, -y * q].map(|value| value / rho);
-            equations.add(row, weight, rho - 1.0);
-            let distance = r.length() * (1.0 - 1.0 / rho);
-            sum += weight * distance * distance;
-            weights += weight;
+            let (x, y) = (x / rho, y / rho);
+            equations.add([x * r.x, y * r.y, -x * p, -y * q], weight, rho - 1.0);
         }
         let Some(step) = equations.step(0.0) else { return Err(no_fit) };
         // A step may change a half axis by 30 per cent at most.
@@ -75,6 +83,11 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
         centre -= Vec2::new(step[2], step[3]) * scale;
         last = step.iter().fold(0.0, |largest, change| largest.max(change.abs()));
         if last < 1e-13 * (p + q) {
+            let [sum, weights] = points.iter().fold([0.0; 2], |[sum, weights], &(point, weight)| {
+                let r = point - centre;
+                let rho = Vec2::new(r.x * p, r.y * q).length();
+                [sum + weight * r.length_squared() * (1.0 - 1.0 / rho).powi(2), weights + weight]
+            });
             return Ok(EllipseFit {
                 along: radius / p,
                 across: radius / q,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use motile_base::{Vec2, all_finite, same_length};
 
 use super::frame::Frame;
-use super::squirmer::polar_weights;
+use super::polar::{Polar, PolarMarkers};
 use crate::curve::polygon::edges;
 use crate::{InterfaceError, curve::polygon_moments};
 
@@ -35,16 +35,18 @@ impl FourierModes {
         }
     }
 
-    /// Coefficients of samples (polar angle, weight in integrals over it, value).
-    fn sum(count: usize, samples: impl Iterator<Item = (f64, f64, f64)>) -> Self {
+    /// Coefficients of samples (unit vector at the polar angle, weight in integrals over it, value): the waves are powers
+    /// of the unit vector as a complex number.
+    fn sum(count: usize, samples: impl Iterator<Item = (Vec2, f64, f64)>) -> Self {
         let mut modes = Self { mean: 0.0, cosines: vec![0.0; count], sines: vec![0.0; count] };
-        for (theta, weight, value) in samples {
+        for (Vec2 { x, y }, weight, value) in samples {
             let part = weight * value / PI;
             modes.mean += 0.5 * part;
-            for (i, (a, b)) in modes.cosines.iter_mut().zip(&mut modes.sines).enumerate() {
-                let (sin, cos) = ((i + 1) as f64 * theta).sin_cos();
+            let (mut cos, mut sin) = (x, y);
+            for (a, b) in modes.cosines.iter_mut().zip(&mut modes.sines) {
                 *a += part * cos;
                 *b += part * sin;
+                (cos, sin) = (cos * x - sin * y, cos * y + sin * x);
             }
         }
         modes
@@ -60,9 +62,14 @@ impl FourierModes {
 /// Fewer than three markers, markers that are not finite or enclose no area.
 pub fn shape_modes(markers: &[Vec2], frame: &Frame, count: usize) -> Result<FourierModes, InterfaceError> {
     polygon_moments(markers)?;
-    let radii = markers.iter().map(|marker| frame.coordinates(*marker).length());
-    let samples = polar_weights(markers, frame).zip(radii).map(|((theta, weight), r)| (theta, weight, r));
-    Ok(FourierModes::sum(count, samples))
+    Ok(raw_shape_modes(&PolarMarkers::new(markers, frame), count))
+}
+
+pub(super) fn raw_shape_modes(polar: &PolarMarkers, count: usize) -> FourierModes {
+    FourierModes::sum(
+        count,
+        polar.weighted().map(|(Polar { direction, radius, .. }, weight)| (direction, weight, radius)),
+    )
 }
 
 /// Checks that markers and particle numbers have a concentration as a function of place.
@@ -91,15 +98,22 @@ pub fn concentration_modes(
     count: usize,
 ) -> Result<FourierModes, InterfaceError> {
     check_concentration(markers, numbers)?;
-    let samples = edges(markers).zip(numbers).map(|((a, b), number)| {
-        let chord = (b - a).length();
-        let (a, b) = (frame.coordinates(a), frame.coordinates(b));
-        let width = a.angle_to(b);
-        (a.y.atan2(a.x) + 0.5 * width, width, number / chord)
-    });
+    let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
+    Ok(raw_concentration_modes(&PolarMarkers::new(markers, frame), numbers, &lengths, count))
+}
+
+/// Modes of numbers of particles on segments of these lengths (length).
+pub(super) fn raw_concentration_modes(
+    polar: &PolarMarkers,
+    numbers: &[f64],
+    lengths: &[f64],
+    count: usize,
+) -> FourierModes {
+    let values = numbers.iter().zip(lengths).map(|(number, length)| number / length);
+    let samples = polar.segments().zip(values).map(|((direction, width), value)| (direction, width, value));
     let mut modes = FourierModes::sum(count, samples);
     for (i, (a, b)) in modes.cosines.iter_mut().zip(&mut modes.sines).enumerate() {
-        let half = (i + 1) as f64 * PI / markers.len() as f64;
+        let half = (i + 1) as f64 * PI / numbers.len() as f64;
         let damping = half.sin() / half;
         // Modes that the segments do not resolve stay as they are.
         if damping > 0.5 {
@@ -107,7 +121,7 @@ pub fn concentration_modes(
             *b /= damping;
         }
     }
-    Ok(modes)
+    modes
 }
 
 #[cfg(test)]

@@ -16,9 +16,10 @@ impl<const N: usize> NormalEquations<N> {
     /// Adds a measurement: the derivatives `row` of its deviation by the unknowns, its weight, and the deviation.
     pub(super) fn add(&mut self, row: [f64; N], weight: f64, deviation: f64) {
         for i in 0..N {
-            self.gradient[i] += row[i] * (weight * deviation);
-            for j in 0..N {
-                self.matrix[i][j] += row[i] * row[j] * weight;
+            let weighted = weight * row[i];
+            self.gradient[i] += weighted * deviation;
+            for j in i..N {
+                self.matrix[i][j] += weighted * row[j];
             }
         }
     }
@@ -26,10 +27,10 @@ impl<const N: usize> NormalEquations<N> {
     /// The step s with the diagonal of M raised by the part `damping`, by elimination with partial pivoting; `None`
     /// for a singular matrix or a step that is not finite.
     pub(super) fn step(&self, damping: f64) -> Option<[f64; N]> {
-        let (mut a, mut x) = (self.matrix, self.gradient);
-        for (i, row) in a.iter_mut().enumerate() {
-            row[i] *= 1.0 + damping;
-        }
+        // Only the upper half has been summed.
+        let entry = |i: usize, j: usize| self.matrix[i.min(j)][i.max(j)] * if i == j { 1.0 + damping } else { 1.0 };
+        let mut a: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        let mut x = self.gradient;
         for i in 0..N {
             let pivot = (i..N).max_by(|&k, &l| a[k][i].abs().total_cmp(&a[l][i].abs()))?;
             a.swap(i, pivot);

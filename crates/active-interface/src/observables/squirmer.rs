@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use motile_base::{Vec2, all_points_finite, same_length};
 
 use super::frame::{Frame, raw_centroid_velocity};
+use super::polar::{Polar, PolarMarkers};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// Frame of reference of the velocity along the interface.
@@ -36,17 +37,6 @@ impl SquirmerFit {
     }
 }
 
-/// Polar angle, measured from the first axis of the frame, and the weight of each marker in integrals over it.
-pub(crate) fn polar_weights<'a>(markers: &'a [Vec2], frame: &'a Frame) -> impl Iterator<Item = (f64, f64)> + 'a {
-    let m = markers.len();
-    (0..m).map(move |k| {
-        let before = frame.coordinates(markers[(k + m - 1) % m]);
-        let here = frame.coordinates(markers[k]);
-        let after = frame.coordinates(markers[(k + 1) % m]);
-        (here.to_angle(), 0.5 * (before.angle_to(here) + here.angle_to(after)))
-    })
-}
-
 /// Squirmer coefficients B1 and B2: projections of the azimuthal velocity on the interface on sin(theta) and
 /// sin(2 theta)/2, uniformly in the polar angle theta about the centroid, measured from the first axis of `frame`
 /// (whose origin must be the centroid).
@@ -69,15 +59,18 @@ pub fn squirmer_coefficients(
         VelocityFrame::CoMoving => raw_centroid_velocity(markers, velocities, &moments),
         VelocityFrame::Laboratory => Vec2::ZERO,
     };
+    Ok(raw_squirmer(&PolarMarkers::new(markers, frame), velocities, drift, frame))
+}
+
+/// Squirmer coefficients of the velocities less `drift` (length per time).
+pub(super) fn raw_squirmer(polar: &PolarMarkers, velocities: &[Vec2], drift: Vec2, frame: &Frame) -> SquirmerFit {
     let mut fit = SquirmerFit::default();
-    for ((theta, weight), velocity) in polar_weights(markers, frame).zip(velocities) {
-        let v = frame.components(velocity - drift);
-        let (sin, cos) = theta.sin_cos();
-        let azimuthal = v.y * cos - v.x * sin;
-        fit.b1 += weight * azimuthal * sin / PI;
-        fit.b2 += weight * azimuthal * 4.0 * sin * cos / PI;
+    for ((Polar { direction, .. }, weight), velocity) in polar.weighted().zip(velocities) {
+        let part = weight / PI * direction.perp_dot(frame.components(velocity - drift));
+        fit.b1 += part * direction.y;
+        fit.b2 += part * 4.0 * direction.x * direction.y;
     }
-    Ok(fit)
+    fit
 }
 
 #[cfg(test)]
