@@ -307,10 +307,9 @@ fn the_first_step_is_bounded_as_all_are() {
 }
 
 /// Largest difference of the concentration from its mean, over that at the start, on a circle of crowded particles
-/// (gamma = 1.01 - c, hardly any diffusion) after 100 steps of `part` of the limit.
-fn crowded(nodes: usize, part: f64) -> f64 {
-    let settings = Settings { nodes, ..Settings::default() };
-    let flow = BoundaryIntegral::new(Region::Plane, 1.0, settings).expect("a solver");
+/// (gamma = 1.01 - c, hardly any diffusion) of fluid of a viscosity in fluid of viscosity 1, after 100 steps of `part`
+/// of the limit.
+fn crowded<H: Hydrodynamics>(flow: H, nodes: usize, viscosity_inside: f64, part: f64) -> f64 {
     let law = ContractileTension::new(1.01, 1.0, ExcludedVolume::None).expect("a law");
     let markers = Curve::circle(1.0).and_then(|circle| circle.markers(4 * nodes)).expect("a circle");
     let length = markers[0].distance(markers[1]);
@@ -318,11 +317,13 @@ fn crowded(nodes: usize, part: f64) -> f64 {
     let waves = |k: usize| (1..nodes / 2).map(|m| angle(m, k + m).cos()).sum::<f64>();
     let numbers = (0..markers.len()).map(|k| length * (1.0 + 1e-9 * waves(k))).collect();
     let mut scene = Scene::new(flow);
-    let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, 1e-6).expect("a droplet"));
+    let droplet = ActiveDroplet::new(&markers, numbers, law, 1e-6).expect("a droplet");
+    let droplet = scene.add(droplet.with_viscosity_inside(viscosity_inside).expect("a viscosity"));
+    scene.step(1e-9).expect("a step");
     let (limit, reason, _) = scene.step_limit().expect("a limit");
     assert_eq!(reason, "the coupling of concentration and tension");
     let dt = part * limit;
-    let change = |scene: &Scene<BoundaryIntegral>| {
+    let change = |scene: &Scene<H>| {
         let found = scene.body(droplet).expect("its droplet").concentrations();
         let mean = found.iter().sum::<f64>() / found.len() as f64;
         found.iter().map(|c| (c - mean).abs()).fold(0.0, f64::max)
@@ -335,9 +336,11 @@ fn crowded(nodes: usize, part: f64) -> f64 {
 /// The limit is that of the linearised scheme: every mode decays just below it, and one grows just above.
 #[test]
 fn the_stabilised_coupling_is_stable_up_to_its_limit() {
-    for nodes in [32, 48, 72] {
-        let [below, above] = [0.95, 1.1].map(|part| crowded(nodes, part));
-        assert!(below < 1e-2 && above > 1e3, "{nodes} nodes: {below:e} {above:e}");
+    for (nodes, inside) in [(32, 1.0), (48, 1.0), (72, 1.0), (48, 10.0), (48, 0.1)] {
+        let settings = Settings { nodes, ..Settings::default() };
+        let flow = || BoundaryIntegral::new(Region::Plane, 1.0, settings).expect("a solver");
+        let [below, above] = [0.95, 1.1].map(|part| crowded(flow(), nodes, inside, part));
+        assert!(below < 1e-2 && above > 1e3, "{nodes} nodes, viscosity {inside}: {below:e} {above:e}");
     }
 }
 
