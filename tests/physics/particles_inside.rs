@@ -158,6 +158,25 @@ fn fast_exchange_is_stable_up_to_its_limit() {
     }
 }
 
+/// Where diffusion outweighs it, transport inside is stable beyond the step in which a cell is emptied.
+#[test]
+fn transport_inside_is_stable_up_to_its_limit() {
+    for bulk in [0.02, 0.05] {
+        let exchange = ExchangeSetup { diffusion_inside: Some(bulk), ..ExchangeSetup::new(0.1, 0.1) };
+        let inside = [0.95, 0.05].map(|part| {
+            let Built { mut scene, .. } = swimmer(without_grid(32, 128), Region::Plane, exchange);
+            scene.run(3.0).step_size(StepSize::OfLimit(part)).go().unwrap();
+            let reason = &scene.step_report().most_limiting().expect("a reason").reason;
+            assert_eq!(reason, "the transport of particles inside", "{bulk}");
+            let InteriorObservables { number, range, .. } = seen(&mut scene);
+            [number, range[0], range[1]]
+        });
+        for (long, short) in inside[0].iter().zip(inside[1]) {
+            assert!((long / short - 1.0).abs() < 2e-3, "{bulk}: {inside:?}");
+        }
+    }
+}
+
 /// A cell of area A beside segments of length l loses particles to them at the rate k_on l/A, the fastest of which
 /// bounds the step.
 #[test]
