@@ -18,9 +18,7 @@ impl<const N: usize> NormalEquations<N> {
         for i in 0..N {
             let weighted = weight * row[i];
             self.gradient[i] += weighted * deviation;
-            for j in i..N {
-                self.matrix[i][j] += weighted * row[j];
-            }
+            self.matrix[i][i..].iter_mut().zip(&row[i..]).for_each(|(entry, other)| *entry += weighted * other);
         }
     }
 
