@@ -16,8 +16,12 @@ pub enum RegionKind {
     Box,
     /// A channel between rigid walls, periodic along it.
     Channel,
-    /// Unbounded fluid.
+    /// Unbounded fluid in two dimensions.
     Plane,
+    /// Unbounded fluid in three dimensions, around a body of revolution.
+    Space,
+    /// A straight tube in three dimensions without flux, around a body of revolution.
+    Tube,
 }
 
 /// A region of any kind.
@@ -35,6 +39,9 @@ pub struct AnyRegionFlags {
     /// The channel
     #[command(flatten)]
     pub along: AlongFlags,
+    /// Radius of a tube (R0)
+    #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
+    pub tube_radius: f64,
 }
 
 impl AnyRegionFlags {
@@ -46,9 +53,13 @@ impl AnyRegionFlags {
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         match self.region {
             RegionKind::Box => self.periodic.apply(setup),
-            RegionKind::Plane => {
+            RegionKind::Plane | RegionKind::Space | RegionKind::Tube => {
                 self.periodic.apply(setup)?;
-                setup.region = Region::Plane;
+                setup.region = match self.region {
+                    RegionKind::Plane => Region::Plane,
+                    RegionKind::Space => Region::Space,
+                    _ => Region::Tube { radius: self.tube_radius },
+                };
                 Ok(())
             }
             RegionKind::Channel => {
@@ -71,6 +82,8 @@ impl RegionFlags for AnyRegionFlags {
     fn caption(&self) -> Result<String> {
         Ok(match self.region {
             RegionKind::Channel => format!("w = {},  l = {}", self.width, self.along.length),
+            RegionKind::Tube => format!("W = {}", self.tube_radius),
+            RegionKind::Space => "three dimensions".to_owned(),
             RegionKind::Box | RegionKind::Plane => String::new(),
         })
     }

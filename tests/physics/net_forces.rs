@@ -108,7 +108,7 @@ fn dissipation(flow: &mut AnyFlow, region: Region, markers: &Markers, droplets: 
     let lengths = match region {
         Region::Box { lengths } => lengths,
         Region::Channel { length, width, .. } => [length, width],
-        Region::Plane => unreachable!("no finite dissipation"),
+        _ => unreachable!("no finite dissipation"),
     };
     let place = |k: u32, length: f64| ((f64::from(k) + 0.5) / f64::from(count) - 0.5) * length;
     let points: Vec<Vec2> =

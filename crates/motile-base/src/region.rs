@@ -25,6 +25,15 @@ pub enum Region {
         #[serde(default)]
         drive: Drive,
     },
+    /// Unbounded fluid in three dimensions, at rest far away, around bodies of revolution about the x axis: curves are
+    /// their meridians with the mirror images, y the distance from the axis.
+    Space,
+    /// A straight, infinitely long tube in three dimensions with a rigid no-slip wall at the distance `radius` from the
+    /// x axis, without flux, around bodies of revolution as in [`Region::Space`].
+    Tube {
+        /// Radius of the tube (length).
+        radius: f64,
+    },
 }
 
 impl Region {
@@ -34,7 +43,8 @@ impl Region {
     /// [`InputError::NotPositive`], [`InputError::NotFinite`].
     pub fn check(&self) -> Result<(), InputError> {
         match *self {
-            Self::Plane => Ok(()),
+            Self::Plane | Self::Space => Ok(()),
+            Self::Tube { radius } => positive("the radius of the tube", radius).map(drop),
             Self::Box { lengths: [lx, ly] } => {
                 positive("the period in x", lx)?;
                 positive("the period in y", ly).map(drop)
@@ -47,11 +57,18 @@ impl Region {
         }
     }
 
-    /// Lengths in x and y (length), a channel's width in y; infinite where the fluid is unbounded.
+    /// True for three dimensions with rotational symmetry about the x axis.
+    #[must_use]
+    pub fn is_of_revolution(&self) -> bool {
+        matches!(self, Self::Space | Self::Tube { .. })
+    }
+
+    /// Lengths in x and y (length), a channel's width and a tube's diameter in y; infinite where the fluid is unbounded.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         match *self {
-            Self::Plane => [f64::INFINITY; 2],
+            Self::Plane | Self::Space => [f64::INFINITY; 2],
+            Self::Tube { radius } => [f64::INFINITY, 2.0 * radius],
             Self::Box { lengths } => lengths,
             Self::Channel { length, width, .. } => [length, width],
         }
@@ -61,7 +78,7 @@ impl Region {
     #[must_use]
     pub fn periods(&self) -> [Option<f64>; 2] {
         match *self {
-            Self::Plane => [None; 2],
+            Self::Plane | Self::Space | Self::Tube { .. } => [None; 2],
             Self::Box { lengths } => lengths.map(Some),
             Self::Channel { length, .. } => [Some(length), None],
         }

@@ -7,9 +7,11 @@ use motile::motile_base::FlowSample;
 use motile::motile_base::Region;
 use motile::setup::{DropletSetup, DropletShape, Method, Particles, RigidBodySetup, Setup};
 use motile_base::{PeriodicSeries, Vec2};
-use stokes_layers::{Interface, InterfaceFlow, PeriodicCalculus, Settings, TensionPlacement};
+use stokes_layers::{Interface, Settings, TensionPlacement};
 
+use crate::flow::Flow;
 use crate::profile::analyse;
+use crate::revolution::Rings;
 use crate::{Profile, SteadyError};
 
 /// Relative accuracy to which the flow is solved for, near round-off, so that differences of rates keep their digits.
@@ -80,7 +82,14 @@ struct Nucleus {
 /// ```
 ///
 /// from Cowley (2.3), (2.5), (2.39) and an interface that moves with the fluid, on points that slide along fixed lines:
-/// q is the speed of the fluid past such a point. The centres of rigid discs inside move with the fluid; their
+/// q is the speed of the fluid past such a point. In three dimensions the curve is the meridian of a body of revolution
+/// about the x axis with its mirror image, m = c |x_a| all the same, and with the distance y from the axis
+///
+/// ```text
+/// dm/dt = -d(q c - D dc/ds)/da - (y_a (q c - D dc/ds) + m dy/dt)/y
+/// ```
+///
+/// The centres of rigid discs inside move with the fluid; their
 /// coordinates x stand after the offsets and y after the densities, and so do the rates of these.
 #[derive(Debug)]
 pub(crate) struct Model {
@@ -90,8 +99,9 @@ pub(crate) struct Model {
     pub(crate) viscosities: [f64; 2],
     diffusion: f64,
     law: ContractileTension,
-    flow: InterfaceFlow,
-    calculus: PeriodicCalculus,
+    flow: Flow,
+    /// Quadrature over rings, in three dimensions.
+    rings: Option<Rings>,
     series: PeriodicSeries,
     pub(crate) positions: Vec<Vec2>,
     tangents: Vec<Vec2>,
@@ -136,6 +146,12 @@ impl Model {
         };
         let nodes = method.nodes - method.nodes % 2;
         let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };
+        if setup.region.is_of_revolution() && !discs.is_empty() {
+            return refuse(
+                "a droplet of revolution has a rigid body inside",
+                "leave it out, or give a region of the plane",
+            );
+        }
         if particles.exchange.is_some() {
             return refuse("the particles are exchanged with the inside", "leave the exchange out");
         }
@@ -150,8 +166,8 @@ impl Model {
             viscosities: [viscosity.unwrap_or(setup.viscosity), setup.viscosity],
             diffusion,
             law: particles.law(*tension)?,
-            flow: InterfaceFlow::new(setup.region, setup.viscosity, settings)?,
-            calculus: PeriodicCalculus::new(nodes)?,
+            flow: Flow::new(setup.region, setup.viscosity, settings)?,
+            rings: setup.region.is_of_revolution().then(|| Rings::new(nodes)),
             series: PeriodicSeries::new(nodes)?,
             positions: vec![Vec2::ZERO; nodes],
             tangents: vec![Vec2::ZERO; nodes],
@@ -183,15 +199,34 @@ impl Model {
         self.nuclei.len()
     }
 
-    /// Area (length squared) and number of particles that the loaded state lacks, over those of the circle at rest.
-    pub(crate) fn lacks(&self) -> [f64; 2] {
+    /// Weight of a node in an integral over the interface: of the parameter in the plane, of the parameter and the
+    /// azimuth in three dimensions (length).
+    pub(crate) fn weight(&self, node: usize) -> f64 {
         let step = TAU / self.nodes() as f64;
-        let (mut area, mut number) = (0.0, 0.0);
-        for ((x, t), c) in self.positions.iter().zip(&self.tangents).zip(&self.concentrations) {
-            area += 0.5 * x.perp_dot(*t) * step;
-            number += c * t.length() * step;
+        self.rings.as_ref().map_or(step, |rings| rings.weights[node] * TAU * self.positions[node].y.abs())
+    }
+
+    /// Area (length squared) or volume (length cubed) of the droplet at rest, and the number of particles on it.
+    fn conserved(&self) -> [f64; 2] {
+        let radius = self.radius;
+        let [size, surface] = match self.rings {
+            None => [PI * radius * radius, TAU * radius],
+            Some(_) => [4.0 / 3.0 * PI * radius.powi(3), 4.0 * PI * radius * radius],
+        };
+        [size, surface * self.concentration]
+    }
+
+    /// Area or volume and number of particles that the loaded state lacks, over those of the droplet at rest.
+    pub(crate) fn lacks(&self) -> [f64; 2] {
+        let dimensions = if self.rings.is_some() { 3.0 } else { 2.0 };
+        let (mut size, mut number) = (0.0, 0.0);
+        for (k, ((x, t), c)) in self.positions.iter().zip(&self.tangents).zip(&self.concentrations).enumerate() {
+            let weight = self.weight(k);
+            size += x.perp_dot(*t) / dimensions * weight;
+            number += c * t.length() * weight;
         }
-        [1.0 - area / (PI * self.radius * self.radius), 1.0 - number / (TAU * self.radius * self.concentration)]
+        let [size_at_rest, number_at_rest] = self.conserved();
+        [1.0 - size / size_at_rest, 1.0 - number / number_at_rest]
     }
 
     /// Rate D/R^2 at which the concentration relaxes over the radius (1/time).
@@ -207,6 +242,11 @@ impl Model {
         matches!(self.setup.region, Region::Channel { .. })
     }
 
+    /// True for bodies of revolution in three dimensions.
+    pub(crate) fn is_of_revolution(&self) -> bool {
+        self.rings.is_some()
+    }
+
     /// Takes over a state and solves for its flow.
     pub(crate) fn load(&mut self, base: &Base, offsets: &[f64], density: &[f64]) -> Result<(), SteadyError> {
         self.positions.iter_mut().zip(base.displaced(offsets)).for_each(|(position, x)| *position = x);
@@ -217,10 +257,10 @@ impl Model {
             *c = m / tangent.length();
         }
         self.law.values(&self.concentrations, &mut self.tensions);
-        let Self { calculus, positions, tensions, forces, .. } = self;
-        calculus.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
+        let Self { flow, positions, tensions, forces, .. } = self;
+        flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
         let viscosity = self.viscosities[0];
-        let viscosities = [viscosity, self.flow.viscosity()];
+        let viscosities = [viscosity, self.viscosities[1]];
         for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
             *centre = Vec2::new(offsets[positions.len() + k], density[positions.len() + k]);
             let step = TAU / surface.len() as f64;
@@ -229,10 +269,9 @@ impl Model {
             }
         }
         let discs = self.nuclei.iter().map(|disc| Interface::rigid(&disc.surface, &self.zeros, viscosity));
-        self.flow.load(std::iter::once(Interface::closed(positions, forces, viscosities)).chain(discs))?;
-        self.flow.solve()?;
+        self.flow.solve(std::iter::once(Interface::closed(positions, forces, viscosities)).chain(discs))?;
         for (k, nucleus) in self.nuclei.iter_mut().enumerate() {
-            nucleus.velocity = self.flow.rigid_motion(1 + k).map_or(Vec2::ZERO, |motion| motion.velocity);
+            nucleus.velocity = self.flow.rigid_velocity(1 + k);
         }
         Ok(self.flow.velocities(0, &mut self.velocities)?)
     }
@@ -249,10 +288,21 @@ impl Model {
         Ok(samples)
     }
 
-    /// Derivative of the area by the offset of each node, times N/(2 pi) (length).
-    pub(crate) fn area_gradient(&self, base: &Base) -> Vec<f64> {
-        let normals = self.tangents.iter().map(|t| -t.perp());
-        normals.zip(&base.normals).map(|(weighted, n0)| weighted.dot(*n0)).collect()
+    /// Derivatives of area or volume and of the number of particles, over those of the droplet at rest, by the offset
+    /// and by the density of each node.
+    pub(crate) fn conserved_gradients(&self, base: &Base) -> [(Vec<f64>, Vec<f64>); 2] {
+        let [size, number] = self.conserved();
+        let gradients = (0..self.nodes()).map(|k| {
+            let (weight, n0) = (self.weight(k), base.normals[k]);
+            let density = self.concentrations[k] * self.tangents[k].length();
+            let by_radius = self
+                .rings
+                .as_ref()
+                .map_or(0.0, |rings| rings.weights[k] * TAU * n0.y * self.positions[k].y.signum() * density / number);
+            ((-self.tangents[k].perp()).dot(n0) * weight / size, (by_radius, weight / number))
+        });
+        let (by_offset, of_number): (Vec<f64>, (Vec<f64>, Vec<f64>)) = gradients.unzip();
+        [(by_offset, vec![0.0; self.nodes()]), of_number]
     }
 
     /// dh/dt and dm/dt of the loaded state in a moving frame.
@@ -266,14 +316,14 @@ impl Model {
         for ((flux, slope), tangent) in self.flux.iter_mut().zip(self.series.values()).zip(&self.tangents) {
             *flux -= self.diffusion * slope.re / tangent.length();
         }
-        self.divergence()
+        self.divergence(base)
     }
 
     /// dh/dt and dm/dt that a rigid motion alone causes.
     pub(crate) fn rigid_rates(&mut self, base: &Base, motion: FrameMotion) -> Result<(&[f64], &[f64]), SteadyError> {
         self.transport(base, |_, x| frame_velocity(motion, x));
         self.carry(|nucleus| frame_velocity(motion, nucleus.centre));
-        self.divergence()
+        self.divergence(base)
     }
 
     /// dh/dt and the flux q c of a velocity.
@@ -297,11 +347,18 @@ impl Model {
     }
 
     /// dm/dt as the divergence of the flux; returns both rates.
-    fn divergence(&mut self) -> Result<(&[f64], &[f64]), SteadyError> {
-        analyse(&mut self.series, self.flux.iter())?;
-        self.series.differentiate();
-        for (rate, value) in self.density_rates.iter_mut().zip(self.series.values()) {
-            *rate = -value.re;
+    fn divergence(&mut self, base: &Base) -> Result<(&[f64], &[f64]), SteadyError> {
+        if let Some(rings) = &self.rings {
+            let densities = self.concentrations.iter().zip(&self.tangents).map(|(c, t)| c * t.length());
+            let widening = self.offset_rates.iter().zip(&base.normals).map(|(rate, n0)| rate * n0.y);
+            let nodes = self.positions.iter().zip(&self.tangents);
+            rings.divergence(&mut self.series, nodes, densities.zip(widening), &self.flux, &mut self.density_rates)?;
+        } else {
+            analyse(&mut self.series, self.flux.iter())?;
+            self.series.differentiate();
+            for (rate, value) in self.density_rates.iter_mut().zip(self.series.values()) {
+                *rate = -value.re;
+            }
         }
         Ok((&self.offset_rates, &self.density_rates))
     }

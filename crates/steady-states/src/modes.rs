@@ -46,6 +46,11 @@ impl Modes {
         self.series.len()
     }
 
+    /// Units of offset (length) and density.
+    pub(crate) fn scales(&self) -> [f64; 2] {
+        self.scales
+    }
+
     /// Number of all coefficients.
     pub(crate) fn len(&self) -> usize {
         4 * self.largest + 2 + 2 * self.nuclei

@@ -27,13 +27,15 @@ pub enum Parameter {
     Width,
     /// Period of a channel, or side of a square box (length).
     Length,
+    /// Radius of a tube (length).
+    TubeRadius,
     /// Radius of the first rigid disc inside (length).
     NucleusRadius,
 }
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 10] = [
+    pub const NAMES: [(&str, Self); 11] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -43,6 +45,7 @@ impl Parameter {
         ("viscosity-ratio", Self::ViscosityRatio),
         ("width", Self::Width),
         ("length", Self::Length),
+        ("tube-radius", Self::TubeRadius),
         ("nucleus-radius", Self::NucleusRadius),
     ];
 
@@ -75,6 +78,10 @@ impl Parameter {
             Self::Length => match setup.region {
                 Region::Channel { length, .. } => Some(length),
                 Region::Box { lengths: [x, y] } if x == y => Some(x),
+                _ => None,
+            },
+            Self::TubeRadius => match setup.region {
+                Region::Tube { radius } => Some(radius),
                 _ => None,
             },
             Self::NucleusRadius => match setup.rigid_bodies.first()?.shape {
@@ -126,6 +133,7 @@ impl Parameter {
                 Region::Box { lengths } => *lengths = [value; 2],
                 _ => return Err(missing()),
             },
+            Self::TubeRadius => setup.region = Region::Tube { radius: value },
             Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
         }
         Ok(setup)

@@ -32,7 +32,8 @@ const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 pub struct Profile {
     /// Positions of the nodes (length), counter-clockwise.
     pub positions: Vec<Vec2>,
-    /// Particles per parameter at the nodes, m = c |dx/da|, with the concentration c in particles per length.
+    /// Particles per parameter at the nodes, m = c |dx/da|, with the concentration c in particles per length; in three
+    /// dimensions c is per area, and m per parameter and length of a ring.
     pub density: Vec<f64>,
     /// Centres of the rigid discs inside (length), in the order of the description.
     pub nuclei: Vec<Vec2>,
@@ -218,6 +219,7 @@ impl Profile {
         let extent = |way: Vec2| self.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
         let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
         let fits = match setup.region {
+            Region::Tube { radius } => top.max(bottom) < radius,
             Region::Channel { length, width, .. } => left + right < length && top.max(bottom) < 0.5 * width,
             region => left + right < region.lengths()[0] && top + bottom < region.lengths()[1],
         };
@@ -388,7 +390,7 @@ impl Profile {
     }
 
     /// Series at twice the nodes, for integrals of products of three.
-    fn resample_fine(&self) -> Result<Self, SteadyError> {
+    pub(crate) fn resample_fine(&self) -> Result<Self, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = 2 * self.nodes();
         let places = (0..count).map(|k| sampler.at(TAU * k as f64 / count as f64));

@@ -60,6 +60,7 @@ impl SteadyState {
     fn settled(setup: &Setup) -> Result<Self, SteadyError> {
         let start = start(setup)?;
         let part = if is_mirror(&start) { Part::Even } else { Part::Full };
+        check_axis(setup, part)?;
         let mut failure = Outcome::default().failure();
         for (most_nodes, steady) in ATTEMPTS {
             let mut settling = Settling::new(setup, &start, part, most_nodes)?;
@@ -192,6 +193,17 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let droplet = fine.droplet(&fine.droplets[0])?;
     let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
     Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
+}
+
+/// Refuses a droplet off the axis, or that swims aside, in three dimensions.
+pub(crate) fn check_axis(setup: &Setup, part: Part) -> Result<(), SteadyError> {
+    if setup.region.is_of_revolution() && part != Part::Even {
+        return Err(SteadyError::Unsupported {
+            what: "the droplet is no body of revolution about the x axis".to_owned(),
+            remedy: "give one with its centre on the axis and a heading along it, or a region of the plane",
+        });
+    }
+    Ok(())
 }
 
 /// True for a droplet that is its own mirror image at the x axis, to the six digits in which squeezed shapes are.

@@ -162,8 +162,12 @@ impl System {
 
     /// Eigenvalues of all disturbances of a state of the given part, by symmetry if it is mirror-symmetric.
     pub(crate) fn spectrum(&mut self, point: &Point, part: Part) -> Result<Spectrum, SteadyError> {
-        let symmetries: &[Symmetry] =
-            if part == Part::Even { &[Symmetry::Symmetric, Symmetry::Antisymmetric] } else { &[Symmetry::None] };
+        let symmetries: &[Symmetry] = match part {
+            // Of bodies of revolution only disturbances that leave them so are known.
+            Part::Even if self.model.is_of_revolution() => &[Symmetry::Symmetric],
+            Part::Even => &[Symmetry::Symmetric, Symmetry::Antisymmetric],
+            _ => &[Symmetry::None],
+        };
         let (mut modes, mut neutral) = (Vec::new(), 0.0_f64);
         for &symmetry in symmetries {
             let reduced = self.reduced(point, symmetry.part())?;

@@ -14,6 +14,8 @@ use crate::iteration::Outcome;
 use crate::model::FrameMotion;
 use crate::modes::Part;
 use crate::profile::{CROWDING, Sampler};
+use crate::revolution::{Rings, VolumeMoments};
+use crate::settling::check_axis;
 use crate::spectrum::{Eigenmode, ModeShape, Spectrum, eigenvalues};
 use crate::system::{Point, System};
 use crate::{Profile, SteadyError};
@@ -48,16 +50,17 @@ pub struct Measured {
     /// Speed (length per time).
     pub speed: f64,
     /// Stresslet S_uu along the direction u of motion (force times length), that of the flow far away: the traceless
-    /// part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them. Zero at rest.
+    /// part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them (in three
+    /// dimensions force times length too). Zero at rest.
     pub stresslet: f64,
     /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
     /// [`Observables::aspect_ratio_moments`]; along x at rest.
     pub aspect_ratio: f64,
     /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension).
     pub concentration: [f64; 2],
-    /// Perimeter of the interface (length).
+    /// Perimeter of the interface (length); in three dimensions its area (length squared).
     pub perimeter: f64,
-    /// Centroid of the area (length).
+    /// Centroid of the area or volume (length).
     pub centroid: Vec2,
     /// Least curvature of the interface (1/length): negative where it is concave.
     pub least_curvature: f64,
@@ -103,6 +106,7 @@ impl SteadyState {
         if mirror {
             return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], Part::Even);
         }
+        check_axis(setup, Part::Full)?;
         // No state moves steadily across a channel.
         let across = if matches!(setup.region, Region::Channel { .. }) { 0.0 } else { velocity.y };
         Self::from_profile(setup, profile, [velocity.x, across, 0.0], Part::Full)
@@ -262,23 +266,42 @@ impl SteadyState {
     pub fn measured(&self) -> Result<Measured, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
-        let moments = self.profile.moments()?;
-        let step = TAU / self.profile.nodes() as f64;
         let tangents = self.profile.tangents()?;
         let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
-        let [xx, xy] = self.force_dipole(&system, moments.centroid, &tangents);
-        // The component of the traceless, symmetric part along the motion.
-        let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
         let model = &system.model;
+        let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_of_revolution() {
+            let VolumeMoments { centroid, aspect_ratio, surface } = VolumeMoments::of(&self.profile)?;
+            let centroid = Vec2::new(centroid, 0.0);
+            (centroid, aspect_ratio, surface, self.axial_dipole(&system, centroid, &tangents))
+        } else {
+            let moments = self.profile.moments()?;
+            let [xx, xy] = self.force_dipole(&system, moments.centroid, &tangents);
+            // The component of the traceless, symmetric part along the motion.
+            let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
+            let perimeter = tangents.iter().map(|t| t.length() * TAU / tangents.len() as f64).sum();
+            (moments.centroid, moments.aspect_ratio(heading), perimeter, cos * xx + sin * xy)
+        };
         Ok(Measured {
             speed: self.velocity().length(),
-            stresslet: cos * xx + sin * xy,
-            aspect_ratio: moments.aspect_ratio(heading),
+            stresslet,
+            aspect_ratio,
             concentration: self.profile.extrema()?.map(|c| c / model.concentration),
-            perimeter: tangents.iter().map(|t| t.length() * step).sum(),
-            centroid: moments.centroid,
+            perimeter,
+            centroid,
             least_curvature: self.profile.least_curvature()?,
         })
+    }
+
+    /// Component xx of the stresslet of a body of revolution: the traceless part of the dipole of the forces, and
+    /// `2 (eta_out - eta_in) INT u_x n_x dS`.
+    fn axial_dipole(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> f64 {
+        let (model, rings) = (&system.model, Rings::new(tangents.len()));
+        let contrast = model.viscosities[1] - model.viscosities[0];
+        let node = |(k, x): (usize, &Vec2)| {
+            let (r, f, n) = (*x - centre, rings.of_forces(k) * model.forces[k], -tangents[k].perp());
+            2.0 / 3.0 * f.x * r.x - f.y * r.y / 3.0 + 2.0 * contrast * model.velocities[k].x * n.x * model.weight(k)
+        };
+        self.profile.positions.iter().enumerate().map(node).sum()
     }
 
     /// Components xx and xy of the stresslet about a centre: [`motile::active_interface::observables::ForceMoments`] as

@@ -186,7 +186,8 @@ impl System {
     /// but for channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
         let (plane, channel) = (self.model.in_plane(), self.model.in_channel());
-        let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, !channel), ([0.0, 0.0, 1.0], true, plane)];
+        let across = !channel && !self.model.is_of_revolution();
+        let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, across), ([0.0, 0.0, 1.0], true, plane)];
         let fits = |odd: bool| part == Part::Full || odd == (part == Part::Odd);
         all.into_iter().filter(|(_, odd, there)| *there && fits(*odd)).map(|(motion, ..)| motion).collect()
     }
@@ -211,21 +212,27 @@ impl System {
         Ok((motions, generators))
     }
 
-    /// Derivatives of area and number of particles, over the area and number of the droplet, by the coefficients of a
+    /// Derivatives of area or volume and of the number of particles, over those of the droplet, by the coefficients of a
     /// part of the loaded state.
     pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<[DVector<f64>; 2], SteadyError> {
         let range = self.modes.part(part);
-        // The integral of a coefficient's function times the gradient at the nodes: half of its Fourier coefficient,
-        // but for the mean.
-        let area = self.model.area_gradient(base);
-        let zeros = vec![0.0; area.len()];
-        let mut gradient = self.modes.analyse(&area, &zeros)?;
-        for (index, value) in gradient.iter_mut().enumerate() {
-            *value *= if self.modes.wave(index) == 0 { 2.0 } else { 1.0 };
-        }
-        let mut number = DVector::zeros(self.modes.len());
-        number[self.modes.index(true, false, 0)] = 1.0;
-        Ok([gradient, number].map(|full| full.rows(range.start, range.len()).into_owned()))
+        let [radius, density] = self.modes.scales();
+        let discs = self.model.nuclei();
+        let mut of = |(by_offset, by_density): (Vec<f64>, Vec<f64>)| {
+            // The sum of a coefficient's function times the derivatives at the nodes: half of its Fourier coefficient
+            // times their number, but for the mean.
+            let half = 0.5 * by_offset.len() as f64;
+            let scaled = |values: Vec<f64>, scale: f64| -> Vec<f64> {
+                values.into_iter().map(|value| half * scale * scale * value).chain(vec![0.0; discs]).collect()
+            };
+            let mut gradient = self.modes.analyse(&scaled(by_offset, radius), &scaled(by_density, density))?;
+            for (index, value) in gradient.iter_mut().enumerate() {
+                *value *= if self.modes.wave(index) == 0 { 2.0 } else { 1.0 };
+            }
+            Ok::<_, SteadyError>(gradient.rows(range.start, range.len()).into_owned())
+        };
+        let [size, number] = self.model.conserved_gradients(base);
+        Ok([of(size)?, of(number)?])
     }
 
     /// Derivative of the rates by a parameter (1/time over the parameter's unit).

@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{Inside, Interface, LayerError, Settings, Solution, error::finite_vectors, interface_flow::MOST_CONTRAST};
 pub use calculus::MeridianCalculus;
-use container::Walls;
 pub use container::tube;
+use container::{Tube, Walls};
 use meridian::{Grid, Half, Meridian, Pair};
 use panels::{Panels, Spot};
 
@@ -96,6 +96,7 @@ pub struct AxisymmetricFlow {
     surfaces: Vec<Meridian>,
     sides: Vec<Sides>,
     walls: Option<Box<Walls>>,
+    tube: Option<Tube>,
     /// Unknown of each surface, cosines of x and sines of r: its velocity (length per time), or of a rigid body the
     /// density of its double layer (length per time times viscosity).
     solution: Vec<Pair>,
@@ -125,6 +126,7 @@ impl AxisymmetricFlow {
             surfaces: Vec::new(),
             sides: Vec::new(),
             walls: None,
+            tube: None,
             solution: Vec::new(),
             right: DVector::zeros(0),
             matrix: DMatrix::zeros(0, 0),
@@ -132,25 +134,43 @@ impl AxisymmetricFlow {
         })
     }
 
-    /// Adds a rigid container at rest around all surfaces, given as they are ([`tube`] gives a closed tube), with
+    /// Adds a rigid container at rest around all surfaces, given as they are ([`tube`] gives tubes), with
     /// `nodes` nodes of its closed curve, in place of one that there was. The forces f on it cancel the velocity on it,
     ///
     /// ```text
     /// INT G f dt  +  layers of the surfaces  =  0    on the wall;
     /// ```
     ///
-    /// the matrix of this equation is factorised here, once. The flux through any section is zero, and a few radii away
-    /// from its ends a closed tube is an infinite one without flux: flows decay like exp(-4.47 x/radius).
+    /// the matrix of this equation is factorised here, once. The flux through any section is zero.
     ///
     /// # Errors
     /// Points that are no meridian with its mirror image; fewer than 16 nodes, more than 2048 or than points.
     pub fn with_container(mut self, points: &[Vec2], nodes: usize) -> Result<Self, LayerError> {
+        self.contain(points, nodes)?;
+        self.tube = None;
+        Ok(self)
+    }
+
+    fn contain(&mut self, points: &[Vec2], nodes: usize) -> Result<(), LayerError> {
         within("the number of nodes of a container", nodes as f64, 16.0, MOST_NODES)?;
         let grid = Grid::new(nodes / 2);
         let mut meridian = Meridian::new(&grid);
         self.panels.reserve(grid.largest());
         load(&mut self.halves, &grid, &mut meridian, points, &[], 0)?;
         self.walls = Some(Box::new(Walls::new(grid, meridian, &mut self.panels)?));
+        Ok(())
+    }
+
+    /// Puts the surfaces into an infinitely long straight tube of this radius (length), whose flux is zero: a closed
+    /// one that moves with them, 5.5 radii longer than they are at both ends, since flows decay like exp(-4.47
+    /// x/radius) along it. Its nodes follow from the film beside the surfaces; it is made anew, and factorised, where
+    /// they come closer.
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite.
+    pub fn with_tube(mut self, radius: f64) -> Result<Self, LayerError> {
+        self.tube = Some(Tube::new(positive("the radius of a tube", radius)?));
+        self.walls = None;
         Ok(self)
     }
 
@@ -208,16 +228,11 @@ impl AxisymmetricFlow {
             }
             load(&mut self.halves, &self.grid, &mut self.surfaces[count], positions, forces, count)?;
             self.sides.push(Sides { inside, outside });
-            if let Some(walls) = &self.walls
-                && let Some(node) = self.surfaces[count].nodes.iter().find(|node| !walls.meridian.holds(node.place))
-            {
-                return Err(LayerError::CrossesWall { curve: count, x: node.place.x, y: node.place.y, wall: 0 });
-            }
             count += 1;
         }
         self.surfaces.truncate(count);
         self.solution.truncate(count);
-        Ok(())
+        self.fit_walls()
     }
 
     /// True where the equation needs a matrix.
@@ -437,8 +452,8 @@ impl AxisymmetricFlow {
             });
         }
         if let Some(walls) = walls {
-            let Walls { grid, meridian, .. } = &**walls;
-            let spot = meridian.spot(grid, place, panels);
+            let Walls { grid, meridian, shift, .. } = &**walls;
+            let spot = meridian.spot(grid, place - *shift, panels);
             panels.each((grid, meridian), &spot, true, |source| {
                 add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
             });

@@ -123,6 +123,9 @@ pub enum LayerError {
         /// Its y coordinate (length).
         y: f64,
     },
+    /// A region of three dimensions for curves of the plane.
+    #[error("curves in the plane are no surfaces of revolution: use `AxisymmetricFlow`, or a region of the plane")]
+    InThreeDimensions,
     /// Surfaces with singular equations.
     #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
     SingularSurfaces,

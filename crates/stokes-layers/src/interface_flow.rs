@@ -104,6 +104,9 @@ impl InterfaceFlow {
     pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         positive("the viscosity", viscosity)?;
         settings.check()?;
+        if region.is_of_revolution() {
+            return Err(LayerError::InThreeDimensions);
+        }
         let [velocities, motion] = Default::default();
         let (layers, sampler) =
             (Layers::new(region, settings.tolerance, Symmetry::ToResolution)?, Sampler::new(settings.tolerance));
@@ -151,6 +154,7 @@ impl InterfaceFlow {
         match self.region {
             _ if flow.is_none() => {}
             Region::Plane => {}
+            Region::Space | Region::Tube { .. } => return Err(LayerError::InThreeDimensions),
             Region::Box { .. } => return refuse("a flow imposed on a box", "use the plane"),
             Region::Channel { .. } if flow != along => {
                 return refuse(

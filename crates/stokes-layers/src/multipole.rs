@@ -117,7 +117,7 @@ impl Multipoles {
         let offset = Images::of(&self.region).wrap(curves[source].centre - curves[target].centre);
         let offset = [offset.re, offset.im];
         let kernel = match self.region {
-            Region::Plane => AnyPair::Free(FreePair { offset }),
+            Region::Plane | Region::Space | Region::Tube { .. } => AnyPair::Free(FreePair { offset }),
             Region::Channel { length, .. } => AnyPair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
             Region::Box { lengths } => AnyPair::Lattice(LatticePair::new(lengths, offset, self.tolerance)),
         };

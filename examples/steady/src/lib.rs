@@ -11,7 +11,7 @@ use motile_examples::{AlongFlags, DropletFlags, RegionKind, positive};
 pub struct SteadyFlags {
     #[command(flatten)]
     droplet: DropletFlags,
-    /// Region; without it a channel if --width is given, and a box otherwise
+    /// Region; without it a channel if --width is given, a tube if --tube-radius is, and a box otherwise
     #[arg(long, value_enum)]
     region: Option<RegionKind>,
     /// Side of the periodic box (R0)
@@ -20,6 +20,9 @@ pub struct SteadyFlags {
     /// Distance of the walls (R0) [default: 3]
     #[arg(long, value_parser = positive)]
     width: Option<f64>,
+    /// Radius of a tube in three dimensions (R0) [default: 2]
+    #[arg(long, value_name = "RADIUS", value_parser = positive, allow_hyphen_values = true)]
+    tube_radius: Option<f64>,
     #[command(flatten)]
     along: AlongFlags,
     /// Radius of a rigid nucleus (R0) [default: there is none]
@@ -39,11 +42,21 @@ impl SteadyFlags {
     /// # Errors
     /// Flags that do not fit together, a scene that cannot be.
     pub fn setup(&self) -> Result<Setup> {
-        let Self { side, width, nodes, along: AlongFlags { length, lateral_offset, drive }, .. } = *self;
-        let kind = self.region.unwrap_or(if width.is_some() { RegionKind::Channel } else { RegionKind::Box });
+        let Self { side, width, tube_radius, nodes, along: AlongFlags { length, lateral_offset, drive }, .. } = *self;
+        let kind = self.region.unwrap_or(match (width, tube_radius) {
+            (Some(_), _) => RegionKind::Channel,
+            (_, Some(_)) => RegionKind::Tube,
+            _ => RegionKind::Box,
+        });
+        ensure!(
+            tube_radius.is_none() || kind == RegionKind::Tube,
+            "--tube-radius means nothing here: give --region tube"
+        );
         ensure!(width.is_none() || kind == RegionKind::Channel, "--width means nothing here: give --region channel");
         let region = match kind {
             RegionKind::Plane => Region::Plane,
+            RegionKind::Space => Region::Space,
+            RegionKind::Tube => Region::Tube { radius: tube_radius.unwrap_or(2.0) },
             RegionKind::Box => Region::Box { lengths: [side; 2] },
             RegionKind::Channel => Region::Channel { length, width: width.unwrap_or(3.0), drive },
         };

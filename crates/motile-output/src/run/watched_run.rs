@@ -87,7 +87,7 @@ impl WatchedRun {
         let area = body.initial_area();
         let job = Job::new(&mut scene, setup, end, output, name)?;
         let raster = |spacing: f64| match setup.region {
-            Region::Plane => {
+            Region::Plane | Region::Space | Region::Tube { .. } => {
                 let cells = (VIEW / spacing).round() as usize;
                 Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
             }

@@ -21,7 +21,8 @@ impl Setup {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
         match self.region {
-            Region::Plane => {}
+            Region::Plane | Region::Space => {}
+            Region::Tube { radius } => top.length("region.tube.radius", radius)?,
             Region::Box { lengths } => {
                 top.length("region.box.lengths[0]", lengths[0])?;
                 top.length("region.box.lengths[1]", lengths[1])?;

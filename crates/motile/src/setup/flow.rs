@@ -54,6 +54,9 @@ pub struct PoiseuilleSetup {
     pub half_width: f64,
 }
 
+/// Remedy for flows imposed on three dimensions.
+const IN_THE_PLANE: &str = "flows are imposed in two dimensions: give the region \"plane\"";
+
 impl FlowSetup {
     /// True where there is no flow.
     #[must_use]
@@ -94,6 +97,14 @@ impl FlowSetup {
         }
         match setup.region {
             Region::Plane => {}
+            Region::Space | Region::Tube { .. } => {
+                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
+                    return checked.refuse(key, &value, IN_THE_PLANE);
+                }
+                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
+                    return checked.refuse("poiseuille.speed", &speed, IN_THE_PLANE);
+                }
+            }
             Region::Box { .. } => {
                 if let Some((key, value)) = linear.into_iter().skip(1).find(|(_, value)| *value != 0.0) {
                     let remedy = "the images of a box can be sheared along x only: give shear, or the region \"plane\"";

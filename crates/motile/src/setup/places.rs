@@ -54,7 +54,8 @@ impl Setup {
         // The polygon of the markers has the area of its curve and so stands out of it a little.
         let slack = 4.0 * extent.length() / (corners.len() * corners.len()) as f64;
         let fits = match self.region {
-            Region::Plane => true,
+            Region::Plane | Region::Space => true,
+            Region::Tube { radius } => high.y.max(-low.y) <= radius + slack,
             Region::Box { .. } => extent.x < length && extent.y < width,
             Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
         };

@@ -12,6 +12,29 @@ use super::{
 };
 use crate::LayerError;
 
+/// Length of a closed tube beyond the surfaces at either end, over its radius: flows decay to 2e-11.
+const BEYOND: f64 = 5.5;
+/// Distance of the nodes of a tube, over its radius, and over the root of the film and the radius beside the surfaces:
+/// the drag of a sphere is right to 1e-8 in wide tubes and to 1e-7 in tight ones.
+const SPACINGS: [f64; 2] = [0.085, 0.3];
+/// Most nodes of a tube.
+const MOST_TUBE_NODES: usize = 1600;
+
+/// A straight tube that follows the surfaces.
+#[derive(Debug, Clone)]
+pub(super) struct Tube {
+    radius: f64,
+    /// Half length, and the distance of the nodes for which it was made (length).
+    half_length: f64,
+    spacing: f64,
+}
+
+impl Tube {
+    pub(super) fn new(radius: f64) -> Self {
+        Self { radius, half_length: 0.0, spacing: f64::INFINITY }
+    }
+}
+
 /// A rigid container at rest, with the matrix of its forces factorised. The force of a uniform pressure moves nothing:
 /// with the product of this force and the normal added the matrix is regular, and forces found have no such part.
 #[derive(Debug, Clone)]
@@ -19,6 +42,8 @@ pub(super) struct Walls {
     pub(super) grid: Grid,
     pub(super) meridian: Meridian,
     factors: LU<f64, Dyn, Dyn>,
+    /// Place of the container's middle (length).
+    pub(super) shift: Vec2,
     /// 8 pi times viscosity times velocity at the nodes of the surfaces, by the coefficients of the forces: sines of x,
     /// cosines of r.
     onto_surfaces: DMatrix<f64>,
@@ -60,7 +85,8 @@ impl Walls {
         }
         let empty = DMatrix::zeros(0, 0);
         let from_forces = DVector::zeros(2 * n);
-        Ok(Self { grid, meridian, factors, onto_surfaces: empty.clone(), from_forces, from_unknowns: empty })
+        let shift = Vec2::ZERO;
+        Ok(Self { grid, meridian, factors, shift, onto_surfaces: empty.clone(), from_forces, from_unknowns: empty })
     }
 }
 
@@ -89,6 +115,43 @@ fn add_rows(
 }
 
 impl AxisymmetricFlow {
+    /// Brings a tube to the surfaces and makes it anew where it is too short or its nodes are too far apart; refuses
+    /// surfaces beyond the wall.
+    pub(super) fn fit_walls(&mut self) -> Result<(), LayerError> {
+        let nodes =
+            || self.surfaces.iter().enumerate().flat_map(|(k, m)| m.nodes.iter().map(move |node| (k, node.place)));
+        if let Some(Tube { radius, half_length, spacing }) = self.tube {
+            let ends = nodes().fold([f64::INFINITY, -f64::INFINITY], |[a, b], (_, at)| [a.min(at.x), b.max(at.x)]);
+            let widest = nodes().fold(0.0, |a: f64, (_, at)| a.max(at.y));
+            if ends[0] > ends[1] {
+                return Ok(());
+            }
+            if let Some((curve, at)) = nodes().find(|(_, at)| at.y >= radius) {
+                return Err(LayerError::CrossesWall { curve, x: at.x, y: at.y, wall: 0 });
+            }
+            let needed = 0.5 * (ends[1] - ends[0]) + BEYOND * radius;
+            let [wide, tight] = SPACINGS;
+            let least = 4.0 * (needed + 1.5 * radius) / MOST_TUBE_NODES as f64;
+            let close = (wide * radius).min(tight * ((radius - widest) * widest).sqrt()).max(least);
+            if needed > half_length || close < spacing {
+                // Room for changes, so that small ones do not make the tube anew.
+                let (half_length, spacing) = (needed + 0.5 * radius, spacing.min(0.8 * close));
+                let count = (4.0 * (half_length + radius) / spacing).min(MOST_TUBE_NODES as f64) as usize / 2 * 2;
+                self.contain(&tube(|_| radius, half_length, 4 * count)?, count)?;
+                self.tube = Some(Tube { radius, half_length, spacing });
+            }
+            if let Some(walls) = &mut self.walls {
+                walls.shift = Vec2::new(0.5 * (ends[0] + ends[1]), 0.0);
+            }
+            return Ok(());
+        }
+        let Some(walls) = &self.walls else { return Ok(()) };
+        match nodes().find(|(_, at)| !walls.meridian.holds(*at)) {
+            Some((curve, Vec2 { x, y })) => Err(LayerError::CrossesWall { curve, x, y, wall: 0 }),
+            None => Ok(()),
+        }
+    }
+
     /// Eliminates the forces on the container from the equation of the surfaces.
     pub(super) fn add_walls(&mut self) {
         let with_matrix = self.has_contrast();
@@ -99,7 +162,7 @@ impl AxisymmetricFlow {
         for (surface, meridian) in surfaces.iter().enumerate() {
             let mut rows = onto.rows_mut(2 * n * surface, 2 * n).into_owned();
             for (j, node) in meridian.nodes.iter().enumerate() {
-                let spot = walls.meridian.spot(&walls.grid, node.place, panels);
+                let spot = walls.meridian.spot(&walls.grid, node.place - walls.shift, panels);
                 add_rows(&mut rows, j, n, (&walls.grid, &walls.meridian), &spot, panels);
             }
             onto.rows_mut(2 * n * surface, 2 * n).copy_from(&rows);
@@ -109,7 +172,7 @@ impl AxisymmetricFlow {
         for (j, node) in walls.meridian.nodes.iter().enumerate() {
             for (surface, meridian) in surfaces.iter().enumerate() {
                 let contrast = sides[surface].contrast();
-                let spot = meridian.spot(grid, node.place, panels);
+                let spot = meridian.spot(grid, node.place + walls.shift, panels);
                 let mut rows = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
                 let mut sum = Vec2::ZERO;
                 panels.each((grid, meridian), &spot, false, |source| {

@@ -23,14 +23,19 @@ impl Waves {
         Self { cos: zeros.clone(), sin: zeros }
     }
 
-    /// Takes the waves of an angle, by products that keep the relative accuracy of the sines of small angles.
+    /// Takes the waves of an angle.
     pub(super) fn fill(&mut self, angle: f64) {
+        self.fill_from(angle.sin_cos());
+    }
+
+    /// Takes the waves of an angle with this sine and cosine, by products that keep the relative accuracy of the sines
+    /// of small angles.
+    pub(super) fn fill_from(&mut self, (s, c): (f64, f64)) {
         let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
-        let (s, c) = angle.sin_cos();
         for k in 1..LANES {
             (cos[k], sin[k]) = (cos[k - 1] * c - sin[k - 1] * s, sin[k - 1] * c + cos[k - 1] * s);
         }
-        let (s, c) = (angle * LANES as f64).sin_cos();
+        let (c, s) = (cos[LANES - 1] * c - sin[LANES - 1] * s, sin[LANES - 1] * c + cos[LANES - 1] * s);
         for (out_cos, out_sin) in self.cos.chunks_exact_mut(LANES).zip(self.sin.chunks_exact_mut(LANES)) {
             out_cos.copy_from_slice(&cos);
             out_sin.copy_from_slice(&sin);
@@ -39,6 +44,22 @@ impl Waves {
             }
         }
     }
+
+    /// Takes the waves of the sum of two angles.
+    pub(super) fn combine(&mut self, a: &Self, b: &Self) {
+        let (a, b) = (a.cos.iter().zip(&a.sin), b.cos.iter().zip(&b.sin));
+        let out = self.cos.iter_mut().zip(&mut self.sin);
+        for ((cos, sin), ((c, s), (other_c, other_s))) in out.zip(a.zip(b)) {
+            (*cos, *sin) = (c * other_c - s * other_s, s * other_c + c * other_s);
+        }
+    }
+}
+
+/// Entries from k on.
+fn chunk(values: &[f64], k: usize) -> [f64; LANES] {
+    let mut out = [0.0; LANES];
+    out.copy_from_slice(&values[k..k + LANES]);
+    out
 }
 
 /// Sum of products.
@@ -241,19 +262,28 @@ impl Meridian {
 
     /// Place and tangent at the parameter of waves.
     pub(super) fn at(&self, waves: &Waves) -> Point {
-        Point {
-            place: Vec2::new(dot(&self.shape.cos, &waves.cos), dot(&self.shape.sin, &waves.sin)),
-            tangent: Vec2::new(dot(&self.slope.sin, &waves.sin), dot(&self.slope.cos, &waves.cos)),
+        let mut sums = [[0.0; LANES]; 4];
+        for k in (0..self.shape.cos.len()).step_by(LANES) {
+            let (cos, sin) = (chunk(&waves.cos, k), chunk(&waves.sin, k));
+            let (x, r) = (chunk(&self.shape.cos, k), chunk(&self.shape.sin, k));
+            let (x_slope, r_slope) = (chunk(&self.slope.sin, k), chunk(&self.slope.cos, k));
+            for i in 0..LANES {
+                sums[0][i] += x[i] * cos[i];
+                sums[1][i] += r[i] * sin[i];
+                sums[2][i] += x_slope[i] * sin[i];
+                sums[3][i] += r_slope[i] * cos[i];
+            }
         }
+        let [x, r, x_slope, r_slope] = sums.map(|lanes| lanes.iter().sum());
+        Point { place: Vec2::new(x, r), tangent: Vec2::new(x_slope, r_slope) }
     }
 
     /// Place at t + s less that at t, accurate relative to itself, from the waves of t + s/2 and s/2.
     pub(super) fn difference(&self, middle: &Waves, half: &Waves) -> Vec2 {
         let (mut x, mut r) = ([0.0; LANES], [0.0; LANES]);
-        let chunks = |values: &[f64], k: usize| -> [f64; LANES] { std::array::from_fn(|i| values[k + i]) };
         for k in (0..self.shape.cos.len()).step_by(LANES) {
-            let (cos, sin) = (chunks(&middle.cos, k), chunks(&middle.sin, k));
-            let (b, a, h) = (chunks(&self.shape.cos, k), chunks(&self.shape.sin, k), chunks(&half.sin, k));
+            let (cos, sin) = (chunk(&middle.cos, k), chunk(&middle.sin, k));
+            let (b, a, h) = (chunk(&self.shape.cos, k), chunk(&self.shape.sin, k), chunk(&half.sin, k));
             for i in 0..LANES {
                 x[i] -= b[i] * sin[i] * h[i];
                 r[i] += a[i] * cos[i] * h[i];

@@ -153,16 +153,21 @@ impl Panels {
         });
         self.place(spot.foot, spacing, gap);
         let nodes = std::mem::take(&mut self.nodes);
+        let (foot_sin, foot_cos) = spot.foot.sin_cos();
         for &(offset, weight) in &nodes {
-            self.waves.fill(spot.foot + offset);
-            let point = source.at(&self.waves);
-            let d = if offset.abs() < LONGEST * spacing {
-                self.middle.fill(spot.foot + 0.5 * offset);
-                self.half.fill(0.5 * offset);
-                source.difference(&self.middle, &self.half) + spot.offset
+            let (s, c) = (0.5 * offset).sin_cos();
+            let near = offset.abs() < LONGEST * spacing;
+            let middle = (foot_sin * c + foot_cos * s, foot_cos * c - foot_sin * s);
+            if near {
+                self.half.fill_from((s, c));
+                self.middle.fill_from(middle);
+                self.waves.combine(&self.middle, &self.half);
             } else {
-                point.place - spot.place
-            };
+                self.waves.fill_from((middle.0 * c + middle.1 * s, middle.1 * c - middle.0 * s));
+            }
+            let point = source.at(&self.waves);
+            let d =
+                if near { source.difference(&self.middle, &self.half) + spot.offset } else { point.place - spot.place };
             let ring = Ring::new(d, target, point.place.y, with_gradient);
             visit(Source { weight, point, ring, waves: &self.waves, node: None });
         }

@@ -229,8 +229,7 @@ fn drag_of_a_sphere_in_a_tube_is_that_of_the_literature() {
     let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
     for (radius, factor) in [(0.1, 1.26321393), (0.3, 2.37009490), (0.5, 5.94737425)] {
         let wall = 1.0 / radius;
-        let points = tube(|_| wall, 5.0 * wall, 1000).unwrap();
-        let mut flow = flow(count).with_container(&points, 250).unwrap();
+        let mut flow = flow(count).with_tube(wall).unwrap();
         flow.load([Interface::rigid(&sphere(count), &forces, 1.0)].into_iter()).unwrap();
         flow.solve().unwrap();
         let error = 1.0 / flow.rigid_velocity(0).unwrap() / factor - 1.0;
@@ -245,8 +244,7 @@ fn a_drop_with_another_viscosity_meets_the_conditions_on_a_tube() {
     let points = sphere(count);
     let forces = tensions(&points, |t| 1.0 + 0.5 * t.cos());
     for (ratio, speed) in [(1.0, -0.051_647_950_76), (10.0, -0.008_215_588_674_6)] {
-        let wall = tube(|_| 2.0, 10.0, 1000).unwrap();
-        let mut flow = flow(count).with_container(&wall, 280).unwrap();
+        let mut flow = flow(count).with_tube(2.0).unwrap();
         flow.load([Interface::closed(&points, &forces, [ratio, 1.0])].into_iter()).unwrap();
         flow.solve().unwrap();
         // Mean velocity over the volume: INT x u.n dS over the volume.
@@ -309,4 +307,22 @@ fn points_that_are_no_meridian_are_refused() {
     let large = closed(64, |t| (1.6 * t.cos(), 1.6 * t.sin()));
     let error = flow.load([Interface::closed(&large, &none, [1.0, 1.0])].into_iter()).unwrap_err();
     assert!(error.to_string().contains("beyond"), "{error}");
+}
+
+/// Lubrication in the annulus: with the gap e = 1 - radius/tube radius the drag factor is `(3 pi sqrt(2)/8) e^(-5/2)` to
+/// leading order, with corrections of the order of e.
+#[test]
+fn drag_in_a_tight_tube_is_that_of_lubrication() {
+    let count = 128;
+    let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
+    let errors = [0.05, 0.025].map(|gap: f64| {
+        let mut flow = flow(count).with_tube(1.0 / (1.0 - gap)).unwrap();
+        let shifted: Vec<Vec2> = sphere(count).iter().map(|x| *x + Vec2::new(7.3, 0.0)).collect();
+        flow.load([Interface::rigid(&shifted, &forces, 1.0)].into_iter()).unwrap();
+        flow.solve().unwrap();
+        let leading = 3.0 * PI * 2.0f64.sqrt() / 8.0 * gap.powf(-2.5);
+        1.0 / flow.rigid_velocity(0).unwrap() / leading - 1.0
+    });
+    let order = (errors[0] / errors[1]).log2();
+    assert!(errors[0].abs() < 0.06 && (order - 1.0).abs() < 0.15, "{errors:?}, order {order}");
 }

@@ -97,7 +97,7 @@ impl GreensFunction {
     /// `tolerance`.
     pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
         match *region {
-            Region::Plane => Self::Free,
+            Region::Plane | Region::Space | Region::Tube { .. } => Self::Free,
             Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
             Region::Box { lengths } => {
                 let transposed = lengths[1] < lengths[0];
