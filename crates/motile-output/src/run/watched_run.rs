@@ -8,7 +8,7 @@ use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
 use motile::motile_base::Region;
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
-use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Particles, Setup};
+use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Numbers, Particles, Setup};
 
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
 use crate::plot::{concentration_plot, time_series};
@@ -57,6 +57,8 @@ pub struct WatchedRun {
     job: Job,
     droplet: Handle<ActiveDroplet>,
     particles: Particles,
+    /// Dimensionless numbers of the droplet.
+    numbers: Option<Numbers>,
     method: MethodKind,
     /// Area of the droplet at the start.
     area: f64,
@@ -85,6 +87,7 @@ impl WatchedRun {
         let (body, frame) = (scene.body(droplet)?, Frame::new(Vec2::new(x, y), angle)?);
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         let area = body.initial_area();
+        let numbers = setup.numbers(&setup.droplets[0])?;
         let job = Job::new(&mut scene, setup, end, output, name)?;
         let raster = |spacing: f64| match setup.region {
             Region::Plane | Region::Space | Region::Tube { .. } => {
@@ -110,7 +113,21 @@ impl WatchedRun {
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }
         let (raster, droplets) = (still, table.transpose()?);
-        Ok(Self { scene, job, droplet, particles, method, area, raster, start, recorder, droplets, pictures, gap })
+        Ok(Self {
+            scene,
+            job,
+            droplet,
+            particles,
+            numbers,
+            method,
+            area,
+            raster,
+            start,
+            recorder,
+            droplets,
+            pictures,
+            gap,
+        })
     }
 
     /// Runs to the end, or until the observer `end`, called at every step, returns the error [`super::Decided`]. The

@@ -34,6 +34,31 @@ fn refused(setup: &Setup) -> String {
 }
 
 #[test]
+fn numbers_that_govern_a_droplet() {
+    let of = |droplet: DropletSetup| {
+        let setup = Setup { viscosity: 50.0, ..Setup::default() };
+        setup.numbers(&droplet).unwrap()
+    };
+    assert_eq!(of(DropletSetup::passive(10.0)), None);
+    assert_eq!(of(DropletSetup::active(0.0)), None);
+    let round = DropletSetup { viscosity: Some(150.0), ..DropletSetup::contractile(-4.0, 8.0).with_radius(2.0) };
+    let numbers = of(round.clone()).unwrap();
+    let wanted = Numbers { peclet: 40.0, excluded_volume: Some(2.0), bare_tension: 0.025, viscosity_ratio: 3.0 };
+    assert_eq!(numbers, wanted);
+    // The radius is that of the circle of the same area, however the shape is given.
+    let circle: Vec<[f64; 2]> =
+        (0..40).map(|k| std::f64::consts::TAU * f64::from(k) / 40.0).map(|t| [2.0 * t.cos(), 2.0 * t.sin()]).collect();
+    for shape in [
+        DropletShape::Ellipse { half_axes: [4.0, 1.0] },
+        DropletShape::Modes { radius: 2.0 / 1.02_f64.sqrt(), cosines: vec![0.0, 0.2], sines: vec![] },
+        DropletShape::Points(circle),
+    ] {
+        let found = of(DropletSetup { shape, ..round.clone() }).unwrap();
+        assert!((found.peclet / 40.0 - 1.0).abs() < 1e-4, "{found:?}");
+    }
+}
+
+#[test]
 fn what_makes_no_scene_is_refused_with_its_key() {
     let one = |droplet: DropletSetup| Setup { droplets: vec![droplet], ..Setup::default() };
     let with = |particles: Particles| one(DropletSetup { particles: Some(particles), ..DropletSetup::default() });

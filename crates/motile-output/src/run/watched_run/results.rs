@@ -31,6 +31,12 @@ impl WatchedRun {
     /// A run that has not begun.
     pub fn summary(&self) -> Result<Summary> {
         let mut summary = Summary::default();
+        if let Some(numbers) = self.numbers {
+            summary.put("peclet", numbers.peclet, "|zeta_dmu| c0 R0/((eta_in + eta_ext) D): swims above 2");
+            summary.put("excluded_volume_ratio", numbers.excluded_volume, "A/|zeta_dmu|: collapses up to 1");
+            summary.put("bare_tension_ratio", numbers.bare_tension, "gamma0/(|zeta_dmu| c0)");
+            summary.put("viscosity_ratio", numbers.viscosity_ratio, "eta_in/eta_ext");
+        }
         self.put_droplet(&mut summary, &self.last()?.observables)?;
         self.put_cost(&mut summary);
         summary.put("method", self.method.name(), "for the flow");
