@@ -43,7 +43,7 @@
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
-//! docs/method.md in the repository.
+//! docs/grid.md and docs/layers.md in the repository.
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.

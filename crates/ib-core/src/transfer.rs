@@ -29,7 +29,7 @@ use polynomial::{interpolate, spread};
 /// Both use the same weights at the places given to [`Transfer::locate`], so that `sum_k F_k . U_k` equals
 /// `sum f . u h^2` to round-off. Positions are wrapped into a periodic box; at a wall the weights beyond it are folded
 /// back, odd for the x component and even for the y component, so that the interpolated velocity vanishes on the
-/// wall (docs/method.md, section 2).
+/// wall (docs/grid.md).
 ///
 /// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster
 /// than to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between

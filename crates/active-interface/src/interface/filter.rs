@@ -10,7 +10,7 @@ const STRONGEST: f64 = 0.5;
 /// Most passes a step: more, of steps that long, would smooth the shape itself.
 const MOST_PASSES: f64 = 20.0;
 
-/// Filter that relaxes modes of the markers shorter than the kernel (docs/method.md, section 4). The kernel's transform
+/// Filter that relaxes modes of the markers shorter than the kernel (docs/method.md). The kernel's transform
 /// vanishes at the wave number 2 pi / h, so that tension does not act on them while the converging surface flow
 /// amplifies them.
 ///

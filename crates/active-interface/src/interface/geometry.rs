@@ -100,7 +100,7 @@ pub(super) fn add_tangential_motion(
     }
 }
 
-/// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):
+/// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md):
 ///
 /// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
 /// * tangential velocity W with `W_{k+1} - W_k = mean(q) - q_k + rho (mean(l) - l_k)`, where

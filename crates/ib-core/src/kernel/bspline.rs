@@ -4,9 +4,9 @@ use super::pieces::{BSPLINE_3, BSPLINE_4};
 use super::{Kernel, MAX_SUPPORT, Pieces, Role};
 
 /// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less): interpolation of
-/// a discretely divergence-free field with it is divergence free in the continuum (after Bao et al., J. Comput. Phys.
-/// 347, 2017; docs/method.md, section 2). `BSpline<4>`, cubic along a velocity component and quadratic across it, is
-/// the default kernel.
+/// a discretely divergence-free field with it is divergence free in the continuum (Gruninger and Griffith, "Composite
+/// B-spline regularized delta functions for the immersed boundary method", J. Comput. Phys. 546, 114472 (2025);
+/// docs/grid.md). `BSpline<4>`, cubic along a velocity component and quadratic across it, is the default kernel.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct BSpline<const N: usize>;
 

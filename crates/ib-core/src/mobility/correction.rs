@@ -8,7 +8,7 @@ use motile_base::Vec2;
 use motile_scene::FlowError;
 
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
-/// (docs/method.md, section 3):
+/// (docs/grid.md):
 ///
 /// `V_t += (h/eta) (S[G_t] F_t + S[G_x] F_n)`, `V_n += (h/eta) T (S[G_n] F_n + S[G_x] F_t)`,
 ///

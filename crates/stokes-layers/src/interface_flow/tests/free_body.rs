@@ -73,6 +73,23 @@ fn a_core_off_the_centre_moves_as_in_closed_form() {
     }
 }
 
+/// Droplet and core keep step at (1 - eps^2)/sqrt(3 - 2 eps^2) aside, where both closed forms are equal; the core has
+/// room there up to eps = (sqrt 7 - 1)/3.
+#[test]
+fn a_core_aside_has_a_place_of_rest() {
+    let place = |radius: f64| (1.0 - radius * radius) / (3.0 - 2.0 * radius * radius).sqrt();
+    for (radius, nodes) in [(0.1, 64), (0.3, 96), (0.5, 192)] {
+        let apart = |y: f64| {
+            let found = swimmer(nodes, radius, Vec2::new(0.0, y), 1.0);
+            (found[2] - found[0]).abs() / found[0].abs()
+        };
+        // Off it by a per cent it does not.
+        assert!(apart(place(radius)) < 1e-7 && apart(0.99 * place(radius)) > 1e-2, "{radius}");
+    }
+    let largest = (7.0_f64.sqrt() - 1.0) / 3.0;
+    assert!((place(largest) + largest - 1.0).abs() < 1e-15);
+}
+
 #[test]
 fn a_concentric_core_of_any_size_moves_as_in_closed_form() {
     for inside in [0.1, 1.0, 10.0, 100.0] {
