@@ -4,7 +4,8 @@
 //! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
 //! again), the curves and the numbers that its verdict rests on, as expressions of the columns. It prints them and
 //! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer and shorter runs. `figures --chapter 3` makes those of a
-//! chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew.
+//! chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew. Checks of `points` are found
+//! from the points in `docs/book/figures`, whenever the pages are written (`studies -- pages`).
 
 mod data;
 mod expression;
@@ -23,9 +24,9 @@ use motile_output::run::{explained, say};
 use serde::{Deserialize, Serialize};
 
 use crate::tables;
-use data::{Data, Source};
+use data::{Data, POINTS, Source};
 use expression::Definitions;
-use figure::{Checked, Figure};
+use figure::{Checked, Figure, Judged};
 
 /// Makes a figure of the book.
 #[derive(Debug, Args)]
@@ -111,6 +112,21 @@ pub(crate) fn figures(flags: &FiguresFlags) -> Result<()> {
     make(&numbers, &flags.common)
 }
 
+/// Writes the pages of the book from what is kept of its figures, or checks that they are so.
+///
+/// # Errors
+/// Pages that are otherwise, files that cannot be read or written.
+pub(crate) fn pages(check: bool) -> Result<()> {
+    if !check {
+        return pages::write();
+    }
+    for (name, text) in pages::all()? {
+        let same = fs::read_to_string(pages::folder().join(&name))? == text;
+        ensure!(same, "docs/book/{name} is otherwise than its figures: run `studies -- pages`");
+    }
+    Ok(())
+}
+
 fn different(mut list: Vec<String>) -> Vec<String> {
     list.dedup();
     list
@@ -139,7 +155,11 @@ fn read(number: &str) -> Result<Figure> {
     if !numbers()?.iter().any(|known| known == number) {
         bail!("there is no figure {number}: give one of {}", numbers()?.join(", "));
     }
-    let read = || -> Result<Figure> { Ok(toml::from_str(&fs::read_to_string(&path)?)?) };
+    let read = || -> Result<Figure> {
+        let mut figure: Figure = toml::from_str(&fs::read_to_string(&path)?)?;
+        number.clone_into(&mut figure.number);
+        Ok(figure)
+    };
     read().with_context(|| path.display().to_string())
 }
 
@@ -184,7 +204,12 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         return Ok(());
     }
     let (plots, points) = figure.panels(&definitions, made)?;
-    let checks = figure.checks(&definitions, made)?;
+    let mut given = made.clone();
+    given.insert(POINTS.to_owned(), Data::in_points(&points));
+    for name in figure.others() {
+        given.insert(name.to_owned(), Data::of_points(name, number)?);
+    }
+    let checks = figure.checks(&definitions, &given)?;
     let columns = plots.len().min(2);
     let picture = plots.into_iter().fold(Picture::new(columns), Picture::panel);
     if columns > 0 {
@@ -192,8 +217,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         fs::write(making.out.join(format!("{number}.csv")), &points)?;
     }
     for check in &checks {
-        let fails = if check.stands { "" } else { "   NOT as the verdict has it" };
-        say(format_args!("  {}: {}{fails}", check.name, check.text));
+        say(format_args!("  {}: {}", check.name, check.text));
     }
     let own = || figure.data.iter().filter_map(|name| made.get(name));
     let kept = Kept {
@@ -205,8 +229,12 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         data: own().map(|data| data.about.clone()).collect(),
         checks,
     };
-    let verdict = verdict(&figure, Some(&kept));
-    say(format_args!("Verdict: {verdict}. {}", figure.why));
+    if making.quick && kept.runs > 0 {
+        say(format_args!("Fewer and shorter runs than the ranges are for: they decide nothing."));
+    } else {
+        let judged = figure.judged(&kept.checks);
+        say(format_args!("Verdict: {}. {}", verdict(&figure, Some(&judged)), figure.why));
+    }
     say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
     if write {
         let commit = tables::commit(&["tests/src/validation", "crates/steady-states/src"])?;
@@ -223,14 +251,17 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
 }
 
 /// The verdict as it stands after what was found.
-fn verdict(figure: &Figure, kept: Option<&Kept>) -> String {
+fn verdict(figure: &Figure, judged: Option<&[Judged]>) -> String {
     let needs = figure.number_of_data() > 0;
-    let fails = kept.and_then(|kept| kept.checks.iter().find(|check| !check.stands));
-    match (figure.verdict, kept, fails) {
-        (None, ..) => "not computed yet".to_owned(),
-        (_, None, _) if needs => "not computed yet".to_owned(),
-        (Some(_), _, Some(check)) => format!("open: {} is {}", check.name, check.text),
-        (Some(verdict), ..) => verdict.name().to_owned(),
+    let unknown = judged.is_none_or(|judged| judged.iter().any(|check| check.text.is_none()));
+    let fails = judged.and_then(|judged| judged.iter().find(|check| !check.stands));
+    match (figure.verdict, fails) {
+        (None, _) => "not computed yet".to_owned(),
+        _ if needs && unknown => "not computed yet".to_owned(),
+        (Some(_), Some(check)) => {
+            format!("open: {} is {}", check.name, check.text.as_deref().unwrap_or("not known"))
+        }
+        (Some(verdict), None) => verdict.name().to_owned(),
     }
 }
 

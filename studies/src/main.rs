@@ -12,7 +12,9 @@ mod gel;
 mod hard_cases;
 mod instructions;
 mod nucleus;
+mod pictures;
 mod scaling;
+mod site;
 mod steady_states;
 mod step_cost;
 mod tables;
@@ -56,6 +58,8 @@ enum Study {
     /// Lists the tables that are older than the last change of what they measure
     Stale,
     Pages(tables::PagesFlags),
+    Site(site::Flags),
+    Pictures(pictures::Flags),
 }
 
 fn main() -> ExitCode {
@@ -78,5 +82,7 @@ fn main() -> ExitCode {
         Study::Exchange(flags) => exchange::run(flags),
         Study::Stale => tables::stale(),
         Study::Pages(flags) => tables::pages(flags),
+        Study::Site(flags) => site::run(flags),
+        Study::Pictures(flags) => pictures::run(flags),
     })
 }

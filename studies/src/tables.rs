@@ -45,7 +45,7 @@ const BEGIN: &str = "<!-- table ";
 const END: &str = "<!-- end of table -->";
 const MEASURED: &str = "<!-- measured at ";
 
-/// Fills the tables of the pages from docs/tables.
+/// Fills the tables of the pages from docs/tables, writes the pages of the book, checks links and formulas.
 #[derive(Debug, Args)]
 pub(crate) struct PagesFlags {
     /// Change nothing; fail if a page shows something else than the files have
@@ -198,7 +198,8 @@ pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
         fs::write(&path, filled)?;
         say(format_args!("{} is updated", name(&path)));
     }
-    Ok(())
+    crate::book::pages(flags.check)?;
+    crate::site::check()
 }
 
 fn name(path: &Path) -> String {

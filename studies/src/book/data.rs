@@ -76,7 +76,60 @@ pub(super) struct Data {
     pub(super) seconds: f64,
 }
 
+/// The name of the points of a figure's own panels, and what names of those of another one begin with.
+pub(super) const POINTS: &str = "points";
+
+impl Data {
+    /// Whether a name is that of points which are kept with a figure.
+    pub(super) fn is_of_points(name: &str) -> bool {
+        name == POINTS || name.starts_with("points-")
+    }
+
+    /// The points that are kept with the figure `own`, or with 3.4 if the name is points-3.4.
+    pub(super) fn of_points(name: &str, own: &str) -> Result<Self> {
+        let number = name.strip_prefix("points-").unwrap_or(own);
+        let path = super::pages::folder().join(format!("figures/{number}.csv"));
+        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        Ok(Self::in_points(&text))
+    }
+
+    /// Rows with panel, group, x and y, and a name of the curve's label that is 1.
+    pub(super) fn in_points(text: &str) -> Self {
+        let row = |line: &str| -> Option<Row> {
+            let (panel, rest) = line.split_once(',')?;
+            // Labels may have commas.
+            let mut parts = rest.rsplitn(5, ',').skip(1);
+            let (y, x, group, label) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
+            let numbers = [("panel", panel), ("group", group), ("x", x), ("y", y)];
+            let mut row: Row =
+                numbers.iter().filter_map(|(name, text)| Some(((*name).to_owned(), text.parse().ok()?))).collect();
+            row.insert("labelled".to_owned(), f64::from(u8::from(!label.is_empty())));
+            row.insert(plain(label), 1.0);
+            Some(row)
+        };
+        let rows = text.lines().skip(1).filter_map(row).collect();
+        Self { about: String::new(), rows, wanted: 0, seconds: 0.0 }
+    }
+}
+
 impl Source {
+    /// What it is, to which time its runs go and at which resolution.
+    pub(super) fn told(&self) -> String {
+        let Some(plan) = &self.plan else { return self.about.clone() };
+        let number = |path: &[&str]| {
+            let (last, tables) = path.split_last()?;
+            let inner = tables.iter().try_fold(plan, |table, key| table.get(*key)?.as_table())?;
+            inner.get(*last).map(ToString::to_string)
+        };
+        let mut words = Vec::new();
+        words.extend(number(&["time"]).filter(|_| !self.steady).map(|time| format!("to t = {time}")));
+        words.extend(number(&["scene", "method", "integral", "nodes"]).map(|nodes| format!("{nodes} nodes")));
+        for method in ["layers", "grid"] {
+            words.extend(number(&["scene", "method", method, "spacing"]).map(|h| format!("h = {h}")));
+        }
+        if words.is_empty() { self.about.clone() } else { format!("{} ({})", self.about, words.join(", ")) }
+    }
+
     pub(super) fn read(name: &str) -> Result<Self> {
         let path = super::directory().join("data").join(format!("{name}.toml"));
         let read = || -> Result<Self> { Ok(toml::from_str(&std::fs::read_to_string(&path)?)?) };
@@ -111,19 +164,28 @@ impl Source {
         Plan::of(plan).and_then(|plan| plan.trials(&folder)).with_context(|| format!("data {name}"))
     }
 
+    /// Its rows if they take no runs: those of a table or of lists of numbers.
+    pub(super) fn kept(&self) -> Result<Option<Data>> {
+        let rows = match &self.table {
+            Some(table) => of_table(table)?,
+            None if self.plan.is_some() => return Ok(None),
+            None => {
+                let count = self.numbers.values().map(Vec::len).max().unwrap_or(0);
+                let row = |k: usize| -> Row {
+                    self.numbers.iter().filter_map(|(name, list)| Some((name.clone(), *list.get(k)?))).collect()
+                };
+                (0..count).map(row).collect()
+            }
+        };
+        Ok(Some(Data { about: self.about.clone(), rows, wanted: 0, seconds: 0.0 }))
+    }
+
     /// Its rows; runs that are not there are made. Failures are told and leave rows out.
     pub(super) fn rows(&self, name: &str, making: &Making) -> Result<Data> {
+        if let Some(kept) = self.kept()? {
+            return Ok(kept);
+        }
         let about = self.about.clone();
-        if let Some(table) = &self.table {
-            return Ok(Data { about, rows: of_table(table)?, wanted: 0, seconds: 0.0 });
-        }
-        if self.plan.is_none() {
-            let count = self.numbers.values().map(Vec::len).max().unwrap_or(0);
-            let row = |k: usize| -> Row {
-                self.numbers.iter().filter_map(|(name, list)| Some((name.clone(), *list.get(k)?))).collect()
-            };
-            return Ok(Data { about, rows: (0..count).map(row).collect(), wanted: 0, seconds: 0.0 });
-        }
         let trials = self.trials(name, making)?;
         let wanted = trials.len();
         let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use motile_output::plot::{AxisScale, Marker, Plot, SERIES_COLOURS, Series};
 use serde::{Deserialize, Serialize};
 
-use super::data::Data;
+use super::data::{Data, Source};
 use super::expression::{Definitions, Expression, Row};
 use super::statistics::{Measure, mean, same, shown};
 
@@ -26,6 +26,9 @@ pub(super) enum Verdict {
     Refuted,
     #[serde(rename = "cannot tell")]
     CannotTell,
+    /// The figure shows something that could not be otherwise.
+    #[serde(rename = "no claim")]
+    NoClaim,
 }
 
 impl Verdict {
@@ -36,7 +39,13 @@ impl Verdict {
             Self::Discretisation => "discretisation",
             Self::Refuted => "refuted",
             Self::CannotTell => "cannot tell",
+            Self::NoClaim => "no claim",
         }
+    }
+
+    /// Whether it says something of the statement, so that a number has to be able to speak against it.
+    pub(super) fn decides(self) -> bool {
+        !matches!(self, Self::CannotTell | Self::NoClaim)
     }
 }
 
@@ -44,6 +53,9 @@ impl Verdict {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Figure {
+    /// Its number, which is not in the file.
+    #[serde(skip)]
+    pub(super) number: String,
     pub(super) title: String,
     /// What the thesis says, in its words or close to them.
     pub(super) says: String,
@@ -125,8 +137,10 @@ struct Check {
     measure: Measure,
     #[serde(flatten)]
     points: Points,
-    /// Where the number is for the verdict to stand.
+    /// Where the number is for the verdict to stand, stated before it is found.
     within: Option<[f64; 2]>,
+    /// What the number would be if the contrary of the verdict were so: outside of the range.
+    opposite: Option<f64>,
 }
 
 /// A number that was found, as it is kept.
@@ -134,8 +148,37 @@ struct Check {
 pub(super) struct Checked {
     pub(super) name: String,
     pub(super) text: String,
+}
+
+impl Checked {
+    /// The numbers in the text, without what is said beside them.
+    fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        let number = |part: &str| {
+            let part = part.split(" (").next().unwrap_or(part);
+            part.rsplit(": ").next().unwrap_or(part).trim().parse().unwrap_or(f64::NAN)
+        };
+        self.text.split("; ").map(number)
+    }
+}
+
+/// A check of a figure with what was found; nothing where that is not known.
+#[derive(Debug)]
+pub(super) struct Judged {
+    pub(super) name: String,
+    pub(super) text: Option<String>,
+    within: Option<[f64; 2]>,
+    opposite: Option<f64>,
     /// Whether the verdict can stand.
     pub(super) stands: bool,
+}
+
+impl Judged {
+    /// The range that the verdict rests on, in words.
+    pub(super) fn range(&self) -> String {
+        let Some([low, high]) = self.within else { return String::new() };
+        let opposite = self.opposite.map(|value| format!(", the contrary {}", shown(value))).unwrap_or_default();
+        format!(" [stands in {} to {}{opposite}]", shown(low), shown(high))
+    }
 }
 
 /// Points of a group in the order of x, with the standard deviations of those that are means.
@@ -153,20 +196,84 @@ impl Figure {
     }
 
     fn checked(&self, check: &Check, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Checked> {
-        let mut stands = true;
         let mut texts = Vec::new();
         for (group, points) in self.groups(&check.points, definitions, data)? {
             // Every point for itself: scatter is part of what is found.
             let pairs: Vec<(f64, f64)> = points.iter().map(|(x, y, _)| (*x, *y)).collect();
             let (value, beside) = check.measure.of(&pairs);
-            stands &= check.within.is_none_or(|[low, high]| (low..=high).contains(&value));
             let of = if group.is_nan() { String::new() } else { format!("{}: ", shown(group)) };
             let beside = if beside.is_empty() { beside } else { format!(" ({beside})") };
             texts.push(format!("{of}{}{beside}", shown(value)));
         }
-        // Nothing to measure is no confirmation.
-        stands &= !texts.is_empty();
-        Ok(Checked { name: check.name.clone(), text: texts.join("; "), stands })
+        Ok(Checked { name: check.name.clone(), text: texts.join("; ") })
+    }
+
+    /// Names of points of other figures that its checks are of.
+    pub(super) fn others(&self) -> impl Iterator<Item = &str> {
+        let names = self.check.iter().filter_map(|check| check.points.data.as_deref());
+        names.filter(|name| name.starts_with("points-"))
+    }
+
+    /// What was kept of checks of runs, and checks that need none found anew: of points that are kept, of tables, of
+    /// lists of numbers.
+    pub(super) fn found(&self, common: &Definitions, kept: &[Checked]) -> Result<Vec<Checked>> {
+        let definitions = self.definitions(common);
+        let mut found = Vec::new();
+        let mut left: Vec<&Checked> = kept.iter().collect();
+        for check in &self.check {
+            let name = check.points.data.as_ref().or(self.data.first()).context("a figure without data")?;
+            let points = Data::is_of_points(name).then(|| Data::of_points(name, &self.number)).transpose()?;
+            let data = match points {
+                Some(points) => Some(points),
+                None => Source::read(name)?.kept()?,
+            };
+            let place = left.iter().position(|one| one.name == check.name);
+            let kept = place.map(|place| left.remove(place).clone());
+            match data {
+                Some(data) => {
+                    let data = BTreeMap::from([(name.clone(), data)]);
+                    found.push(self.checked(check, &definitions, &data).context(check.name.clone())?);
+                }
+                None => found.extend(kept),
+            }
+        }
+        Ok(found)
+    }
+
+    /// Every check with what was found, and whether the verdict can stand with it.
+    pub(super) fn judged(&self, found: &[Checked]) -> Vec<Judged> {
+        let mut left: Vec<&Checked> = found.iter().collect();
+        let mut judged = |check: &Check| -> Judged {
+            let place = left.iter().position(|one| one.name == check.name);
+            let found = place.map(|place| left.remove(place));
+            let holds = |value: f64| check.within.is_none_or(|[low, high]| (low..=high).contains(&value));
+            // Nothing to measure is no confirmation.
+            let stands = found.is_some_and(|found| !found.text.is_empty() && found.values().all(holds));
+            Judged {
+                name: check.name.clone(),
+                text: found.map(|found| found.text.clone()),
+                within: check.within,
+                opposite: check.opposite,
+                stands: stands || check.within.is_none(),
+            }
+        };
+        self.check.iter().map(|check| judged(check)).collect()
+    }
+
+    /// A sentence about a verdict without a number that could speak against it.
+    pub(super) fn lacks(&self) -> Option<String> {
+        let outside = |check: &Check| match (check.within, check.opposite) {
+            (Some([low, high]), Some(opposite)) => Some(!(low..=high).contains(&opposite)),
+            (None, Some(_)) => Some(false),
+            _ => None,
+        };
+        let opposites: Vec<bool> = self.check.iter().filter_map(outside).collect();
+        if opposites.iter().any(|outside| !outside) {
+            return Some("the contrary of a statement is within the range for it".to_owned());
+        }
+        let decides = self.verdict.is_some_and(Verdict::decides);
+        (decides && opposites.is_empty())
+            .then(|| "no range that the contrary of the statement is outside of".to_owned())
     }
 
     fn definitions(&self, common: &Definitions) -> Definitions {
@@ -224,7 +331,8 @@ impl Figure {
 
     fn groups(&self, points: &Points, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Group>> {
         let name = points.data.as_ref().or(self.data.first()).context("a figure without data")?;
-        ensure!(self.data.contains(name), "data {name} is not among those of the figure: {}", self.data.join(", "));
+        let listed = self.data.contains(name) || Data::is_of_points(name);
+        ensure!(listed, "data {name} is not among those of the figure: {}", self.data.join(", "));
         let rows = &data.get(name).with_context(|| format!("no data {name}"))?.rows;
         let known: BTreeSet<&str> = rows.iter().flat_map(|row| row.keys().map(String::as_str)).collect();
         let parse = |text: &str| -> Result<Expression> {

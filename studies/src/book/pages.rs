@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
-use super::figure::Figure;
-use super::{Kept, chapter_of, different, numbers, read, verdict};
+use super::data::Source;
+use super::figure::{Figure, Judged};
+use super::{Kept, chapter_of, definitions, different, numbers, read, verdict};
 use crate::tables;
 
 /// Widest line of prose.
@@ -24,7 +25,9 @@ const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.m
                      what converged results say. All of it is written by `cargo run --release -p studies -- figures \
                      --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
                      chapter, `--quick` each with fewer and shorter runs. A figure that was not computed says so; a \
-                     verdict whose numbers came out otherwise than it needs is shown as open, with the number.";
+                     verdict whose numbers came out otherwise than it needs is shown as open, with the number. Every \
+                     verdict but 'cannot tell' and 'no claim' rests on ranges, stated before the numbers are found, that \
+                     the number of the contrary statement is outside of; a test refuses one without.";
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")
@@ -58,7 +61,7 @@ pub(super) fn write() -> Result<()> {
 
 /// The names of all pages and their texts.
 pub(super) fn all() -> Result<Vec<(String, String)>> {
-    let numbers = numbers()?;
+    let (numbers, definitions) = (numbers()?, definitions()?);
     let mut front = format!("# The book\n\n{}\n", wrapped(FRONT));
     let mut pages = Vec::new();
     let mut counts: Vec<(String, usize)> = Vec::new();
@@ -71,11 +74,18 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
         );
         for number in numbers.iter().filter(|number| chapter_of(number) == chapter) {
             let figure = read(number)?;
+            if let Some(lack) = figure.lacks() {
+                bail!("figure {number}: {lack}");
+            }
             let [full, quick] = kept(number)?;
             let found = full.as_ref().or(quick.as_ref());
-            let verdict = verdict(&figure, found);
-            let first = found.and_then(|kept| kept.checks.first());
-            let evidence = first.map_or_else(String::new, |check| format!("{}: {}", check.name, check.text));
+            let checks = figure.found(&definitions, found.map_or(&[], |kept| &kept.checks))?;
+            let judged = figure.judged(&checks);
+            let verdict = verdict(&figure, Some(&judged));
+            let decisive = judged.iter().find(|check| !check.range().is_empty()).or(judged.first());
+            let evidence = decisive.map_or_else(String::new, |check| {
+                format!("{}: {}", check.name, check.text.as_deref().unwrap_or("not found yet"))
+            });
             let anchor = format!("figure-{}", number.to_lowercase().replace('.', ""));
             let cell = |text: &str| text.replace('|', "\\|");
             let _ = writeln!(
@@ -90,7 +100,7 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
                 Some((_, count)) => *count += 1,
                 None => counts.push((kind.to_owned(), 1)),
             }
-            page += &section(number, &figure, &verdict, [&full, &quick])?;
+            page += &section(number, &figure, &verdict, &judged, [&full, &quick])?;
         }
         pages.push((name, page));
     }
@@ -103,19 +113,27 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     Ok(pages)
 }
 
-fn section(number: &str, figure: &Figure, verdict: &str, [full, quick]: [&Option<Kept>; 2]) -> Result<String> {
+fn section(
+    number: &str,
+    figure: &Figure,
+    verdict: &str,
+    judged: &[Judged],
+    [full, quick]: [&Option<Kept>; 2],
+) -> Result<String> {
     let mut text = format!("\n## Figure {number}\n\n{}", wrapped(&figure.title));
     text += "\n";
     text += &wrapped(&format!("**Cowley:** {}", figure.says));
     if let Some(kept) = full.as_ref().or(quick.as_ref()) {
         text += "\n";
         let kind = if kept.quick { " (quick)" } else { "" };
-        text += &wrapped(&format!("**Found{kind}**, at {}: {}", kept.commit, kept.data.join("; ")));
-        if !kept.checks.is_empty() {
+        let data = figure.data.iter().map(|name| Ok(Source::read(name)?.told())).collect::<Result<Vec<_>>>()?;
+        text += &wrapped(&format!("**Found{kind}**, at {}: {}", kept.commit, data.join("; ")));
+        if !judged.is_empty() {
             text += "\n";
         }
-        for check in &kept.checks {
-            text += &wrapped(&format!("* {}: {}", check.name, check.text));
+        for check in judged {
+            let found = check.text.as_deref().unwrap_or("not found yet");
+            text += &wrapped(&format!("* {}: {found}{}", check.name, check.range()));
         }
         if kept.left_out > 0 {
             let _ = writeln!(text, "\n{} of {} runs failed and are left out.", kept.left_out, kept.runs);

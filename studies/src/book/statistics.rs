@@ -12,8 +12,12 @@ pub(super) enum Measure {
     Greatest,
     /// How many points y is not 0 of, and of how many.
     Count,
-    /// Correlation coefficient of x and y.
+    /// Correlation coefficient of x and y, of five points or more, with the probability of one as large without any.
     Correlation,
+    /// Largest residual of the line of [`Measure::Line`].
+    Residual,
+    /// Least squares of exp(-x/b): b, with the largest residual.
+    Decay,
     /// Slope of a line through the origin, the mean of y/x, and its standard deviation relative to that.
     Slope,
     /// Least squares of a + b x: b, with its standard error.
@@ -27,6 +31,9 @@ pub(super) enum Measure {
     /// Where y is greatest.
     Peak,
 }
+
+/// Fewest points of a correlation.
+const FEWEST: usize = 5;
 
 /// A number, and what is said beside it.
 pub(super) type Found = (f64, String);
@@ -46,8 +53,17 @@ impl Measure {
             Self::Greatest => alone(ys().fold(f64::NAN, f64::max)),
             Self::Count => (ys().filter(|y| *y != 0.0).count() as f64, format!("of {}", points.len())),
             Self::Correlation => {
+                if points.len() < FEWEST {
+                    return (f64::NAN, format!("of {n} points: too few"));
+                }
                 let (xx, xy, yy) = moments(points);
-                (xy / (xx * yy).sqrt(), format!("of {n} points"))
+                let r = xy / (xx * yy).sqrt();
+                (r, format!("of {n} points, p = {}", chance(r, points.len())))
+            }
+            Self::Residual => alone(line(points, |x| x).2),
+            Self::Decay => {
+                let (b, worst) = decay(points);
+                (b, format!("largest residual {}", shown(worst)))
             }
             Self::Slope => {
                 let (slope, deviation) = mean(points.iter().map(|(x, y)| y / x));
@@ -60,9 +76,10 @@ impl Measure {
                 (b, format!("standard error {}", shown(error)))
             }
             Self::Exponential => {
-                let (_, b, _, worst) = exponential(points);
+                let (a, b, c, worst) = exponential(points);
                 let range = ys().fold(f64::NAN, f64::max) - ys().fold(f64::NAN, f64::min);
-                (b, format!("largest residual {:.1} % of the range", 100.0 * worst / range))
+                let residual = format!("largest residual {:.1} % of the range", 100.0 * worst / range);
+                (b, format!("a = {}, c = {}, {residual}", shown(a), shown(c)))
             }
             Self::Spread => alone(spread(points)),
             Self::Zero => {
@@ -114,6 +131,29 @@ pub(super) fn exponential(points: &[(f64, f64)]) -> (f64, f64, f64, f64) {
     });
     let found = fits.filter(|fit| fit.3.is_finite()).min_by(|a, b| a.3.total_cmp(&b.3));
     found.unwrap_or((f64::NAN, f64::NAN, f64::NAN, f64::NAN))
+}
+
+/// The probability that points of no correlation have one of this size or more, by Student's distribution: with
+/// r = sin(angle) its density is cos(angle)^(n - 3).
+fn chance(r: f64, n: usize) -> String {
+    let power = n as i32 - 3;
+    let part = |from: f64| {
+        let (steps, to) = (2000, std::f64::consts::FRAC_PI_2);
+        let width = (to - from) / f64::from(steps);
+        (0..steps).map(|k| (from + (f64::from(k) + 0.5) * width).cos().powi(power)).sum::<f64>() * width
+    };
+    let p = part(r.abs().min(1.0).asin()) / part(0.0);
+    if p < 1e-4 { "below 1e-4".to_owned() } else { format!("{p:.2}").replace("0.00", "below 0.005") }
+}
+
+/// Least squares of exp(-x/b): b and the largest residual.
+fn decay(points: &[(f64, f64)]) -> (f64, f64) {
+    let largest = points.iter().map(|(x, _)| x.abs()).fold(0.0, f64::max);
+    let residuals = |b: f64| points.iter().map(move |(x, y)| (y - (-x / b).exp()).abs());
+    let squares = |b: &f64| residuals(*b).map(|r| r * r).sum::<f64>();
+    let widths = (0..4000).map(|k| 1e-3 * largest * 1e4_f64.powf(f64::from(k) / 3999.0));
+    let b = widths.min_by(|a, b| squares(a).total_cmp(&squares(b))).unwrap_or(f64::NAN);
+    (b, residuals(b).fold(0.0, f64::max))
 }
 
 fn spread(points: &[(f64, f64)]) -> f64 {

@@ -21,7 +21,8 @@ fn every_figure_has_its_file_and_every_plan_its_scenes() {
         // Expressions are read even where there are no rows.
         let empty =
             |name: &String| (name.clone(), Data { about: String::new(), rows: vec![], wanted: 0, seconds: 0.0 });
-        let none: BTreeMap<String, Data> = figure.data.iter().map(empty).collect();
+        let points = figure.others().map(str::to_owned).chain([POINTS.to_owned()]);
+        let none: BTreeMap<String, Data> = figure.data.iter().cloned().chain(points).map(|name| empty(&name)).collect();
         figure.checks(&definitions().expect("definitions"), &none).expect(number);
     }
     for (name, number) in data {
@@ -79,20 +80,41 @@ fn a_verdict_falls_with_its_numbers() {
                 name = \"speed\"\nmeasure = \"mean\"\nx = \"1\"\ny = \"speed\"\nwithin = [0.9, 1.1]\n";
     let figure: Figure = toml::from_str(text).expect("a figure");
     assert_eq!(verdict(&figure, None), "not computed yet");
-    for (speed, expected) in [(1.0, "confirmed"), (2.0, "open: speed is 2")] {
+    assert_eq!(verdict(&figure, Some(&figure.judged(&[]))), "not computed yet");
+    for (speed, expected) in [(1.0, "confirmed"), (2.0, "open: speed is 2"), (f64::NAN, "open: speed is ")] {
         let rows = vec![[("speed".to_owned(), speed)].into()];
         let data = [("rows".to_owned(), Data { about: String::new(), rows, wanted: 1, seconds: 0.0 })].into();
         let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
-        let kept =
-            Kept { quick: true, commit: String::new(), runs: 1, left_out: 0, seconds: 0.0, data: vec![], checks };
-        assert!(verdict(&figure, Some(&kept)).starts_with(expected), "{}", verdict(&figure, Some(&kept)));
+        let found = verdict(&figure, Some(&figure.judged(&checks)));
+        assert!(found.starts_with(expected), "{found}");
     }
+    // A range that cannot be missed is none.
+    for (opposite, lacks) in [("", true), ("opposite = 1.05\n", true), ("opposite = 0.0\n", false)] {
+        let figure: Figure = toml::from_str(&(text.to_owned() + opposite)).expect("a figure");
+        assert_eq!(figure.lacks().is_some(), lacks, "{opposite}");
+    }
+}
+
+#[test]
+fn every_verdict_rests_on_a_range_that_its_contrary_is_outside_of() {
+    let lacking = numbers().expect("figures").into_iter();
+    let lacking = lacking.filter_map(|number| Some(format!("{number}: {}", read(&number).expect(&number).lacks()?)));
+    let lacking: Vec<String> = lacking.collect();
+    assert!(lacking.is_empty(), "{}", lacking.join("\n"));
+}
+
+#[test]
+fn points_are_read_back() {
+    let data = Data::in_points("panel,curve,group,x,y,deviation\n1,\"a, b\",2,0.5,-1e-3,0\n2,,none,1,2,0\n");
+    let value = |k: usize, name: &str| data.rows[k].get(name).copied();
+    assert_eq!([value(0, "group"), value(0, "x"), value(0, "y")], [Some(2.0), Some(0.5), Some(-1e-3)]);
+    assert_eq!([value(1, "group"), value(1, "panel"), value(1, "labelled")], [None, Some(2.0), Some(0.0)]);
 }
 
 #[test]
 fn the_pages_are_those_that_would_be_written() {
     for (name, text) in pages::all().expect("pages") {
         let kept = fs::read_to_string(pages::folder().join(&name)).expect(&name);
-        assert!(kept == text, "docs/book/{name}: run studies -- figures --write");
+        assert!(kept == text, "docs/book/{name}: run studies -- pages");
     }
 }

@@ -1,0 +1,229 @@
+//! The site that `mdbook build docs` makes: what it does to pages, and checks that need no mdBook.
+//!
+//! mdBook runs `studies -- site` between reading and rendering the pages (`docs/book.toml`): formulas in `math` blocks
+//! become MathML, which browsers show without scripts and fonts of its own, `README.md` becomes the first page, and
+//! links to files of the repository that are no part of the site become their names.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{Read, stdin};
+use std::path::{Component, Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use motile_output::run::say;
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+use serde_json::Value;
+
+use crate::tables::root;
+
+/// Turns the pages that mdBook gives on standard input into those that it renders.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// `supports RENDERER`, as mdBook asks first
+    question: Vec<String>,
+}
+
+/// The page that shows README.md, and the list of pages.
+const FRONT: &str = "index.md";
+const SUMMARY: &str = "SUMMARY.md";
+const BEGIN: &str = "```math\n";
+const END: &str = "```\n";
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    if !flags.question.is_empty() {
+        return Ok(());
+    }
+    let mut text = String::new();
+    stdin().read_to_string(&mut text)?;
+    let mut given: Value = serde_json::from_str(&text)?;
+    let book = given.get_mut(1).context("mdBook gives a context and a book")?;
+    turn(book)?;
+    say(book);
+    Ok(())
+}
+
+/// Turns every chapter in a value and below it.
+fn turn(value: &mut Value) -> Result<()> {
+    match value {
+        Value::Object(map) => {
+            let path = map.get("path").and_then(Value::as_str).map(str::to_owned);
+            if let (Some(path), Some(content)) = (path, map.get("content").and_then(Value::as_str)) {
+                let page = if path == FRONT { front()? } else { content.to_owned() };
+                let turned = typeset(&page).with_context(|| path.clone())?;
+                map.insert("content".to_owned(), within(&turned, Path::new(&path)).into());
+            }
+            map.values_mut().try_for_each(turn)
+        }
+        Value::Array(list) => list.iter_mut().try_for_each(turn),
+        _ => Ok(()),
+    }
+}
+
+/// README.md as a page of docs.
+fn front() -> Result<String> {
+    Ok(fs::read_to_string(root().join("README.md"))?.replace("](docs/", "](").replace("](README.md", "](index.md"))
+}
+
+/// A page with its formulas as MathML.
+fn typeset(page: &str) -> Result<String> {
+    let mut out = String::new();
+    let mut rest = page;
+    while let Some(start) = rest.find(BEGIN) {
+        out += &rest[..start];
+        let formula = &rest[start + BEGIN.len()..];
+        let end = formula.find(END).with_context(|| format!("no end of the formula: {formula:.60}"))?;
+        out += &formula_as_mathml(formula[..end].trim())?;
+        out.push('\n');
+        rest = &formula[end + END.len()..];
+    }
+    Ok(out + rest)
+}
+
+fn formula_as_mathml(formula: &str) -> Result<String> {
+    let storage = Storage::new();
+    let events = Parser::new(formula, &storage).collect::<Result<Vec<_>, _>>();
+    let events = events.map_err(|error| anyhow::anyhow!("formula {formula}: {error}"))?;
+    let mut out = String::new();
+    let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
+    push_mathml(&mut out, events.into_iter().map(Ok::<_, std::io::Error>), config)?;
+    // An empty line would end the block.
+    Ok(out.replace('\n', " "))
+}
+
+/// A page at `path` without links to what is outside of docs.
+fn within(page: &str, path: &Path) -> String {
+    let mut out = String::new();
+    let mut rest = page;
+    while let Some(middle) = rest.find("](") {
+        let target = &rest[middle + 2..];
+        let Some(end) = target.find(')') else { break };
+        let (place, after) = (&target[..end], &target[end + 1..]);
+        let outside = !place.contains("://") && below(path, place).is_none();
+        match rest[..middle].rfind('[').filter(|_| outside) {
+            Some(start) if place.split('#').next().is_some_and(|file| file.ends_with("../README.md")) => {
+                out += &rest[..start];
+                let up = "../".repeat(path.components().count() - 1);
+                let anchor = place.split_once('#').map(|(_, anchor)| format!("#{anchor}")).unwrap_or_default();
+                out += &format!("{}]({up}{FRONT}{anchor})", &rest[start..middle]);
+            }
+            Some(start) => {
+                out += &rest[..start];
+                out += &rest[start + 1..middle];
+            }
+            None => out += &rest[..middle + 2 + end + 1],
+        }
+        rest = after;
+    }
+    out + rest
+}
+
+/// The file that a link on the page at `path` leads to, if it is below the folder that paths begin in.
+fn below(path: &Path, link: &str) -> Option<PathBuf> {
+    let file = link.split('#').next().unwrap_or(link);
+    let base = if file.is_empty() { path.to_owned() } else { path.parent()?.join(file) };
+    let mut found = PathBuf::new();
+    for part in base.components() {
+        match part {
+            Component::ParentDir if !found.pop() => return None,
+            Component::Normal(name) => found.push(name),
+            _ => {}
+        }
+    }
+    Some(found)
+}
+
+/// Checks that every page is in SUMMARY.md, that links lead somewhere and that formulas can be typeset.
+///
+/// # Errors
+/// All that is wrong, a line each.
+pub(crate) fn check() -> Result<()> {
+    let mut pages: BTreeMap<PathBuf, String> = BTreeMap::new();
+    for folder in ["", "docs", "docs/book"] {
+        for entry in fs::read_dir(root().join(folder))? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                let name = path.strip_prefix(root())?.to_owned();
+                pages.insert(name, fs::read_to_string(&path)?);
+            }
+        }
+    }
+    let mut wrong = Vec::new();
+    let summary = pages.get(Path::new("docs").join(SUMMARY).as_path()).context("docs/SUMMARY.md is missing")?;
+    let listed: BTreeSet<PathBuf> = links(summary).filter_map(|link| below(Path::new("docs/x"), link)).collect();
+    for (path, page) in &pages {
+        let inside = path.starts_with("docs") && !path.ends_with(SUMMARY);
+        if inside && !listed.contains(path) {
+            wrong.push(format!("{} is not in docs/{SUMMARY}", path.display()));
+        }
+        if let Err(error) = typeset(page) {
+            wrong.push(format!("{}: {error:#}", path.display()));
+        }
+        for link in links(page).filter(|link| !link.contains("://")) {
+            let Some(target) = below(path, link) else {
+                wrong.push(format!("{}: {link} leaves the repository", path.display()));
+                continue;
+            };
+            let anchor = link.split_once('#').map(|(_, anchor)| anchor);
+            let found = match (pages.get(&target), anchor) {
+                (Some(page), Some(anchor)) => anchors(page).any(|one| one == anchor),
+                _ => root().join(&target).exists(),
+            };
+            if !found {
+                wrong.push(format!("{}: {link} leads nowhere", path.display()));
+            }
+        }
+    }
+    ensure!(wrong.is_empty(), "{}", wrong.join("\n"));
+    Ok(())
+}
+
+/// Lines of a page that are no code.
+fn prose(page: &str) -> impl Iterator<Item = &str> {
+    let mut code = false;
+    page.lines().filter(move |line| {
+        let fence = line.starts_with("```");
+        code ^= fence;
+        !code && !fence
+    })
+}
+
+fn links(page: &str) -> impl Iterator<Item = &str> {
+    prose(page).flat_map(|line| line.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0)))
+}
+
+/// Anchors of the headings of a page, as GitHub and mdBook make them.
+fn anchors(page: &str) -> impl Iterator<Item = String> {
+    let headings = prose(page).filter(|line| line.starts_with('#'));
+    headings.map(|line| {
+        let title = line.trim_start_matches('#').trim().to_lowercase();
+        let kept = title.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_become_mathml() {
+        let page = typeset("a\n\n```math\n\\frac{1}{2} \\eta\n```\n\nb\n").expect("a formula");
+        assert!(page.contains("<mfrac>") && page.contains("η") && !page.contains("```"), "{page}");
+        assert!(typeset("```math\n\\frac{1\n```\n").is_err());
+    }
+
+    #[test]
+    fn links_stay_on_the_site() {
+        let turned = |page: &str| within(page, Path::new("book/a.md"));
+        assert_eq!(turned("[x](../theory.md#a) [y](https://z)"), "[x](../theory.md#a) [y](https://z)");
+        assert_eq!(turned("see [x](../../crates/y.toml)."), "see x.");
+        assert_eq!(turned("[x](../../README.md#z)"), "[x](../index.md#z)");
+    }
+
+    #[test]
+    fn the_pages_of_the_repository_are_a_site() {
+        check().expect("pages");
+    }
+}
