@@ -243,7 +243,7 @@ impl Figure {
     /// Every check with what was found, and whether the verdict can stand with it.
     pub(super) fn judged(&self, found: &[Checked]) -> Vec<Judged> {
         let mut left: Vec<&Checked> = found.iter().collect();
-        let mut judged = |check: &Check| -> Judged {
+        let judged = |check: &Check| -> Judged {
             let place = left.iter().position(|one| one.name == check.name);
             let found = place.map(|place| left.remove(place));
             let holds = |value: f64| check.within.is_none_or(|[low, high]| (low..=high).contains(&value));
@@ -257,7 +257,7 @@ impl Figure {
                 stands: stands || check.within.is_none(),
             }
         };
-        self.check.iter().map(|check| judged(check)).collect()
+        self.check.iter().map(judged).collect()
     }
 
     /// A sentence about a verdict without a number that could speak against it.
