@@ -7,7 +7,7 @@ mod sums;
 use crate::{
     curve::Curve,
     density::StoredLayers,
-    greens::{AnyPair, PairKernel, Vectors},
+    greens::{AnyPair, PairKernel, Vectors, widely},
     plan::Plan,
 };
 pub(crate) use arrays::Dipoles;
@@ -78,10 +78,11 @@ impl DirectSums {
             let kress = &plans[both[0].plan].kress;
             with_kernel!(&kernel, kernel => {
                 if stored.has(target) || stored.has(source) {
-                    stokeslets.fill(kernel, if own { Some(kress) } else { None }, both.map(|arrays| &arrays.nodes));
+                    let (kress, nodes) = (if own { Some(&kress[..]) } else { None }, both.map(|arrays| &arrays.nodes));
+                    widely(#[inline(always)] || stokeslets.fill(kernel, kress, nodes));
                     if !(stored.has(target) && stored.has(source)) {
                         let forces = both.map(|arrays| &arrays.force);
-                        sums.visit(false, [target, source], out, |shift, near, far| {
+                        sums.visit(false, [target, source], out, #[inline(always)] |shift, near, far| {
                             stokeslets.apply(shift, forces, near, far);
                         });
                     }
@@ -90,7 +91,7 @@ impl DirectSums {
                 if own {
                     add_force_at_node(kernel, kress[0], both[0], &mut out[target]);
                 }
-                sums.visit(own, [target, source], out, |shift, near, far| {
+                sums.visit(own, [target, source], out, #[inline(always)] |shift, near, far| {
                     let weight = if own { kress[shift.d] } else { 0.0 };
                     single_layer(kernel, weight, shift, both, near, far);
                 });
@@ -118,7 +119,13 @@ impl DirectSums {
                 with_kernel!(&kernel, kernel => add_force_at_node(kernel, kress[0], both[0], &mut out[target]));
             }
             let forces = both.map(|arrays| &arrays.force);
-            sums.visit(own, [target, source], out, |shift, near, far| stokeslets.apply(shift, forces, near, far));
+            sums.visit(
+                own,
+                [target, source],
+                out,
+                #[inline(always)]
+                |shift, near, far| stokeslets.apply(shift, forces, near, far),
+            );
         }
     }
 
@@ -134,7 +141,7 @@ impl DirectSums {
         stresses.resize_with(pairs.len().max(stresses.len()), StoredStress::default);
         for (&CurvePair { target, source, own, kernel }, stress) in pairs.iter().zip(stresses) {
             let both = [&curves[target].nodes, &curves[source].nodes];
-            with_kernel!(&kernel, kernel => stress.fill(kernel, both, own));
+            with_kernel!(&kernel, kernel => widely(#[inline(always)] || stress.fill(kernel, both, own)));
         }
     }
 
@@ -145,9 +152,15 @@ impl DirectSums {
             let both = [&curves[target], &curves[source]];
             if *stresses_stored {
                 let (stress, dipoles) = (&stresses[index], both.map(|arrays| &arrays.dipoles));
-                sums.visit(own, [target, source], out, |shift, near, far| stress.apply(shift, dipoles, near, far));
+                sums.visit(
+                    own,
+                    [target, source],
+                    out,
+                    #[inline(always)]
+                    |shift, near, far| stress.apply(shift, dipoles, near, far),
+                );
             } else {
-                with_kernel!(&kernel, kernel => sums.visit(own, [target, source], out, |shift, near, far| {
+                with_kernel!(&kernel, kernel => sums.visit(own, [target, source], out, #[inline(always)] |shift, near, far| {
                     double_layer(kernel, shift, both, near, far);
                 }));
             }

@@ -55,21 +55,35 @@ pub(crate) struct StoredStokeslets(Components<3>);
 
 impl StoredStokeslets {
     /// Computes the Stokeslets of all pairs; `kress` are the weights by shift for a curve with itself.
+    #[inline(always)]
     pub(crate) fn fill<K: PairKernel>(&mut self, kernel: &K, kress: Option<&[f64]>, both: [&Nodes; 2]) {
-        self.0.fill(both, kress.is_some(), |Shift { d, count, .. }, [t, s], [a, b, c]| {
-            let weight = kress.map_or(0.0, |kress| kress[d]);
-            for i in 0..count {
-                let Stokeslet { q, xx, xy, yy } = kernel.stokeslet(&t, &s, i);
-                let log = weight - 0.5 * ln(q);
-                (a[i], b[i], c[i]) = (xx + log, xy, yy + log);
-            }
-        });
+        self.0.fill(
+            both,
+            kress.is_some(),
+            #[inline(always)]
+            |Shift { d, count, .. }, [t, s], [a, b, c]| {
+                let weight = kress.map_or(0.0, |kress| kress[d]);
+                for i in 0..count {
+                    let Stokeslet { q, xx, xy, yy } = kernel.stokeslet(&t, &s, i);
+                    let log = weight - 0.5 * ln(q);
+                    (a[i], b[i], c[i]) = (xx + log, xy, yy + log);
+                }
+            },
+        );
     }
 
     /// Adds the flow of the forces of one shift.
+    #[inline(always)]
     pub(crate) fn apply(&self, shift: Shift, forces: [&Vectors; 2], near: &mut Vectors, far: &mut Vectors) {
         let [a, b, c] = self.0.of(shift);
-        add_forces(shift, forces, near, far, |i| [a[i], b[i], c[i]]);
+        add_forces(
+            shift,
+            forces,
+            near,
+            far,
+            #[inline(always)]
+            |i| [a[i], b[i], c[i]],
+        );
     }
 }
 
@@ -79,22 +93,36 @@ pub(crate) struct StoredStress(Components<4>);
 
 impl StoredStress {
     /// Computes the stresses of all pairs.
+    #[inline(always)]
     pub(crate) fn fill<K: PairKernel>(&mut self, kernel: &K, both: [&Nodes; 2], same: bool) {
-        self.0.fill(both, same, |shift, [t, s], [a, b, c, e]| {
-            for i in 0..shift.count {
-                [a[i], b[i], c[i], e[i]] = kernel.stress(&t, &s, i);
-            }
-        });
+        self.0.fill(
+            both,
+            same,
+            #[inline(always)]
+            |shift, [t, s], [a, b, c, e]| {
+                for i in 0..shift.count {
+                    [a[i], b[i], c[i], e[i]] = kernel.stress(&t, &s, i);
+                }
+            },
+        );
     }
 
     /// Adds the flow of the dipoles of one shift.
+    #[inline(always)]
     pub(crate) fn apply(&self, shift: Shift, dipoles: [&Dipoles; 2], near: &mut Vectors, far: &mut Vectors) {
         let [a, b, c, e] = self.0.of(shift);
-        add_dipoles(shift, dipoles, near, far, |i, source, target| {
-            let act = |[xx, s, yy]: [f64; 3]| [a[i] * xx + b[i] * s + c[i] * yy, b[i] * xx + c[i] * s + e[i] * yy];
-            // The stress is odd in the distance.
-            [act(source), act(target).map(|u| -u)]
-        });
+        add_dipoles(
+            shift,
+            dipoles,
+            near,
+            far,
+            #[inline(always)]
+            |i, source, target| {
+                let act = |[xx, s, yy]: [f64; 3]| [a[i] * xx + b[i] * s + c[i] * yy, b[i] * xx + c[i] * s + e[i] * yy];
+                // The stress is odd in the distance.
+                [act(source), act(target).map(|u| -u)]
+            },
+        );
     }
 }
 

@@ -4,7 +4,7 @@
 //! Both directions of a pair share one evaluation of the kernel, and the loop over i has no sums across i, so it runs
 //! in vector registers.
 
-use crate::greens::{PairKernel, Stokeslet, Vectors, ln};
+use crate::greens::{PairKernel, Stokeslet, Vectors, ln, widely};
 
 use super::arrays::{Dipoles, NodeArrays};
 
@@ -44,9 +44,14 @@ impl PairSums {
     ) {
         let n = out[source].x.len();
         self.sources.clear(2 * n);
-        for shift in shifts([out[target].x.len(), n], same) {
-            apply(shift, &mut out[target], &mut self.sources);
-        }
+        widely(
+            #[inline(always)]
+            || {
+                for shift in shifts([out[target].x.len(), n], same) {
+                    apply(shift, &mut out[target], &mut self.sources);
+                }
+            },
+        );
         // The doubled array is folded into the cyclic one.
         let out = &mut out[source];
         for (out, sources) in [(&mut out.x, &self.sources.x), (&mut out.y, &self.sources.y)] {
@@ -68,11 +73,18 @@ pub(crate) fn single_layer<K: PairKernel>(
     far: &mut Vectors,
 ) {
     let (t, s) = (target.nodes.window(0, shift.count), source.nodes.window(shift.d, shift.count));
-    add_forces(shift, [&target.force, &source.force], near, far, |i| {
-        let Stokeslet { q, xx, xy, yy } = kernel.stokeslet(&t, &s, i);
-        let log = weight - 0.5 * ln(q);
-        [xx + log, xy, yy + log]
-    });
+    add_forces(
+        shift,
+        [&target.force, &source.force],
+        near,
+        far,
+        #[inline(always)]
+        |i| {
+            let Stokeslet { q, xx, xy, yy } = kernel.stokeslet(&t, &s, i);
+            let log = weight - 0.5 * ln(q);
+            [xx + log, xy, yy + log]
+        },
+    );
 }
 
 /// Adds the flow of the dipoles of one shift, the stress of every pair recomputed: for systems whose stored components
@@ -87,7 +99,14 @@ pub(crate) fn double_layer<K: PairKernel>(
 ) {
     let (t, s) = (target.nodes.window(0, shift.count), source.nodes.window(shift.d, shift.count));
     let dipoles = [&target.dipoles, &source.dipoles];
-    add_dipoles(shift, dipoles, near, far, |i, source, target| kernel.act(&t, &s, i, source, target));
+    add_dipoles(
+        shift,
+        dipoles,
+        near,
+        far,
+        #[inline(always)]
+        |i, source, target| kernel.act(&t, &s, i, source, target),
+    );
 }
 
 /// Adds `near += G F` of the sources and `far += G F` of the targets, G = (xx, xy, yy) of pair i by `stokeslet(i)`.
