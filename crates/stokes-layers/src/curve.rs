@@ -13,7 +13,7 @@ use crate::{
     LayerError, Settings,
     calculus::MOST_POINTS,
     error::finite_vectors,
-    greens::{GreensFunction, half_turns},
+    greens::{GreensFunction, Vectors, half_turns, widely},
     transforms::{Transform, Transforms},
 };
 use motile_base::Region;
@@ -23,6 +23,8 @@ use motile_base::Region;
 pub(crate) struct Samples {
     /// Positions relative to the curve's centre (length).
     pub(crate) position: Vec<Complex64>,
+    /// Positions as arrays of components.
+    pub(crate) arrays: Vectors,
     /// Derivative of the position by the parameter (length).
     pub(crate) tangent: Vec<Complex64>,
     /// Force per parameter times the weight 2 pi/number (force).
@@ -59,6 +61,7 @@ impl Samples {
             *position += period * (j as f64 / len as f64 - 0.5);
             *tangent += period / TAU;
         }
+        self.arrays.fill(&self.position);
         self.fill_force(transform, force);
     }
 
@@ -110,12 +113,14 @@ pub(crate) struct Curve {
     /// Fourier coefficients of the position relative to the centre (length), the linear advance subtracted.
     pub(crate) shape: Vec<Complex64>,
     /// Fourier coefficients of the force per parameter (force).
-    force: Vec<Complex64>,
+    pub(crate) force: Vec<Complex64>,
     pub(crate) fine: Samples,
     /// True once the fine nodes belong to the present shape.
     refined: bool,
     /// Second derivative of the position by the parameter at the nodes (length).
     second: Vec<Complex64>,
+    /// Largest distance between neighbouring nodes along the curve (length).
+    spacing: f64,
     /// Number of points that the curve was given by.
     pub(crate) points: usize,
     /// Number of the plan for so many nodes.
@@ -153,8 +158,35 @@ impl Curve {
     }
 
     /// Shortest vector that differs from d by periods of an open curve.
+    #[inline(always)]
     pub(crate) fn wrap(&self, d: Complex64) -> Complex64 {
-        if self.is_open() { d - self.period * (d.re / self.period.re).round() } else { d }
+        if self.is_open() { d - self.period * nearest_integer(d.re / self.period.re) } else { d }
+    }
+
+    /// Writes the squared distances of the nodes from a point (length squared), an open curve with its images, and
+    /// returns the least.
+    pub(crate) fn squares_from(&self, point: Complex64, out: &mut [f64]) -> f64 {
+        let (x, y) = (&self.nodes.arrays.x[..out.len()], &self.nodes.arrays.y[..out.len()]);
+        // A closed curve has no images.
+        let (period, turns) = if self.is_open() { (self.period.re, 1.0 / self.period.re) } else { (0.0, 0.0) };
+        widely(
+            #[inline(always)]
+            || {
+                for ((x, y), out) in x.iter().zip(y).zip(&mut *out) {
+                    let (dx, dy) = (x - point.re, y - point.im);
+                    let dx = dx - period * nearest_integer(dx * turns);
+                    *out = dx * dx + dy * dy;
+                }
+                let (chunks, rest) = out.as_chunks::<8>();
+                let mut least = [f64::INFINITY; 8];
+                for chunk in chunks {
+                    for (least, square) in least.iter_mut().zip(chunk) {
+                        *least = if square < least { *square } else { *least };
+                    }
+                }
+                least.iter().chain(rest).copied().fold(f64::INFINITY, f64::min)
+            },
+        )
     }
 
     /// Takes over positions and forces (none if they are given later), truncated to the modes that the nodes carry.
@@ -200,6 +232,7 @@ impl Curve {
             *curvature = (first.conj() * *second).im / (square * square.sqrt());
         }
         self.radius = self.nodes.position.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
+        self.spacing = self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
         self.refined = false;
         if self.is_open() || self.signed_area() > 0.0 { Ok(()) } else { Err(LayerError::Clockwise { curve }) }
     }
@@ -251,7 +284,7 @@ impl Curve {
 
     /// Largest distance between neighbouring nodes along the curve (length).
     pub(crate) fn spacing(&self) -> f64 {
-        self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt()
+        self.spacing
     }
 
     /// True for a point, relative to the centre, inside the polygon through the fine nodes of a closed curve.
@@ -274,4 +307,12 @@ impl Curve {
         // An open curve turns half way around what is on its left, and half way the other way around the rest.
         sum * self.weight() > if self.is_open() { 0.0 } else { 0.5 * TAU }
     }
+}
+
+/// The integer nearest to a number far below 2^51, without a branch or a call: in the sum with 1.5 2^52 nothing is left
+/// of the digits behind the point.
+#[inline(always)]
+fn nearest_integer(x: f64) -> f64 {
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    (x + SHIFT) - SHIFT
 }

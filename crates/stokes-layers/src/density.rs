@@ -41,8 +41,13 @@ impl<'a> Density<'a> {
 
     /// Components x and y at the nodes of one curve.
     pub(crate) fn of(&self, curve: usize) -> (&'a [f64], &'a [f64]) {
-        let nodes = self.nodes();
-        self.values[2 * nodes * curve..2 * nodes * (curve + 1)].split_at(nodes)
+        self.values_of(curve).split_at(self.nodes())
+    }
+
+    /// Components at the nodes of one curve, x then y.
+    pub(crate) fn values_of(&self, curve: usize) -> &'a [f64] {
+        let len = 2 * self.nodes();
+        &self.values[len * curve..len * (curve + 1)]
     }
 
     /// Factor of the velocities of a curve; zero without a double layer.

@@ -5,6 +5,7 @@
 //! nodes that are so close to a curve that its nodes do not resolve the Green's function.
 
 mod close;
+mod rows;
 mod walls;
 
 use std::{
@@ -195,7 +196,7 @@ impl Layers {
         if let Some(walls) = walls {
             walls.add_forces(curves, stored.first..curves.len(), flow);
         }
-        close.add_stored(curves, flow);
+        close.add_stored(curves, plans, flow);
     }
 
     /// Interpolates shape and forces of the stored curves to their fine nodes.
@@ -205,10 +206,12 @@ impl Layers {
         }
     }
 
-    /// Takes over forces at the nodes of the stored curves; with `fine`, at the fine nodes too.
+    /// Takes over forces at the nodes of the stored curves; with `fine`, or where corrections read them, at the fine
+    /// nodes too.
     pub(crate) fn set_stored(&mut self, forces: &[f64], fine: bool) {
         let mut first = 0;
-        for curve in &mut self.curves[self.stored.first..] {
+        for (index, curve) in self.curves.iter_mut().enumerate().skip(self.stored.first) {
+            let fine = fine || self.close.reads(index);
             let values = &forces[first..first + 2 * curve.len()];
             curve.set_forces(&mut self.plans[curve.plan].transforms, values, fine);
             first += values.len();
@@ -222,7 +225,7 @@ impl Layers {
         }
         let mean = self.mean_flow(density);
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, fine, flow, stored, .. } = self;
+        let Self { direct, multipoles, walls, close, curves, plans, fine, flow, stored, .. } = self;
         for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..stored.first]).enumerate() {
             let weight = density.contrasts[index] * curve.weight();
             arrays.dipoles.fill(density.of(index), &curve.nodes.tangent, weight);
@@ -240,7 +243,7 @@ impl Layers {
                 flow.y.iter_mut().for_each(|v| *v -= mean.im);
             }
         }
-        close.add_dipoles(density, flow);
+        close.add_dipoles(curves, plans, density, flow);
     }
 
     /// The imposed flow together with what the drive of a channel drives in fluid of that viscosity.

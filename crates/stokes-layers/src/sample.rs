@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use crate::images::Images;
 use crate::{
-    close_weights::reach,
+    close_weights::{CloseWeights, reach},
     density::Density,
     greens::{Flow, GreensFunction, Kernels},
     layer::Layers,
@@ -141,12 +141,18 @@ impl Sampler {
     ) -> Option<bool> {
         let Layers { curves, plans, fine, .. } = layers;
         let curve = &curves[number];
-        let Plan { transforms, weights, .. } = &mut plans[curve.plan];
-        let inside = weights.find(curve, transforms, point, self.reach);
-        for (j, force) in curve.fine.force.iter().enumerate() {
-            flow.add_force(&weights.kernels(j), *force, 1.0);
+        let Plan { weights, .. } = &mut plans[curve.plan];
+        let place = weights.place(curve, point, self.reach);
+        let (inside, contrast) = (place.is_left(), density.contrast(number));
+        if contrast == 0.0 {
+            weights.fill::<2>(curve, &place);
+        } else {
+            weights.fill::<3>(curve, &place);
         }
-        let contrast = density.contrast(number);
+        for (j, force) in curve.fine.force.iter().enumerate() {
+            flow.add_force(&weights.fine.at(j), *force, 1.0);
+        }
+        flow.velocity += CloseWeights::modal(weights.polar, &curve.force);
         if contrast == 0.0 {
             return inside;
         }
@@ -154,7 +160,7 @@ impl Sampler {
         let velocities = &fine[number * len..(number + 1) * len];
         // The double layer of a constant is known: with the velocity of the nearest node subtracted, nothing is divided
         // by a small distance.
-        let constant = if inside.is_some() { velocities[weights.nearest()] } else { Complex64::default() };
+        let constant = if inside.is_some() { velocities[place.nearest] } else { Complex64::default() };
         let turns = match (inside, curve.is_open()) {
             (None, _) | (Some(false), false) => 0.0,
             (Some(true), false) => 2.0,
@@ -164,7 +170,7 @@ impl Sampler {
         flow.velocity += constant * (turns * TAU * contrast);
         let weight = contrast * curve.weight() / REFINEMENT as f64;
         for (j, velocity) in velocities.iter().enumerate() {
-            flow.add_dipole(&weights.kernels(j), velocity - constant, curve.fine.tangent[j] * weight, 1.0);
+            flow.add_dipole(&weights.fine.at(j), velocity - constant, curve.fine.tangent[j] * weight, 1.0);
         }
         inside
     }

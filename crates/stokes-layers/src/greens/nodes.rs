@@ -96,6 +96,15 @@ impl Vectors {
         self.y.copy_within(..n, n);
     }
 
+    /// Takes over components.
+    pub(crate) fn copy(&mut self, components: [&[f64]; 2]) {
+        for (array, values) in [&mut self.x, &mut self.y].into_iter().zip(components) {
+            array.clear();
+            array.extend_from_slice(values);
+            array.extend_from_slice(values);
+        }
+    }
+
     /// Sets `len` entries to zero.
     pub(crate) fn clear(&mut self, len: usize) {
         for array in [&mut self.x, &mut self.y] {

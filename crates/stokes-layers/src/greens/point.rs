@@ -204,32 +204,11 @@ pub(crate) fn free(d: Complex64) -> Kernels {
 }
 
 /// Kernels of free space from values that replace ln|d| - 1/2 and 1/d^k.
-pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Kernels {
+fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Kernels {
     Kernels { log, c, e: c.map(|c| c * conjugate), background: 0.0 }
 }
 
-/// Singular functions of a row of images: `ln|2 sin(k d/2)|` and the sums of 1/d, 1/d^2, 1/d^3.
-fn row_singularities(d: Complex64, k: f64) -> (f64, [Complex64; 3]) {
-    singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), false)
-}
-
-/// Singular functions of a row of images from the [`half_turns`] of source and target, without circular functions of
-/// their own.
-pub(crate) fn row_of_turns(
-    d: Complex64,
-    k: f64,
-    source: [Complex64; 2],
-    target: [Complex64; 2],
-) -> (f64, [Complex64; 3]) {
-    let [turn, back] = [source[0] * target[1], source[1] * target[0]];
-    // Cancellation close to zero: below |2 sin(k d/2)| = 0.06 the difference loses more than a digit.
-    if (turn - back).norm_sqr() < 4e-3 {
-        return row_singularities(d, k);
-    }
-    singular_of(k, -0.5 * I * (turn - back), 0.5 * (turn + back))
-}
-
-/// exp(i k z/2) and its inverse, for [`row_of_turns`].
+/// exp(i k z/2) and its inverse, whose products make up the circular functions of differences.
 pub(crate) fn half_turns(z: Complex64, k: f64) -> [Complex64; 2] {
     let turn = (0.5 * k * I * z).exp();
     [turn, turn.inv()]
@@ -237,7 +216,7 @@ pub(crate) fn half_turns(z: Complex64, k: f64) -> [Complex64; 2] {
 
 /// Kernels of a row of images from values that replace its singular functions: conj(d) is d - 2 i dy, and the sum over
 /// images of 1/d^k a derivative of the cotangent. `own` is 1 with the image at d and 0 without.
-pub(crate) fn row_weighted(log: f64, c: [Complex64; 3], dy: f64, own: f64) -> Kernels {
+fn row_weighted(log: f64, c: [Complex64; 3], dy: f64, own: f64) -> Kernels {
     let y = Complex64::new(0.0, -2.0 * dy);
     Kernels { log: log - 0.5 * own, c, e: [own + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
 }

@@ -1,8 +1,8 @@
 //! Corrections of the sums over nodes at nodes close to another curve or to an image of their own.
 //!
 //! The sums over nodes are exact where curves are some spacings apart. A node that is closer gets the difference
-//! between the quadrature of [`CloseWeights`](crate::close_weights::CloseWeights) and the plain sum, both in free
-//! space: images farther away and walls are resolved by the plain sum.
+//! between the quadrature of [`CloseWeights`](crate::close_weights::CloseWeights) on the fine nodes and the plain sum,
+//! both in free space: images farther away and walls are resolved by the plain sum.
 
 use motile_base::{
     Vec2,
@@ -13,14 +13,16 @@ use num_complex::Complex64;
 
 use crate::{
     Symmetry,
-    close_weights::reach,
+    close_weights::{CloseWeights, reach},
     curve::Curve,
     density::{Density, StoredLayers},
-    greens::{Flow, Kernels, Vectors},
+    greens::Vectors,
     images::Images,
     plan::Plan,
     transforms::REFINEMENT,
 };
+
+use super::rows::Row;
 
 /// Part of the force or the weight of a node that each of its fine nodes has.
 const FINE_SHARE: f64 = 1.0 / REFINEMENT as f64;
@@ -33,9 +35,43 @@ struct CloseNode {
     source: usize,
     /// Position of the node relative to the centre of the source or its image (length).
     point: Complex64,
-    /// First entries of the rows of the single and of the double layer, if they are stored.
-    force_row: Option<usize>,
-    stress_row: Option<usize>,
+    /// The rows of the single and of the double layer, if they are stored.
+    force_row: Option<Row>,
+    stress_row: Option<Row>,
+    /// The pole that the logarithm's series is about ([`CloseWeights::modal`]).
+    polar: Complex64,
+}
+
+/// Values at the fine nodes and at the nodes of a curve that has close nodes, as arrays of components.
+#[derive(Debug, Clone, Default)]
+struct Source {
+    /// Derivatives of the position by the parameter times the weight of the node (length).
+    tangents: [Vectors; 2],
+    /// Forces, or velocities.
+    values: [Vectors; 2],
+    /// Flow, by the transposes of rows.
+    flow: [Vectors; 2],
+    modes: Vec<Complex64>,
+    /// True for a source of the present corrections.
+    used: bool,
+}
+
+impl Source {
+    fn load(&mut self, curve: &Curve) {
+        for ((fine, tangents), share) in [true, false].into_iter().zip(&mut self.tangents).zip([FINE_SHARE, 1.0]) {
+            tangents.fill(&curve.samples(fine).tangent);
+            let weight = share * curve.weight();
+            tangents.x.iter_mut().chain(&mut tangents.y).for_each(|value| *value *= weight);
+        }
+        self.load_forces(curve);
+        self.used = true;
+    }
+
+    fn load_forces(&mut self, curve: &Curve) {
+        for (fine, values) in [true, false].into_iter().zip(&mut self.values) {
+            values.fill(&curve.samples(fine).force);
+        }
+    }
 }
 
 /// A node on the wrong side of a stored curve, a rigid wall.
@@ -58,24 +94,28 @@ pub(crate) struct CloseCorrection {
     tree: BoxTree,
     near: Vec<usize>,
     close: Vec<CloseNode>,
-    /// Factors of v and conj v, v a force or a velocity, at the nodes of the source, row after row.
-    rows: Vec<(f64, Complex64)>,
-    fine: [Vec<Complex64>; 2],
-    coarse: [Vec<Complex64>; 2],
+    sources: Vec<Source>,
+    /// Entries of the rows.
+    rows: Vec<f64>,
+    squares: Vec<f64>,
+    fine: Vec<Complex64>,
+    coarse: Vec<Complex64>,
     crossing: Option<Crossing>,
 }
 
 impl CloseCorrection {
     pub(crate) fn new(tolerance: f64, symmetry: Symmetry) -> Self {
-        let (boxes, tree, near, close, rows, fine, coarse) = Default::default();
-        let reach = reach(tolerance);
-        Self { reach, symmetry, boxes, tree, near, close, rows, fine, coarse, crossing: None }
+        let (boxes, tree, near, close, sources, rows, squares) = Default::default();
+        let [fine, coarse] = Default::default();
+        let (reach, crossing) = (reach(tolerance), None);
+        Self { reach, symmetry, boxes, tree, near, close, sources, rows, squares, fine, coarse, crossing }
     }
 
     /// Finds the nodes that are close to a curve and prepares the fine nodes of the curves that have some.
     pub(crate) fn find(&mut self, curves: &mut [Curve], plans: &mut [Plan], images: &Images, stored: StoredLayers) {
         let one_sided = self.symmetry == Symmetry::ToRoundOff;
         self.close.clear();
+        self.sources.resize_with(curves.len().max(self.sources.len()), Source::default);
         self.boxes.clear();
         self.boxes.extend(curves.iter().map(bounding_box));
         self.tree.build_by_place(&self.boxes);
@@ -83,6 +123,7 @@ impl CloseCorrection {
             let curve = &curves[source];
             let reach = self.reach * curve.spacing();
             let first = self.close.len();
+            self.squares.resize(curve.len(), 0.0);
             self.near.clear();
             self.tree.each_near(&self.boxes[source], images.periods, reach, &mut |target| self.near.push(target));
             self.near.sort_unstable();
@@ -96,24 +137,24 @@ impl CloseCorrection {
                 for shift in images.shifts().filter(|shift| !curve.is_open() || shift.re == 0.0) {
                     let own = target == source && shift == Complex64::default();
                     let offset = apart + shift;
-                    let far = |distance: f64, radii: f64| !curve.is_open() && distance >= radii + reach;
-                    if own || far(offset.norm(), curve.radius + other.radius) {
+                    let far = |d: Complex64, radii: f64| !curve.is_open() && d.norm_sqr() >= (radii + reach).powi(2);
+                    if own || far(offset, curve.radius + other.radius) {
                         continue;
                     }
                     for (node, z) in other.nodes.position.iter().enumerate() {
                         let point = z + offset;
-                        if !far(point.norm(), curve.radius)
-                            && curve.nodes.position.iter().any(|z| curve.wrap(z - point).norm_sqr() < reach * reach)
-                        {
-                            let (force_row, stress_row) = (None, None);
-                            self.close.push(CloseNode { target, node, source, point, force_row, stress_row });
+                        if !far(point, curve.radius) && curve.squares_from(point, &mut self.squares) < reach * reach {
+                            let (force_row, stress_row, polar) = Default::default();
+                            self.close.push(CloseNode { target, node, source, point, force_row, stress_row, polar });
                         }
                     }
                 }
             }
+            self.sources[source].used = false;
             if self.close.len() > first {
                 let plan = &mut plans[curves[source].plan];
                 curves[source].refine(&mut plan.transforms);
+                self.sources[source].load(&curves[source]);
             }
         }
     }
@@ -130,34 +171,36 @@ impl CloseCorrection {
     ) {
         self.rows.clear();
         self.crossing = None;
-        for index in 0..self.close.len() {
-            let CloseNode { target, node, source, point, .. } = self.close[index];
-            let curve = &curves[source];
-            let plan = &mut plans[curve.plan];
-            let left = plan.weights.find(curve, &mut plan.transforms, point, self.reach);
+        for close in &mut self.close {
+            let CloseNode { target, node, source: number, point, .. } = *close;
+            let curve = &curves[number];
+            let (weights, source) = (&mut plans[curve.plan].weights, &self.sources[number]);
+            let place = weights.place(curve, point, self.reach);
             // Fluid is to the left of open walls and outside of closed ones; walls are outside of interfaces.
-            if stored.has(target) != stored.has(source)
-                && left.is_some_and(|left| left != (stored.has(source) && curve.is_open()))
+            if stored.has(target) != stored.has(number)
+                && place.is_left().is_some_and(|left| left != (stored.has(number) && curve.is_open()))
             {
-                let (curve, wall) = if stored.has(source) { (target, source) } else { (source, target) };
-                self.crossing = Some(Crossing { curve, wall, place: curves[source].centre + point });
+                let (curve, wall) = if stored.has(number) { (target, number) } else { (number, target) };
+                self.crossing = Some(Crossing { curve, wall, place: curves[number].centre + point });
             }
-            if stored.has(source) {
-                self.close[index].force_row = Some(self.push_row(curve, plan, point, FINE_SHARE, force_factors));
+            let stress = stress && !stored.has(number);
+            if stress {
+                weights.fill::<2>(curve, &place);
+            } else {
+                weights.fill::<1>(curve, &place);
+            }
+            close.polar = weights.polar;
+            let row = Row::forces(weights.arrays(), &mut self.rows);
+            if stored.has(number) {
+                close.force_row = Some(row);
                 continue;
             }
-            let mut flow = Flow::default();
-            for (j, force) in curve.fine.force.iter().enumerate() {
-                flow.add_force(&plan.weights.kernels(j), *force, 1.0);
-            }
-            let greens = curve.greens();
-            for (z, force) in curve.nodes.position.iter().zip(&curve.nodes.force) {
-                flow.add_force(&greens.at(z - point), *force, -1.0);
-            }
-            out[target].x[node] += flow.velocity.re;
-            out[target].y[node] += flow.velocity.im;
+            let sum = row.product(&self.rows, &source.values) + CloseWeights::modal(close.polar, &curve.force);
+            self.rows.truncate(row.start);
+            out[target].x[node] += sum.re;
+            out[target].y[node] += sum.im;
             if stress {
-                self.close[index].stress_row = Some(self.push_row(curve, plan, point, 1.0, stress_factors));
+                close.stress_row = Some(Row::stresses(weights.arrays(), &source.tangents, &mut self.rows));
             }
         }
     }
@@ -167,48 +210,39 @@ impl CloseCorrection {
         self.crossing
     }
 
-    /// Stores a row of factors of the values at the nodes for the point of the present weights: `share` times the
-    /// transpose of the interpolation to fine nodes applied to the factors there, less the factors of the plain sum.
-    /// `factors` takes the kernels and the element (tangent times weight) of a node. Returns the first entry.
-    fn push_row(
-        &mut self,
-        curve: &Curve,
-        plan: &mut Plan,
-        point: Complex64,
-        share: f64,
-        factors: impl Fn(&Kernels, Complex64) -> (f64, Complex64),
-    ) -> usize {
-        let nodes = curve.len();
-        for (array, len) in self.fine.iter_mut().map(|array| (array, REFINEMENT * nodes)) {
-            array.resize(len, Complex64::default());
-        }
-        self.coarse.iter_mut().for_each(|array| array.resize(nodes, Complex64::default()));
-        let [own, conjugate] = &mut self.fine;
-        for (j, tangent) in curve.fine.tangent.iter().enumerate() {
-            let (c, d) = factors(&plan.weights.kernels(j), tangent * (FINE_SHARE * curve.weight()));
-            (own[j], conjugate[j]) = (Complex64::new(c, 0.0), d);
-        }
-        for (fine, coarse) in self.fine.iter_mut().zip(&mut self.coarse) {
-            plan.transforms.fine.inverse(fine);
-            copy_band(fine, coarse, largest_wave(nodes));
-            plan.transforms.nodes.forward(coarse);
-        }
-        let first = self.rows.len();
-        let greens = curve.greens();
-        for (j, (z, tangent)) in curve.nodes.position.iter().zip(&curve.nodes.tangent).enumerate() {
-            let (c, d) = factors(&greens.at(z - point), tangent * curve.weight());
-            self.rows.push((share * self.coarse[0][j].re - c, share * self.coarse[1][j] - d));
-        }
-        first
+    /// True for a curve whose forces at the fine nodes the corrections read.
+    pub(crate) fn reads(&self, curve: usize) -> bool {
+        self.sources.get(curve).is_some_and(|source| source.used)
     }
 
     /// Adds the corrections of the double layer.
-    pub(crate) fn add_dipoles(&self, density: Density<'_>, out: &mut [Vectors]) {
+    pub(crate) fn add_dipoles(
+        &mut self,
+        curves: &[Curve],
+        plans: &mut [Plan],
+        density: Density<'_>,
+        out: &mut [Vectors],
+    ) {
+        if self.close.iter().all(|close| close.stress_row.is_none()) {
+            return;
+        }
+        for (index, (source, curve)) in self.sources.iter_mut().zip(curves).enumerate() {
+            if source.used && density.contrast(index) != 0.0 {
+                let (x, y) = density.of(index);
+                self.fine.resize(REFINEMENT * x.len(), Complex64::default());
+                plans[curve.plan].transforms.at_fine(density.values_of(index), &mut self.fine);
+                let [fine, nodes] = &mut source.values;
+                fine.fill(&self.fine);
+                nodes.copy([x, y]);
+            }
+        }
         for close in &self.close {
             let Some(row) = close.stress_row else { continue };
-            let (vx, vy) = density.of(close.source);
-            let velocities = vx.iter().zip(vy).map(|(x, y)| Complex64::new(*x, *y));
-            let sum = act(&self.rows[row..row + vx.len()], velocities) * density.contrasts[close.source];
+            let contrast = density.contrasts[close.source];
+            if contrast == 0.0 {
+                continue;
+            }
+            let sum = row.product(&self.rows, &self.sources[close.source].values) * contrast;
             out[close.target].x[close.node] += sum.re;
             out[close.target].y[close.node] += sum.im;
         }
@@ -216,25 +250,55 @@ impl CloseCorrection {
 
     /// Adds the stored corrections of the single layer for the forces at the nodes. Where the operator is symmetric to
     /// round-off the source gets the transpose.
-    pub(crate) fn add_stored(&self, curves: &[Curve], out: &mut [Vectors]) {
+    pub(crate) fn add_stored(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
         let symmetric = self.symmetry == Symmetry::ToRoundOff;
-        for close in &self.close {
+        let Self { close, sources, rows, .. } = self;
+        for (source, curve) in sources.iter_mut().zip(curves).filter(|(source, _)| source.used) {
+            source.load_forces(curve);
+            if symmetric {
+                let nodes = curve.len();
+                source.flow.iter_mut().zip([REFINEMENT * nodes, nodes]).for_each(|(flow, len)| flow.clear(len));
+                source.modes.clear();
+                source.modes.resize(curve.len(), Complex64::default());
+            }
+        }
+        for close in close {
             let Some(row) = close.force_row else { continue };
-            let (target, source) = (&curves[close.target], &curves[close.source]);
-            let row = &self.rows[row..row + source.len()];
+            let (target, source) = (&curves[close.target], &mut sources[close.source]);
             // A pair of images of the same curve is found from both ends.
             let share = if symmetric && close.target == close.source { 0.5 } else { 1.0 };
-            let sum = act(row, source.nodes.force.iter().copied());
+            let modal = CloseWeights::modal(close.polar, &curves[close.source].force);
+            let sum = row.product(rows, &source.values) + modal;
             out[close.target].x[close.node] += share * sum.re;
             out[close.target].y[close.node] += share * sum.im;
             if symmetric {
+                // The factors act on the components of a force by a symmetric matrix.
                 let force = share * target.nodes.force[close.node];
-                for (j, (c, d)) in row.iter().enumerate() {
-                    // The factors act on the components of a force by a symmetric matrix.
-                    let flow = force * *c + force.conj() * d;
-                    out[close.source].x[j] += flow.re;
-                    out[close.source].y[j] += flow.im;
-                }
+                row.add_transpose(rows, force, &mut source.flow);
+                CloseWeights::add_modal_transpose(close.polar, force, &mut source.modes);
+            }
+        }
+        if symmetric {
+            self.add_transposes(curves, plans, out);
+        }
+    }
+
+    /// Adds the flow that the transposes of rows have added up.
+    fn add_transposes(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
+        let Self { sources, fine, coarse, .. } = self;
+        for ((source, curve), out) in sources.iter().zip(curves).zip(out).filter(|((source, _), _)| source.used) {
+            let (transforms, nodes) = (&mut plans[curve.plan].transforms, curve.len());
+            let [on_fine, on_nodes] = &source.flow;
+            fine.clear();
+            fine.extend(on_fine.x.iter().zip(&on_fine.y).map(|(x, y)| Complex64::new(*x, *y) * FINE_SHARE));
+            transforms.fine.inverse(fine);
+            coarse.resize(nodes, Complex64::default());
+            copy_band(fine, coarse, largest_wave(nodes));
+            coarse.iter_mut().zip(&source.modes).for_each(|(flow, mode)| *flow += mode);
+            transforms.nodes.forward(coarse);
+            for (j, flow) in coarse.iter().enumerate() {
+                out.x[j] += flow.re + on_nodes.x[j];
+                out.y[j] += flow.im + on_nodes.y[j];
             }
         }
     }
@@ -251,20 +315,4 @@ fn bounding_box(curve: &Curve) -> Frame {
 /// with the same spacing for the first one.
 fn finer(curves: &[Curve], one: usize, other: usize) -> bool {
     curves[one].spacing().total_cmp(&curves[other].spacing()).then(one.cmp(&other)).is_le()
-}
-
-/// Product of a row with vectors at the nodes.
-fn act(row: &[(f64, Complex64)], vectors: impl Iterator<Item = Complex64>) -> Complex64 {
-    row.iter().zip(vectors).fold(Complex64::default(), |sum, ((c, d), v)| sum + (v * *c + v.conj() * d))
-}
-
-/// Factors of a force and its conjugate in the single layer.
-fn force_factors(kernels: &Kernels, _: Complex64) -> (f64, Complex64) {
-    (-kernels.log, 0.5 * kernels.e[0].conj())
-}
-
-/// Factors of a velocity and its conjugate in the double layer of an element.
-fn stress_factors(kernels: &Kernels, element: Complex64) -> (f64, Complex64) {
-    let i = Complex64::new(0.0, 1.0);
-    (-2.0 * (element * kernels.c[0]).im, i * (element * kernels.c[0].conj() - (element * kernels.e[1]).conj()))
 }
