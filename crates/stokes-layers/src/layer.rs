@@ -167,9 +167,7 @@ impl Layers {
         let stored = *stored;
         let wave = match self.region {
             Region::Channel { length, .. } => Some(TAU / length),
-            Region::Box { lengths } if stored.first < curves.len() || curves.iter().any(Curve::is_open) => {
-                Some(TAU / lengths[0])
-            }
+            Region::Box { lengths } if curves.iter().any(Curve::is_open) => Some(TAU / lengths[0]),
             _ => None,
         };
         direct.load(curves, stored, wave);
@@ -177,7 +175,7 @@ impl Layers {
         close.find(curves, plans, &Images::of(&self.region), stored);
 
         direct.add_forces(plans, stored, flow);
-        multipoles.add_forces(&curves[..stored.first], flow);
+        multipoles.add_forces(curves, 0..stored.first, flow);
         if let Some(walls) = walls {
             walls.add_forces(curves, 0..stored.first, flow);
         }
@@ -191,8 +189,9 @@ impl Layers {
     pub(crate) fn stored_layer(&mut self, forces: &[f64]) {
         self.set_stored(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
         self.clear();
-        let Self { direct, walls, close, curves, plans, flow, stored, .. } = self;
+        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, .. } = self;
         direct.add_stored(curves, plans, *stored, flow);
+        multipoles.add_forces(curves, stored.first..curves.len(), flow);
         if let Some(walls) = walls {
             walls.add_forces(curves, stored.first..curves.len(), flow);
         }

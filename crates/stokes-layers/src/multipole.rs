@@ -6,6 +6,8 @@
 mod expansion;
 mod series;
 
+use std::ops::Range;
+
 use motile_base::InputError;
 use num_complex::Complex64;
 
@@ -96,20 +98,24 @@ impl Multipoles {
         self.moments.resize_with(curves.len(), Moments::default);
         for target in 0..curves.len() {
             for source in target..curves.len() {
-                let [one, other] = [target, source].map(|curve| stored.has(curve) || curves[curve].is_open());
-                if one || other {
-                    if stored.couples(target, source) {
-                        pairs.push(self.whole_pair(curves, [target, source]));
-                    }
+                let ends = [target, source];
+                let whole = ends.iter().any(|&curve| {
+                    curves[curve].is_open() || stored.has(curve) && !matches!(self.region, Region::Box { .. })
+                });
+                if !stored.couples(target, source) {
+                    continue;
+                }
+                if whole {
+                    pairs.push(self.whole_pair(curves, ends));
                 } else {
-                    self.divide_pair(curves, [target, source], pairs);
+                    self.divide_pair(curves, ends, pairs);
                 }
             }
         }
     }
 
-    /// A pair with all images summed node by node: for open curves, which no series reaches around, stored curves, and
-    /// curves that are close in the plane or a channel.
+    /// A pair with all images summed node by node: for open curves, which no series reaches around, and in the plane or
+    /// a channel for stored curves and those that are close.
     fn whole_pair(&self, curves: &[Curve], [target, source]: [usize; 2]) -> CurvePair {
         let own = target == source;
         let swap = curves[target].len() > curves[source].len();
@@ -191,17 +197,16 @@ impl Multipoles {
         self.used - 1
     }
 
-    /// Adds the flow of the forces on curves that are not stored.
-    pub(crate) fn add_forces(&mut self, curves: &[Curve], out: &mut [Vectors]) {
-        if self.used == 0 {
+    /// Adds the flow of the forces on some of the curves.
+    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, out: &mut [Vectors]) {
+        if !self.links[..self.used].iter().any(|link| from.contains(&link.source)) {
             return;
         }
-        for (curve, moments) in curves.iter().zip(&mut self.moments) {
+        for (index, (curve, moments)) in curves.iter().zip(&mut self.moments).enumerate() {
             moments.clear(self.degree);
-            if curve.is_open() {
-                continue;
+            if !curve.is_open() && from.contains(&index) {
+                self.expansion.forces(self.unit, &curve.nodes.position, &curve.nodes.force, moments);
             }
-            self.expansion.forces(self.unit, &curve.nodes.position, &curve.nodes.force, moments);
         }
         self.add_flow(curves, self.degree, out);
     }

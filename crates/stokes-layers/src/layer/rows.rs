@@ -135,7 +135,7 @@ fn product(part: &[f64], values: &Vectors) -> [f64; 2] {
     const LANES: usize = 8;
     let chunks = |values| <[f64]>::as_chunks::<LANES>(values);
     let [c, re, im] = thirds(part).map(chunks);
-    let [x, y] = [&values.x, &values.y].map(|values| chunks(values));
+    let [x, y] = [&values.x, &values.y].map(|values| chunks(&values[..part.len() / 3]));
     let term = |c: f64, re: f64, im: f64, x: f64, y: f64| [(c + re) * x + im * y, im * x + (c - re) * y];
     let (mut along, mut across) = ([0.0; LANES], [0.0; LANES]);
     for ((((c, re), im), x), y) in c.0.iter().zip(re.0).zip(im.0).zip(x.0).zip(y.0) {

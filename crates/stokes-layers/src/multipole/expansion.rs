@@ -125,7 +125,8 @@ impl Expansion {
             }
             let a = moments.plain[q] * inverse;
             let b = moments.conjugate[q] * (0.5 * inverse);
-            let c = (moments.mixed[q] * 0.5 - moments.flux[q] * (2.0 / unit)) * inverse;
+            let flux = moments.flux[q] * (-2.0 / unit * inverse);
+            let c = moments.mixed[q] * (0.5 * inverse) + flux;
             let half = a * 0.5;
             let count = degree + 1 - q;
             let (sr, si, dr, di) =
@@ -136,6 +137,9 @@ impl Expansion {
             for k in 0..count {
                 pr[k] += sr[k] * half.re - si[k] * half.im;
                 pi[k] += sr[k] * half.im + si[k] * half.re;
+                // The derivative of the target's part ends a degree earlier, and so does that of the source's, so that
+                // the flow is that of a symmetric Green's function.
+                let c = if k + 1 < count { c } else { flux };
                 qr[k] += sr[k] * b.re - si[k] * b.im + tr[k] * a.re - ti[k] * a.im + dr[k] * c.re - di[k] * c.im;
                 qi[k] += sr[k] * b.im + si[k] * b.re + tr[k] * a.im + ti[k] * a.re + dr[k] * c.im + di[k] * c.re;
             }
