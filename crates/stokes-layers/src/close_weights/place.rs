@@ -126,8 +126,7 @@ fn refine(curve: &Curve, point: Complex64, start: Complex64) -> Option<Preimage>
         let (value, derivative) = evaluate(curve, unit);
         let step = curve.wrap(value - point) / derivative;
         let square = step.norm_sqr();
-        // False for what is not a number as well.
-        if !(square <= 4.0) {
+        if square > 4.0 || square.is_nan() {
             return None;
         }
         unit *= (-Complex64::new(0.0, 1.0) * step).exp();
