@@ -129,6 +129,25 @@ impl DirectSums {
         }
     }
 
+    /// Calls `take` with the curves and nodes of target and source of each pair of nodes of stored curves and the
+    /// components of the single layer between them; each pair serves both directions.
+    pub(crate) fn each_stored(&self, plans: &[Plan], mut take: impl FnMut([[usize; 2]; 2], [f64; 3])) {
+        for (&CurvePair { target, source, own, kernel }, stokeslets) in self.pairs.iter().zip(&self.stokeslets) {
+            let both = [&self.curves[target], &self.curves[source]];
+            stokeslets.each(both.map(|arrays| arrays.nodes.len()), own, |[i, j], g| {
+                take([[target, i], [source, j]], g);
+            });
+            if own {
+                let weight = plans[both[0].plan].kress[0];
+                let Vectors { x, y } = &both[0].tangent;
+                for (i, (x, y)) in x.iter().zip(y).enumerate().take(both[0].nodes.len()) {
+                    let [xx, xy, yy] = with_kernel!(&kernel, kernel => kernel.diagonal(*x, *y));
+                    take([[target, i]; 2], [xx + weight, xy, yy + weight]);
+                }
+            }
+        }
+    }
+
     /// Stores the stress between all pairs of nodes, unless there are too many.
     pub(crate) fn prepare_stress(&mut self) {
         let Self { curves, pairs, stresses, stresses_stored, .. } = self;

@@ -14,6 +14,7 @@ use std::{
 };
 
 use motile_base::{InputError, Vec2, within};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::images::{Images, check};
@@ -189,8 +190,45 @@ impl Layers {
     pub(crate) fn stored_layer(&mut self, forces: &[f64]) {
         self.set_stored(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, .. } = self;
+        let Self { direct, curves, plans, flow, stored, .. } = self;
         direct.add_stored(curves, plans, *stored, flow);
+        self.add_indirect();
+    }
+
+    /// Writes the matrix of the stored single layers of curves of which all are stored, x then y, curve after curve.
+    pub(crate) fn write_stored(&mut self, matrix: &mut DMatrix<f64>) {
+        // What walls, images and corrections add, column by column.
+        let mut forces = vec![0.0; matrix.ncols()];
+        for column in 0..matrix.ncols() {
+            forces[column] = 1.0;
+            self.set_stored(&forces, self.walls.as_ref().is_some_and(Walls::is_refined));
+            self.clear();
+            self.add_indirect();
+            matrix.column_mut(column).fill(0.0);
+            for curve in 0..self.curves.len() {
+                let entries = self.entries(curve);
+                self.add_flow(curve, 1.0, &mut matrix.column_mut(column).as_mut_slice()[entries]);
+            }
+            forces[column] = 0.0;
+        }
+        let place = |[curve, node]: [usize; 2]| {
+            let x = 2 * self.starts[curve] + node;
+            [x, x + self.curves[curve].len()]
+        };
+        self.direct.each_stored(&self.plans, |[target, source], [xx, xy, yy]| {
+            let ([tx, ty], [sx, sy]) = (place(target), place(source));
+            for (row, column, value) in [(tx, sx, xx), (tx, sy, xy), (ty, sx, xy), (ty, sy, yy)] {
+                matrix[(row, column)] += value;
+                if target != source {
+                    matrix[(column, row)] += value;
+                }
+            }
+        });
+    }
+
+    /// Adds the single layers of the stored curves but for the sums over pairs of nodes.
+    fn add_indirect(&mut self) {
+        let Self { multipoles, walls, close, curves, plans, flow, stored, .. } = self;
         multipoles.add_forces(curves, stored.first..curves.len(), flow);
         if let Some(walls) = walls {
             walls.add_forces(curves, stored.first..curves.len(), flow);

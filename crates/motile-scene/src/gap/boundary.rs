@@ -168,8 +168,29 @@ impl Boundary {
     /// `None` without points or sides.
     #[must_use]
     pub fn smallest(&self, points: &[Vec2], periods: [Option<f64>; 2]) -> Option<(f64, usize)> {
-        let distances = points.iter().map(|&point| self.distance(point, periods)).zip(0..);
-        distances.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| !self.is_empty())
+        if self.is_empty() {
+            return None;
+        }
+        let mut least: Option<(f64, usize)> = None;
+        // The last point, if it is outside.
+        let mut outside: Option<Vec2> = None;
+        for (number, &point) in points.iter().enumerate() {
+            let distance = match (least, outside) {
+                // Nearer than twice the least distance to a point outside that is as far or farther: if this one is as
+                // far it is outside too, as the line between the two does not reach the boundary.
+                (Some((least, _)), Some(last)) if (point - last).length() < 2.0 * least => {
+                    self.distance_within(point, periods, least)
+                }
+                _ => Some(self.distance(point, periods)),
+            };
+            if let Some(distance) = distance
+                && least.is_none_or(|(least, _)| distance.total_cmp(&least).is_lt())
+            {
+                least = Some((distance, number));
+            }
+            outside = distance.is_none_or(|distance| distance > 0.0).then_some(point);
+        }
+        least
     }
 }
 

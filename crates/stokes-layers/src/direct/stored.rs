@@ -72,6 +72,16 @@ impl StoredStokeslets {
         );
     }
 
+    /// Calls `take` with the nodes of target and source of each pair and the components between them.
+    pub(crate) fn each(&self, both: [usize; 2], same: bool, mut take: impl FnMut([usize; 2], [f64; 3])) {
+        for shift in shifts(both, same) {
+            let [a, b, c] = self.0.of(shift);
+            for (i, ((a, b), c)) in a.iter().zip(b).zip(c).enumerate() {
+                take([i, (i + shift.d) % both[1]], [*a, *b, *c]);
+            }
+        }
+    }
+
     /// Adds the flow of the forces of one shift.
     #[inline(always)]
     pub(crate) fn apply(&self, shift: Shift, forces: [&Vectors; 2], near: &mut Vectors, far: &mut Vectors) {

@@ -88,13 +88,7 @@ impl RigidWalls {
         let half = 0.5 * width;
         let count = 2 * layers.starts[layers.curves.len()];
         let mut matrix = DMatrix::zeros(count, count);
-        let mut forces = DVector::zeros(count);
-        for column in 0..count {
-            forces[column] = 1.0;
-            layers.stored_layer(forces.as_slice());
-            add_walls(layers, 1.0, matrix.column_mut(column).as_mut_slice());
-            forces[column] = 0.0;
-        }
+        layers.write_stored(&mut matrix);
         let mean = matrix.trace() / count.max(1) as f64;
         let mut parabola = DVector::zeros(count);
         for (index, curve) in layers.curves.iter().enumerate() {
@@ -120,6 +114,7 @@ impl RigidWalls {
         let behind = flux_behind(layers, sampler, viscosity, half, &unit);
         let conductance = parabola.dot(&unit) / scale - 2.0 / 3.0 * half.powi(3) / viscosity - behind;
         layers.fix();
+        let forces = DVector::zeros(count);
         let driven = (forces.clone(), 0.0);
         let (gradient, checked) = (0.0, false);
         Ok(Self { drive, half, scale, factors, forces, gradient, driven, unit, conductance, parabola, checked })

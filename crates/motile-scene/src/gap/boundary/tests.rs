@@ -81,6 +81,28 @@ fn images_of_long_sides_count() {
 }
 
 proptest! {
+    /// Interfaces beside, across and inside a square, of few and of many points.
+    #[test]
+    fn the_smallest_distance_is_that_of_all_points(
+        x in -1.0..3.0f64,
+        y in -1.0..3.0f64,
+        radius in 0.01..2.0f64,
+        squeeze in 0.1..1.0f64,
+        count in 1usize..80,
+        period in 5.0..8.0f64,
+    ) {
+        let square = square();
+        let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+        let points: Vec<Vec2> = (0..count)
+            .map(|k| Vec2::new(x + radius * angle(k).cos(), y + squeeze * radius * angle(k).sin()))
+            .collect();
+        for periods in [PLANE, [Some(period), None]] {
+            let all = points.iter().map(|point| square.distance(*point, periods)).zip(0..);
+            let expected = all.min_by(|a, b| a.0.total_cmp(&b.0));
+            prop_assert_eq!(square.smallest(&points, periods), expected);
+        }
+    }
+
     #[test]
     fn boxes_find_the_nearest_of_all(
         x in -9.0..9.0f64, y in -9.0..9.0f64, count in 3..200_usize, period in 3.0..5.0f64,
