@@ -44,7 +44,15 @@ fn build_with(setup: &Setup, shape: &Channel) -> Result<Built> {
     let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(setup)?)?, setup)?;
     let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(setup)?)?, setup)?;
     let solids = vec![scene.add(lower), scene.add(upper)];
-    Ok(Built { scene, droplets, solids, rigid_bodies: Vec::new(), shells: Vec::new(), gels: Vec::new() })
+    Ok(Built {
+        scene,
+        droplets,
+        solids,
+        rigid_bodies: Vec::new(),
+        shells: Vec::new(),
+        gels: Vec::new(),
+        interfaces: Vec::new(),
+    })
 }
 
 /// Which geometry.

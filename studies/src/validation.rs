@@ -4,6 +4,7 @@
 //! `cargo run --release -p studies -- validation all` runs everything (about half an hour on one core), a study's name
 //! only that study; `--quick` leaves out the finest grids.
 
+mod active_walls;
 mod channels;
 mod contrast;
 mod curved_walls;
@@ -51,7 +52,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 35] = [
+const STUDIES: [(&str, Run); 36] = [
     ("fixed-shapes", fixed),
     ("relaxation", relax),
     ("growth", grow),
@@ -82,6 +83,7 @@ const STUDIES: [(&str, Run); 35] = [
     ("interface-lateral", interfaces::lateral_modes),
     ("interface-several", interfaces::several),
     ("interface-long-runs", interfaces::long_runs),
+    ("active-walls", active_walls::active_walls),
     ("two-droplets", two_droplets::two_droplets),
     ("curved-walls", curved_walls::curved_walls),
     ("elastic-walls", elastic_walls::elastic_walls),

@@ -19,6 +19,7 @@ mod near_walls;
 mod nested;
 mod net_forces;
 mod nucleus;
+mod open_interfaces;
 mod particles_inside;
 mod recommended;
 mod relaxation;

@@ -2,6 +2,7 @@
 
 mod crossing;
 mod equidistant;
+pub(crate) mod periodic;
 pub(crate) mod polygon;
 mod spline;
 
@@ -16,6 +17,8 @@ use crate::InterfaceError;
 pub(crate) use crossing::CrossingFinder;
 pub use crossing::first_crossing;
 use equidistant::equidistant;
+pub(crate) use periodic::check_period;
+pub use periodic::{line_through, wave};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 use polygon::{edges, raw_area, raw_perimeter};
 use spline::PeriodicSpline;
@@ -185,7 +188,7 @@ impl Curve {
     /// Fewer than three points, points that are not finite or coincide, a crossing, no area.
     pub fn through_points(points: &[Vec2]) -> Result<Self, InterfaceError> {
         check_list(points, 3)?;
-        Self::build(Shape::Spline(PeriodicSpline::new(points)?))
+        Self::build(Shape::Spline(PeriodicSpline::new(points, Vec2::ZERO)?))
     }
 
     /// The polygon with these corners; the last is joined to the first and must not repeat it.
@@ -290,7 +293,7 @@ impl Curve {
         let mut markers = if matches!(self.shape, Shape::Ellipse(a, b) if a == b) {
             (0..count).map(|k| self.point(k as f64 / count as f64)).collect()
         } else {
-            equidistant(|t| self.point(t), count)?
+            equidistant(|t| self.point(t), Vec2::ZERO, count)?
         };
         let moments = polygon_moments(&markers)?;
         if moments.area <= 0.0 {

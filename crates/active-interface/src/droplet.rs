@@ -52,7 +52,7 @@ impl ActiveDroplet {
         diffusion: f64,
     ) -> Result<Self, InterfaceError> {
         let markers = markers_from_points(markers)?;
-        Ok(ActiveInterface::build(markers, numbers, Arc::new(tension), Some(diffusion))?.into())
+        Ok(ActiveInterface::build(markers, 0.0, numbers, Arc::new(tension), Some(diffusion))?.into())
     }
 
     /// A droplet without particles, of constant tension (force): it relaxes to a circle and is carried along.
@@ -61,7 +61,7 @@ impl ActiveDroplet {
     /// Those of [`ActiveDroplet::new`], and a tension that is negative or not finite.
     pub fn passive(markers: &[Vec2], tension: f64) -> Result<Self, InterfaceError> {
         let tension = Arc::new(crate::ConstantTension::new(tension)?);
-        Ok(ActiveInterface::build(markers_from_points(markers)?, Vec::new(), tension, None)?.into())
+        Ok(ActiveInterface::build(markers_from_points(markers)?, 0.0, Vec::new(), tension, None)?.into())
     }
 
     /// The droplet with another interface.

@@ -25,6 +25,26 @@ pub enum InterfaceError {
         /// Distance of end and start (length).
         gap: f64,
     },
+    /// A curve that does not meet its next image.
+    #[error(
+        "the curve does not close across the period: from its last point to the image of its first, {advance} further \
+         along x, are {gap:.3e}, and at most {spacing:.3e} between neighbours; give the points of one period, the image \
+         of the first left out"
+    )]
+    NotPeriodic {
+        /// Distance of the last point from the image of the first (length).
+        gap: f64,
+        /// Advance along x (length).
+        advance: f64,
+        /// Largest distance of other neighbours (length).
+        spacing: f64,
+    },
+    /// Elasticity of a closed interface.
+    #[error("elasticity is for interfaces that are periodic along x: an elastic membrane around fluid is a shell")]
+    ClosedMembrane,
+    /// A concentration by the polar angle on a curve that goes around nothing.
+    #[error("an interface that is periodic along x has no polar angle: give the concentration by the arc length")]
+    NoPolarAngle,
     /// A curve that crosses or touches itself.
     #[error("the curve crosses itself between the segments that start at points {first} and {second}")]
     SelfCrossing {

@@ -4,6 +4,7 @@
 
 mod body;
 mod build;
+mod elasticity;
 mod filter;
 pub(crate) mod geometry;
 mod limits;
@@ -22,6 +23,7 @@ use crate::{
     concentration::{Repair, Transport},
     curve::{CrossingFinder, MINIMUM_MARKERS},
 };
+use elasticity::Elasticity;
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
 use limits::finest_response;
@@ -49,7 +51,8 @@ pub enum Motion {
         filter: bool,
     },
     /// Markers move with the fluid's full velocity (Cowley (2.8)). They are inserted where segments exceed 1.5 times
-    /// the spacing at the start and removed where segments fall below half of it; no particle is lost.
+    /// the spacing at the start and removed where segments fall below half of it; no particle is lost. Those of an
+    /// interface that is periodic along x stay the same.
     WithFluid,
 }
 
@@ -78,6 +81,8 @@ pub(crate) struct Law {
     pub(crate) viscosity_inside: Option<f64>,
     /// Switch of the area constraint, which restores the area after each step.
     pub(crate) keeps_area: bool,
+    /// Elasticity along the interface, if it is a membrane.
+    pub(crate) elasticity: Option<Elasticity>,
 }
 
 /// Unknowns of an interface: marker positions (with their geometry) and the particle numbers of the segments.
@@ -209,11 +214,17 @@ impl ActiveInterface {
     /// More markers than a Fourier transform takes.
     pub(crate) fn fit(&mut self, view: &FluidView) -> Result<(), InputError> {
         let count = self.markers().len();
-        let smooth = view.shape_modes.is_some() && matches!(self.law.motion, Motion::Equidistributed { .. });
+        // Markers of the others are inserted and removed.
+        let stay = matches!(self.law.motion, Motion::Equidistributed { .. }) || self.state.shape.advance != 0.0;
+        let smooth = view.shape_modes.is_some() && stay;
         if smooth != self.scheme.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.scheme.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
             self.scheme.other.markers.clear();
             self.update();
+            if self.state.shape.advance != 0.0 {
+                // Another measure of the same area.
+                self.account.area = self.area();
+            }
         }
         let band = view.shape_modes.filter(|&modes| modes < count);
         if band.map(|modes| (count, modes)) != self.scheme.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
@@ -222,7 +233,8 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)).
+    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and those
+    /// of elasticity where there is some.
     ///
     /// # Errors
     /// Those of [`ActiveInterface::fit`].
@@ -239,7 +251,8 @@ impl ActiveInterface {
         if let Some(spectral) = self.scheme.spectral.as_mut() {
             spectral.sharpen(forces);
         }
-        Ok(())
+        let Shape { markers, advance, .. } = &self.state.shape;
+        self.law.elasticity.as_mut().map_or(Ok(()), |elasticity| elasticity.add_forces(markers, *advance, forces))
     }
 
     /// Takes over the finite state of an interface of `count` markers.
@@ -358,7 +371,7 @@ impl ActiveInterface {
     /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time): filters the markers,
     /// where there is a grid that does not see their short waves, or inserts and removes some.
     fn move_markers(&mut self, view: &FluidView, viscosity: f64, dt: f64) {
-        let State { shape: Shape { markers, geometry, .. }, numbers } = &mut self.state;
+        let State { shape: Shape { markers, geometry, advance, .. }, numbers } = &mut self.state;
         match (self.law.motion, grid_spacing(view)) {
             (Motion::Equidistributed { filter: true, .. }, Some(spacing)) => {
                 let rate = 0.5 * dt / (viscosity * spacing);
@@ -368,6 +381,7 @@ impl ActiveInterface {
                 self.update();
             }
             (Motion::Equidistributed { .. }, _) => {}
+            (Motion::WithFluid, _) if *advance != 0.0 => {}
             (Motion::WithFluid, _) => {
                 let (inserted, removed) = redistribute(markers, numbers, self.account.spacing, MINIMUM_MARKERS);
                 self.account.last = Interventions { inserted, removed, ..self.account.last };

@@ -83,7 +83,8 @@ mod units;
 
 pub use concentration::{Flux, InitialConcentration, Repair, SplitMix64};
 pub use curve::{
-    AreaMoments, Curve, first_crossing, markers_from_points, polygon_area, polygon_moments, polygon_perimeter,
+    AreaMoments, Curve, first_crossing, line_through, markers_from_points, polygon_area, polygon_moments,
+    polygon_perimeter, wave,
 };
 pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;

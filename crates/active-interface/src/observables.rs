@@ -8,6 +8,7 @@ mod fourier;
 mod frame;
 mod least_squares;
 mod moments;
+mod periodic;
 mod polar;
 mod profile;
 mod squirmer;
@@ -30,6 +31,7 @@ pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};
 pub use frame::{Frame, centroid_velocity};
 pub use moments::{Convention, ForceMoments, force_moments};
+pub use periodic::PeriodicObservables;
 pub use profile::{ConcentrationProfile, concentration_profile};
 pub use squirmer::{SquirmerFit, VelocityFrame, squirmer_coefficients};
 

@@ -1,11 +1,13 @@
-//! Analytic solutions: the linear theory of a round droplet in unbounded fluid, the squirmer.
+//! Analytic solutions: the linear theory of a round droplet in unbounded fluid and of flat interfaces, the squirmer.
 
 pub mod fits;
+mod flat_interface;
 mod squirmer_flow;
 
 use motile_base::{at_least, finite, not_negative, positive};
 
 use crate::InterfaceError;
+pub use flat_interface::{FlatInterface, Stratum, StratumEnd};
 pub use squirmer_flow::SquirmerFlow;
 
 /// Parameters of the linear theory of a round droplet.

@@ -240,7 +240,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 /// of the exterior fluid.
 ///
 /// # Errors
-/// A viscosity that is not positive and finite; a rigid body.
+/// A viscosity that is not positive and finite; a rigid body, an interface that is periodic along x.
 fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
     if group.kind == MarkerKind::Rigid {
         return Err(FlowError::Unsupported {
@@ -248,7 +248,13 @@ fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 
             remedy: "use boundary integrals or layers",
         });
     }
-    if !group.kind.is_closed_curve() {
+    if group.kind.advance().is_some() {
+        return Err(FlowError::Unsupported {
+            what: "an interface that is periodic along x on a grid alone",
+            remedy: "use boundary integrals or layers",
+        });
+    }
+    if !group.kind.is_curve() {
         return Ok(None);
     }
     let [inside, outside] = group.viscosities(exterior);

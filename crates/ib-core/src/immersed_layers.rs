@@ -187,7 +187,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         let at_rest =
             |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().all(|force| *force == Vec2::ZERO);
         let mut groups = markers.groups().iter();
-        groups.all(|group| group.kind.is_closed_curve() || group.layers().next().is_none() && at_rest(group))
+        groups.all(|group| group.kind.is_curve() || group.layers().next().is_none() && at_rest(group))
     }
 
     /// True if all fluid has one viscosity.
@@ -210,7 +210,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.interfaces.load(markers)?;
         let flow = &mut self.interfaces.flow;
         let Solution { iterations, residual, .. } = self.contrast.solve(flow, &self.curves.velocities[..entries])?;
-        let points = || markers.groups().iter().filter(|group| !group.kind.is_closed_curve());
+        let points = || markers.groups().iter().filter(|group| !group.kind.is_curve());
         if points().any(|group| group.viscosity_outside.is_some_and(|outside| outside != viscosity)) {
             let mut scaled = std::mem::take(&mut self.scaled);
             scaled.clear();
@@ -235,7 +235,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// Takes the pressure (force per length) from the interfaces' own layers and, on the grid, from all other forces.
     fn sample_pressure(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         let mut others = markers.forces().to_vec();
-        for group in markers.groups().iter().filter(|group| group.kind.is_closed_curve()) {
+        for group in markers.groups().iter().filter(|group| group.kind.is_curve()) {
             others[group.range.clone()].fill(Vec2::ZERO);
         }
         self.curves.load_forces(&others)?;

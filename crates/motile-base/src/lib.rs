@@ -27,7 +27,7 @@
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
-//! curve ([`PeriodicSeries`]). Every length is correct, odd and prime ones included; lengths with no prime factors but
+//! curve ([`PeriodicSeries`]), and the forces of energies of such curves ([`CurveForces`]). Every length is correct, odd and prime ones included; lengths with no prime factors but
 //! 2, 3, 5, 7 and 11 are fast.
 //!
 //! # Input
@@ -46,6 +46,7 @@
 
 pub mod boxes;
 mod complex;
+mod curve_forces;
 mod drive;
 mod explanation;
 mod flow;
@@ -61,6 +62,7 @@ mod transform;
 mod vec2;
 
 pub use complex::ComplexTransform;
+pub use curve_forces::CurveForces;
 pub use drive::Drive;
 pub use explanation::{explanation, told_apart};
 pub use flow::{FlowSample, SolveReport};

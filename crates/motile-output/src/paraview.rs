@@ -5,10 +5,12 @@ mod meshes;
 
 use std::path::Path;
 
-use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
+use motile::active_interface::{ActiveDroplet, ActiveInterface, observables::InterfaceState};
 use motile::motile_scene::{Hydrodynamics, Observer, System};
 
-use crate::{OutputError, Raster, Snapshot, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
+use crate::{
+    OutputError, Raster, Snapshot, VtkFile, VtkSeries, interfaces::closed, snapshot::at_markers, solids::curves,
+};
 use motile::motile_base::Vec2;
 
 /// Name of the record with the times of the files in a system.
@@ -24,6 +26,7 @@ const RECORD: &str = "files for ParaView";
 /// | interface | at the markers | concentration (particles per length), tension (force), velocity (length per time) |
 /// | interface | at the markers | force on the fluid (force) |
 /// | interface | in each droplet's line | number of the droplet, in the order of addition |
+/// | interface | in the line of an interface across the period | -1, -2 and so on, in the order of addition |
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | number of the solid |
@@ -102,13 +105,23 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         velocity.extend(state.velocities);
         force.extend(state.forces);
     }
-    let lines: Vec<Vec<Vec2>> = seen.droplets.iter().map(|droplet| droplet.markers.clone()).collect();
-    Ok(VtkFile::closed_lines(&lines)
-        .point_scalars("concentration", seen.droplets.iter().flat_map(|droplet| droplet.concentration.clone()))
+    for (handle, interface) in system.bodies::<ActiveInterface>() {
+        let flow = system.flow_at(handle)?;
+        tension.extend(closed(at_markers(interface.tensions())));
+        velocity.extend(closed(flow.velocities.to_vec()));
+        force.extend(closed(flow.forces.to_vec()));
+    }
+    let droplets: Vec<Vec<Vec2>> = seen.droplets.iter().map(|droplet| droplet.markers.clone()).collect();
+    let others: Vec<Vec<Vec2>> = seen.interfaces.iter().map(|line| line.markers.clone()).collect();
+    let of_others = seen.interfaces.iter().flat_map(|line| line.concentration.clone());
+    let concentrations = seen.droplets.iter().flat_map(|droplet| droplet.concentration.clone()).chain(of_others);
+    let numbers = (0..droplets.len()).map(|number| number as f64).chain((1..=others.len()).map(|n| -(n as f64)));
+    Ok(VtkFile::lines(&droplets, &others)
+        .point_scalars("concentration", concentrations)
         .point_scalars("tension", tension)
         .point_vectors("velocity", velocity)
         .point_vectors("force", force)
-        .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64)))
+        .cell_scalars("droplet", numbers))
 }
 
 /// File of all rigid bodies and membranes; `None` if there are none.

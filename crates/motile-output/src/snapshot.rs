@@ -1,12 +1,12 @@
 //! State of all bodies of a scene and of the flow at one time, for pictures.
 
-use motile::active_interface::{ActiveDroplet, polygon_moments};
+use motile::active_interface::{ActiveDroplet, ActiveInterface, polygon_moments};
 use motile::interior_fields::{Defect, GelInDroplet, ParticlesInDroplet};
 use motile::motile_base::FlowSample;
 use motile::motile_scene::{Hydrodynamics, System};
 
 use crate::{
-    OutputError, Raster, SolidShape,
+    InterfaceLine, OutputError, Raster, SolidShape,
     solids::{curve_shapes, rigid_shape, solid_shape},
 };
 use motile::motile_base::Vec2;
@@ -71,6 +71,8 @@ pub struct Snapshot {
     pub flow: Vec<FlowSample>,
     /// Droplets, in the order of addition.
     pub droplets: Vec<DropletOutline>,
+    /// Interfaces that are periodic along x, in the order of addition.
+    pub interfaces: Vec<InterfaceLine>,
     /// Gels inside droplets, in the order of addition.
     pub gels: Vec<GelField>,
     /// Particles that diffuse inside droplets, in the order of addition.
@@ -112,6 +114,7 @@ impl Snapshot {
             raster,
             flow,
             droplets: system.bodies().map(shape).collect::<Result<_, OutputError>>()?,
+            interfaces: system.bodies().map(|(_, body): (_, &ActiveInterface)| InterfaceLine::of(body)).collect(),
             solids: system
                 .bodies()
                 .map(|(_, solid)| solid_shape(solid))

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use motile::active_interface::ActiveDroplet;
+use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::elastic_solids::{Deformation, Solid, width_between};
 use motile::motile_scene::{
     Body, Handle, Hydrodynamics, System,
@@ -52,11 +52,11 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     shape
 }
 
-/// Bodies of a system that are closed curves but no droplets: rigid bodies, membranes.
+/// Bodies of a system that are curves but no fluid interfaces: rigid bodies, membranes.
 pub(crate) fn curves<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
-        body.kind().is_closed_curve() && !any.is::<ActiveDroplet>()
+        body.kind().is_curve() && !any.is::<ActiveDroplet>() && !any.is::<ActiveInterface>()
     })
 }
 

@@ -103,6 +103,8 @@ fn kind(kind: MarkerKind) -> u8 {
         MarkerKind::UnevenInterface { .. } => 3,
         MarkerKind::Points => 4,
         MarkerKind::Rigid => 5,
+        MarkerKind::OpenInterface { viscosity_inside: None, .. } => 6,
+        MarkerKind::OpenInterface { .. } => 7,
     }
 }
 

@@ -228,6 +228,22 @@ pub enum SceneError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
+    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities.
+    #[error(
+        "at time {time} the fluid between {body} and {other}, or the image of one, would have the viscosities {} and \
+         {}: give both their insides there the same one, or turn one of them",
+        viscosities[0], viscosities[1]
+    )]
+    TwoViscosities {
+        /// Time of the state.
+        time: f64,
+        /// The lower interface.
+        body: String,
+        /// The upper one, or an image of the lower one.
+        other: String,
+        /// The viscosities (stress times time).
+        viscosities: [f64; 2],
+    },
     /// A body has come into an interface or out of it in a step.
     #[error("at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step")]
     Containment {

@@ -5,6 +5,7 @@ mod films;
 mod overlap;
 mod repulsion;
 mod solid_gap;
+mod strata;
 mod surface_curve;
 
 pub use boundary::Boundary;
@@ -72,6 +73,8 @@ pub struct Surfaces {
     numbers: Vec<usize>,
     frames: Vec<Frame>,
     tree: BoxTree,
+    /// The interfaces that are periodic along x, from the lowest to the highest.
+    strata: Vec<usize>,
     /// The first corner of each body.
     firsts: Vec<usize>,
     /// The corners of all bodies, in the order of the sides that start there; none for bodies without markers.
@@ -105,6 +108,7 @@ impl Surfaces {
         self.numbers.clear();
         self.numbers.extend((0..self.boundaries.len()).filter(|&body| !self.boundaries[body].is_empty()));
         self.tree.build_by_place(&self.frames);
+        self.stack();
     }
 
     /// Calls `visit` with the bodies whose boxes come within `reach` (length) of an image of `frame`, and with some
@@ -143,7 +147,7 @@ impl Surfaces {
     /// the curves.
     #[must_use]
     pub fn contact(&self, view: &FluidView) -> Option<(usize, usize, Vec2)> {
-        let interfaces = |bodies: [usize; 2]| bodies.iter().all(|&body| self.kinds[body].is_closed_curve());
+        let interfaces = |bodies: [usize; 2]| bodies.iter().all(|&body| self.kinds[body].is_curve());
         let scale = self.contact_scale(view);
         let narrowest = self.gaps(view, scale, interfaces).narrowest;
         let closed = |gap: &Gap| {
@@ -159,9 +163,7 @@ impl Surfaces {
     pub(crate) fn nearest_solid(&self, periods: [Option<f64>; 2]) -> Option<(f64, usize, usize, Vec2)> {
         let of_kind = |closed: bool| {
             let bodies = self.boundaries.iter().zip(&self.kinds).enumerate();
-            bodies.filter_map(move |(body, (surface, kind))| {
-                (kind.is_closed_curve() == closed).then_some((body, surface))
-            })
+            bodies.filter_map(move |(body, (surface, kind))| (kind.is_curve() == closed).then_some((body, surface)))
         };
         let distance = |place: Vec2| {
             let distances = of_kind(false).filter(|(_, solid)| !solid.is_empty());
@@ -175,8 +177,13 @@ impl Surfaces {
 
     /// True where a body lies inside an interface, or inside one of its images.
     fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
-        let around = inner != outer && self.kinds[outer].holds_fluid();
-        around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
+        if inner == outer || !self.kinds[outer].holds_fluid() {
+            return false;
+        }
+        if self.kinds[outer].advance().is_some() {
+            return self.is_on_inner_side(inner, outer, periods);
+        }
+        self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 
     /// The gaps that are looked at during steps, below `bound` (length) or four times what contacts are measured in.
@@ -191,7 +198,7 @@ impl Surfaces {
         for (body, from) in self.boundaries.iter().enumerate() {
             let Some(frame) = from.frame() else { continue };
             self.each_near(&frame, domain.periods, reach, &mut |other| {
-                let some = self.kinds[body].is_closed_curve() || self.kinds[other].is_closed_curve();
+                let some = self.kinds[body].is_curve() || self.kinds[other].is_curve();
                 if some && pairs([body, other]) {
                     self.add_gaps([body, other], domain, [reach, self.allowed(scale, [body, other])], &mut gaps);
                 }
@@ -205,19 +212,28 @@ impl Surfaces {
     fn add_gaps(&self, [body, other]: [usize; 2], domain: &Domain, [reach, allowed]: [f64; 2], gaps: &mut Gaps) {
         let [from, boundary] = [body, other].map(|index| &self.boundaries[index]);
         let [Some(frame), Some(large)] = [from, boundary].map(Boundary::frame) else { return };
-        let periods = if other == body { [None; 2] } else { domain.periods };
-        for shift in shifts(domain.periods, other == body).into_iter().flatten() {
+        let own = other == body;
+        let mut look = |shift: Vec2, periods: [Option<f64>; 2], sign: &dyn Fn() -> f64| {
             if !frame.moved(shift).is_near(&large, periods, reach) {
-                continue;
+                return;
             }
-            let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
+            let sign = sign();
             for place in from.corners() {
                 let distance = boundary.distance_within(place + shift, periods, reach);
                 if let Some(distance) = distance {
                     gaps.add(Gap { body, place, other, width: sign * distance }, allowed);
                 }
             }
+        };
+        if self.kinds[other].advance().is_some() {
+            for (shift, sign) in self.images_across(body, other, domain.periods) {
+                look(shift, [domain.periods[0], None], &|| sign);
+            }
+            return;
         }
+        let periods = if own { [None; 2] } else { domain.periods };
+        let sign = || if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
+        shifts(domain.periods, own).into_iter().flatten().for_each(|shift| look(shift, periods, &sign));
     }
 }
 
@@ -240,7 +256,7 @@ impl Boundary {
 pub(crate) struct Outline {
     boundary: Boundary,
     points: Vec<Vec2>,
-    holds_fluid: bool,
+    kind: MarkerKind,
 }
 
 impl Outline {
@@ -251,14 +267,18 @@ impl Outline {
             points.resize(body.marker_count(), Vec2::ZERO);
             body.write_markers(&mut points);
         }
-        Self { boundary, points, holds_fluid: body.kind().holds_fluid() }
+        Self { boundary, points, kind: body.kind() }
     }
 
     /// The smallest signed distance of the points of another body from the boundary (length), positive for most of
     /// those inside an interface: what lies in it is measured from within.
     fn smallest(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
         let distances = || other.points.iter().map(|&point| self.boundary.distance(point, periods));
-        let within = self.holds_fluid && 2 * distances().filter(|d| *d < 0.0).count() > other.points.len();
+        if let (Some(_), Some(_)) = (self.kind.advance(), periods[1]) {
+            // The nearest image may be above or below.
+            return distances().map(f64::abs).reduce(f64::min);
+        }
+        let within = self.kind.holds_fluid() && 2 * distances().filter(|d| *d < 0.0).count() > other.points.len();
         let smallest = distances().map(|distance| if within { -distance } else { distance }).reduce(f64::min);
         smallest.filter(|_| !self.boundary.is_empty())
     }

@@ -88,6 +88,20 @@ pub enum SetupError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
+    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities.
+    #[error(
+        "the fluid between {key} and {other}, or the image of one, would have the viscosities {} and {}: give both \
+         their insides there the same one, or turn one of them by its key `inside`",
+        viscosities[0], viscosities[1]
+    )]
+    TwoViscosities {
+        /// Key of the lower entry in the description, with its name if it has one.
+        key: String,
+        /// Key of the upper entry, or of the lower one again.
+        other: String,
+        /// The viscosities (stress times time).
+        viscosities: [f64; 2],
+    },
     /// Droplet that starts in touch with another one, or with its own image.
     #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a film of fluid between them")]
     Touch {

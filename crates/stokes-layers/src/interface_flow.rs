@@ -16,7 +16,7 @@ use crate::{
     gmres::Outcome,
     layer::{Crossing, Layers},
     rigid_motion::RigidMotion,
-    sample::Sampler,
+    sample::{Place, Sampler},
 };
 use equation::Equation;
 use inside::InsideFlow;
@@ -463,8 +463,11 @@ impl InterfaceFlow {
             layers.set_gradient(walls.gradient);
         }
         let density = Density { values: velocities, contrasts: &equation.contrasts };
-        let viscosity =
-            |inside: Option<usize>| inside.map_or(*exterior, |interface| equation.sides[interface].viscosity());
+        let viscosity = |place: Place| match place {
+            Place::Exterior => *exterior,
+            Place::Inside(curve) | Place::Beside { curve, left: true } => equation.sides[curve].viscosity(),
+            Place::Beside { curve, left: false } => equation.sides[curve].outside,
+        };
         sampler.sample(layers, density, points, out, viscosity, |interface| motions[interface]);
         if walls.is_some() {
             layers.set_gradient(0.0);

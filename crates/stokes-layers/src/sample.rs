@@ -30,21 +30,37 @@ pub(crate) struct Sampler {
     mean: Complex64,
 }
 
+/// Place of a point among curves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Outside of all curves.
+    Exterior,
+    /// Inside a closed curve, the innermost.
+    Inside(usize),
+    /// On one of the sides of an open curve, the nearest.
+    Beside {
+        /// Number of the curve.
+        curve: usize,
+        /// True on the left, the inside.
+        left: bool,
+    },
+}
+
 impl Sampler {
     pub(crate) fn new(tolerance: f64) -> Self {
         Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default() }
     }
 
-    /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside
-    /// a curve, or outside of all, has the viscosity `viscosity(curve)`; the curves that have a motion are rigid
-    /// bodies.
+    /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a curve,
+    /// beside one that is open, or outside of all, has the viscosity `viscosity(place)`; the curves that have a motion
+    /// are rigid bodies.
     pub(crate) fn sample(
         &mut self,
         layers: &mut Layers,
         density: Density<'_>,
         points: &[Vec2],
         out: &mut [FlowSample],
-        viscosity: impl Fn(Option<usize>) -> f64,
+        viscosity: impl Fn(Place) -> f64,
         motion: impl Fn(usize) -> Option<RigidMotion>,
     ) {
         let points = points.iter().map(|point| Complex64::new(point.x, point.y));
@@ -54,13 +70,15 @@ impl Sampler {
         if let Some(walls) = &mut layers.walls {
             walls.prepare_points(&layers.curves, density, &layers.fine, points.clone());
         }
-        let exterior = viscosity(None);
+        let exterior = viscosity(Place::Exterior);
         let forced = layers.forced_flow(exterior);
         // The mean pressure gradient of a channel is no part of a sample.
         let pressure_slope = exterior * layers.imposed.bend;
         for (index, (point, out)) in points.zip(out).enumerate() {
             let (flow, inside) = self.flow_at(layers, index, point, density);
-            if let Some(motion) = inside.and_then(&motion) {
+            if let Place::Inside(curve) = inside
+                && let Some(motion) = motion(curve)
+            {
                 let arm = Images::of(&layers.region).wrap(point - Complex64::new(motion.centre.x, motion.centre.y));
                 let velocity = motion.at(motion.centre + Vec2::new(arm.re, arm.im));
                 *out = FlowSample { velocity, pressure: 0.0, gradient: [[0.0, -motion.spin], [motion.spin, 0.0]] };
@@ -83,16 +101,11 @@ impl Sampler {
         }
     }
 
-    /// Flow at the point of that number, and the innermost curve with a density that the point lies inside of.
-    fn flow_at(
-        &mut self,
-        layers: &mut Layers,
-        index: usize,
-        point: Complex64,
-        density: Density<'_>,
-    ) -> (Flow, Option<usize>) {
+    /// Flow at the point of that number, and its place among the curves with a density.
+    fn flow_at(&mut self, layers: &mut Layers, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Place) {
         let mut flow = Flow::default();
-        let mut inside = None;
+        let mut inside = Place::Exterior;
+        let mut nearest = f64::INFINITY;
         let images = Images::of(&layers.region);
         for number in 0..layers.curves.len() {
             let curve = &layers.curves[number];
@@ -106,19 +119,37 @@ impl Sampler {
                 if !open && point.norm() > curve.radius + distance {
                     continue;
                 }
-                let is_close = |z: &Complex64| curve.wrap(z - point).norm_sqr() < distance * distance;
-                let side = if curve.nodes.position.iter().any(is_close) {
+                let squares = curve.nodes.position.iter().map(|z| curve.wrap(z - point).norm_sqr());
+                let (close, away) = if open {
+                    let away = squares.fold(f64::INFINITY, f64::min);
+                    (away < distance * distance, away)
+                } else {
+                    let mut squares = squares;
+                    (squares.any(|square| square < distance * distance), f64::INFINITY)
+                };
+                let side = if close {
                     self.close.push(point);
                     self.add_close(layers, number, point, density, &mut flow)
                 } else {
                     None
                 };
                 let curve = &layers.curves[number];
-                let smaller = |other: usize| curve.radius < layers.curves[other].radius;
-                let fluid = number < density.contrasts.len();
-                if fluid && inside.is_none_or(smaller) && side.unwrap_or_else(|| curve.winds_around(point)) {
-                    inside = Some(number);
+                if number >= density.contrasts.len() {
+                    continue;
                 }
+                let left = || side.unwrap_or_else(|| curve.winds_around(point));
+                // Of open curves the nearest tells, of closed ones, which lie between them, the innermost.
+                inside = match inside {
+                    Place::Exterior | Place::Beside { .. } if open && away < nearest => {
+                        nearest = away;
+                        Place::Beside { curve: number, left: left() }
+                    }
+                    Place::Inside(other) if !open && curve.radius < layers.curves[other].radius && left() => {
+                        Place::Inside(number)
+                    }
+                    Place::Exterior | Place::Beside { .. } if !open && left() => Place::Inside(number),
+                    place => place,
+                };
             }
             self.add_nodes(layers, number, apart, density, &mut flow);
         }

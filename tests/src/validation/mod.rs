@@ -16,6 +16,7 @@ pub mod contrast;
 pub mod curved_walls;
 pub mod exchange;
 pub mod fixed_shapes;
+pub mod flat;
 pub mod growth;
 pub mod headings;
 pub mod interfaces;
@@ -47,6 +48,9 @@ pub enum StudyError {
     /// The flow could not be computed.
     #[error(transparent)]
     Flow(#[from] motile::motile_scene::FlowError),
+    /// A body.
+    #[error(transparent)]
+    Body(#[from] motile::motile_scene::BodyError),
     /// The grid.
     #[error(transparent)]
     Stokes(#[from] motile::stokes_grid::StokesError),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use motile_base::{Vec2, all_finite, finite, not_negative, positive, within};
 
 use crate::InterfaceError;
-use crate::curve::{Function, polygon::edges};
+use crate::curve::{Function, check_period, polygon::edges};
 
 /// Initial concentration of particles along a closed curve.
 ///
@@ -92,10 +92,30 @@ impl InitialConcentration {
     pub fn particle_numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, InterfaceError> {
         let centre = crate::curve::polygon_moments(markers)?.centroid;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
+        self.numbers(markers, &lengths, centre)
+    }
+
+    /// The particle numbers of the segments through `markers`, one period of an interface that continues `advance`
+    /// further along x (length). Fractions of the arc length are those of the period.
+    ///
+    /// # Errors
+    /// A concentration by the polar angle, which there is none of; fewer than eight markers, markers that are not
+    /// finite or do not close across the period; a concentration that is not finite or negative somewhere.
+    pub fn particle_numbers_over(&self, markers: &[Vec2], advance: f64) -> Result<Vec<f64>, InterfaceError> {
+        if let Kind::Polarised { .. } | Kind::PolarAngle(_) = self.0 {
+            return Err(InterfaceError::NoPolarAngle);
+        }
+        check_period(markers, advance)?;
+        let next = markers.iter().skip(1).copied().chain([markers[0] + Vec2::new(advance, 0.0)]);
+        let lengths: Vec<f64> = markers.iter().zip(next).map(|(a, b)| (b - *a).length()).collect();
+        self.numbers(markers, &lengths, Vec2::ZERO)
+    }
+
+    fn numbers(&self, markers: &[Vec2], lengths: &[f64], centre: Vec2) -> Result<Vec<f64>, InterfaceError> {
         let perimeter: f64 = lengths.iter().sum();
         let mut concentrations = match &self.0 {
             Kind::Polarised { heading, .. } => polarised(markers, centre, *heading),
-            Kind::Perturbed { amplitude, seed, .. } => perturbed(&lengths, perimeter, *amplitude, *seed),
+            Kind::Perturbed { amplitude, seed, .. } => perturbed(lengths, perimeter, *amplitude, *seed),
             Kind::PolarAngle(f) => edges(markers)
                 .map(|(a, b)| simpson(f, [a, (a + b) * 0.5, b].map(|p| (p.y - centre.y).atan2(p.x - centre.x))))
                 .collect(),
@@ -113,7 +133,7 @@ impl InitialConcentration {
         };
         all_finite("the initial concentration", &concentrations)?;
         concentrations.iter().try_for_each(|&value| not_negative("the initial concentration", value).map(drop))?;
-        for (c, length) in concentrations.iter_mut().zip(&lengths) {
+        for (c, length) in concentrations.iter_mut().zip(lengths) {
             *c *= length;
         }
         if let Kind::Polarised { mean, .. } | Kind::Perturbed { mean, .. } = self.0 {

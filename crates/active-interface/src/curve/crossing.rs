@@ -18,6 +18,7 @@ pub(crate) struct CrossingFinder {
     cells: Vec<(i64, i64)>,
     starts: Vec<usize>,
     entries: Vec<usize>,
+    closed: Vec<Vec2>,
 }
 
 impl CrossingFinder {
@@ -94,6 +95,47 @@ impl CrossingFinder {
             }
         }
         Ok(None)
+    }
+}
+
+impl CrossingFinder {
+    /// The like for a polygon that continues with its image `advance` (length) further along x; a closed one where that
+    /// is zero.
+    ///
+    /// # Errors
+    /// Those of [`CrossingFinder::first_crossing`].
+    pub(crate) fn first_crossing_over(
+        &mut self,
+        points: &[Vec2],
+        advance: f64,
+    ) -> Result<Option<(usize, usize)>, InterfaceError> {
+        let count = points.len();
+        let step = |k: usize| if k + 1 < count { points[k + 1].x } else { points[0].x + advance } - points[k].x;
+        if advance != 0.0 && (0..count).all(|k| step(k) * advance > 0.0) {
+            return Ok(None);
+        }
+        if advance == 0.0 || count < 3 {
+            return self.first_crossing(points);
+        }
+        all_points_finite("the points of the polygon", points)?;
+        // Two periods, closed from the highest point by a way above all of them.
+        let top = (0..count).max_by(|&a, &b| points[a].y.total_cmp(&points[b].y)).unwrap_or(0);
+        let along = |periods: usize| Vec2::new(advance * periods as f64, 0.0);
+        let mut closed = std::mem::take(&mut self.closed);
+        closed.clear();
+        closed.extend((top..=top + 2 * count).map(|k| points[k % count] + along(k / count)));
+        let (start, end) = (closed[0], closed[2 * count]);
+        let rise = Vec2::new(0.0, advance.abs());
+        let pieces = 2 * count;
+        let way = [end, end + rise, start + rise, start];
+        for corners in way.windows(2) {
+            let piece = |k: usize| corners[0].lerp(corners[1], k as f64 / pieces as f64);
+            closed.extend((1..=pieces).map(piece));
+        }
+        closed.pop();
+        let found = self.first_crossing(&closed);
+        self.closed = closed;
+        Ok(found?.map(|(first, second)| ((top + first) % count, (top + second) % count)))
     }
 }
 

@@ -1,22 +1,29 @@
-//! Points at equal distances along a closed curve.
+//! Points at equal distances along a curve, closed or periodic.
 
 use motile_base::{Vec2, all_points_finite};
 
 use crate::InterfaceError;
-use crate::curve::polygon::edges;
 
-/// Equidistant points of the closed curve `point(t)`, t in [0, 1]: `count` of them, from `point(0)` on, with equal
+/// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them, from `point(0)` on, with equal
 /// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
-pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
+pub(crate) fn equidistant(
+    point: impl Fn(f64) -> Vec2,
+    advance: Vec2,
+    count: usize,
+) -> Result<Vec<Vec2>, InterfaceError> {
+    let chords = |points: &[Vec2]| {
+        let next = points.iter().skip(1).copied().chain(points.first().map(|first| first + advance));
+        points.iter().zip(next).map(|(a, b)| (b - a).length()).collect::<Vec<f64>>()
+    };
     let fine = (16 * count).max(4096);
     let samples: Vec<Vec2> = (0..fine).map(|i| point(i as f64 / fine as f64)).collect();
     all_points_finite("the points of the curve", &samples)?;
     let mut arc = vec![0.0; fine + 1];
-    for (i, (a, b)) in edges(&samples).enumerate() {
-        arc[i + 1] = arc[i] + (b - a).length();
+    for (i, chord) in chords(&samples).into_iter().enumerate() {
+        arc[i + 1] = arc[i] + chord;
     }
     let mut parameters: Vec<f64> = (0..count)
         .map(|k| {
@@ -32,7 +39,7 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
     let mut best = f64::INFINITY;
     for _ in 0..200 {
         all_points_finite("the points of the curve", &points)?;
-        let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).length()).collect();
+        let chords = chords(&points);
         let mean = chords.iter().sum::<f64>() / count as f64;
         let residual = chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max);
         let tolerance = 1e-12f64.max(8.0 * f64::EPSILON * extent / mean);

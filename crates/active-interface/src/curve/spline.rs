@@ -1,14 +1,14 @@
-//! Smooth closed curves through points.
+//! Smooth curves through points, closed or periodic.
 
 use motile_base::Vec2;
 
-use crate::curve::polygon::edges;
 use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
-/// Cubic spline, twice continuously differentiable, through the points of a closed polygon, with the length along the
-/// polygon as parameter.
+/// Cubic spline, twice continuously differentiable, through the points of a polygon that is closed or advances in each
+/// period, with the length along the polygon as parameter.
 #[derive(Debug, Clone)]
 pub(crate) struct PeriodicSpline {
+    /// The points of a period and the next image of the first.
     points: Vec<Vec2>,
     /// Second derivatives at the points.
     bends: Vec<Vec2>,
@@ -17,10 +17,13 @@ pub(crate) struct PeriodicSpline {
 }
 
 impl PeriodicSpline {
-    /// The spline through at least three points, no two successive ones the same.
-    pub(crate) fn new(points: &[Vec2]) -> Result<Self, InterfaceError> {
-        let m = points.len();
-        let chords: Vec<f64> = edges(points).map(|(a, b)| (b - a).length()).collect();
+    /// The spline through at least three points, no two successive ones the same, advancing by `advance` in a period
+    /// (length; zero for a closed one).
+    pub(crate) fn new(given: &[Vec2], advance: Vec2) -> Result<Self, InterfaceError> {
+        let m = given.len();
+        let mut points = given.to_vec();
+        points.extend(given.first().map(|first| first + advance));
+        let chords: Vec<f64> = points.windows(2).map(|pair| (pair[1] - pair[0]).length()).collect();
         if let Some(index) = chords.iter().position(|&chord| chord == 0.0) {
             return Err(InterfaceError::CoincidentPoints { index });
         }
@@ -31,7 +34,7 @@ impl PeriodicSpline {
         let mut plan = CyclicTridiagonal::new(m);
         let mut bends = vec![Vec2::ZERO; m];
         for axis in 0..2 {
-            let slope = |k: usize| (points[(k + 1) % m][axis] - points[k][axis]) / chords[k];
+            let slope = |k: usize| (points[k + 1][axis] - points[k][axis]) / chords[k];
             let mut x: Vec<f64> = (0..m).map(|k| slope(k) - slope(before(k))).collect();
             plan.solve(&lower, &diagonal, &upper, &mut x);
             for (bend, x) in bends.iter_mut().zip(x) {
@@ -42,14 +45,14 @@ impl PeriodicSpline {
         for k in 0..m {
             knots[k + 1] = knots[k] + chords[k];
         }
-        Ok(Self { points: points.to_vec(), bends, knots })
+        Ok(Self { points, bends, knots })
     }
 
     /// Position and its derivative by the parameter on piece k, at the fraction x of the piece.
     fn piece(&self, k: usize, x: f64) -> (Vec2, Vec2) {
-        let m = self.points.len();
+        let m = self.bends.len();
         let h = self.knots[k + 1] - self.knots[k];
-        let (p, q) = (self.points[k], self.points[(k + 1) % m]);
+        let (p, q) = (self.points[k], self.points[k + 1]);
         let (a, b) = (self.bends[k] * (h * h / 6.0), self.bends[(k + 1) % m] * (h * h / 6.0));
         let y = 1.0 - x;
         let position = p * y + q * x + a * (y * y * y - y) + b * (x * x * x - x);
@@ -59,7 +62,7 @@ impl PeriodicSpline {
 
     /// The point at the fraction `t` in [0, 1] of the parameter.
     pub(crate) fn point(&self, t: f64) -> Vec2 {
-        let m = self.points.len();
+        let m = self.bends.len();
         let u = t * self.knots[m];
         let k = self.knots[1..m].partition_point(|&knot| knot <= u);
         self.piece(k, (u - self.knots[k]) / (self.knots[k + 1] - self.knots[k])).0
@@ -71,7 +74,7 @@ impl PeriodicSpline {
         let offset = 0.5 * 0.6f64.sqrt();
         let nodes = [(0.5 - offset, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.5 + offset, 5.0 / 18.0)];
         let mut sum = 0.0;
-        for k in 0..self.points.len() {
+        for k in 0..self.bends.len() {
             let h = self.knots[k + 1] - self.knots[k];
             for (x, weight) in nodes {
                 let (position, derivative) = self.piece(k, x);

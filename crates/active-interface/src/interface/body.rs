@@ -1,13 +1,13 @@
 //! The interface as a body of a scene.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use motile_base::{Vec2, at_least};
 use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Warning, checkpoint::SavedState, points,
 };
 
-use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion};
+use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, geometry::Geometry};
 use crate::{InterfaceError, concentration::Repair, curve::polygon::raw_area};
 
 /// Multiples of the mean concentration at which the tension is compared to tell one law from another.
@@ -30,6 +30,7 @@ impl Body for ActiveInterface {
     fn kind(&self) -> MarkerKind {
         let viscosity_inside = self.law.viscosity_inside;
         match self.law.motion {
+            _ if self.advance() != 0.0 => MarkerKind::OpenInterface { viscosity_inside, advance: self.advance() },
             Motion::Equidistributed { .. } => MarkerKind::Interface { viscosity_inside },
             Motion::WithFluid => MarkerKind::UnevenInterface { viscosity_inside },
         }
@@ -73,7 +74,8 @@ impl Body for ActiveInterface {
         self.write_rate(velocities, rate);
     }
 
-    /// There is none where markers are inserted and removed, which is done in their order.
+    /// There is none where markers are inserted and removed, which is done in their order, and none of an interface that
+    /// is periodic along x, whose inside would change its side.
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         let (positions, numbers) = state.split_at(2 * markers.len());
         let (positions_of_image, numbers_of_image) = image.split_at_mut(positions.len());
@@ -82,7 +84,7 @@ impl Body for ActiveInterface {
         for (number, first) in numbers.iter().zip(markers.iter().cycle().skip(1)) {
             numbers_of_image[*first] = *number;
         }
-        matches!(self.law.motion, Motion::Equidistributed { .. })
+        matches!(self.law.motion, Motion::Equidistributed { .. }) && self.advance() == 0.0
     }
 
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
@@ -119,10 +121,12 @@ impl Body for ActiveInterface {
         self.add_step_limits(view, self.mean_viscosity(view), limits);
     }
 
-    /// The radius of a circle of the same area for positions; for particle numbers their mean.
+    /// For positions the radius of a circle of the same area, or the inverse of the wave number of a period; for
+    /// particle numbers their mean.
     fn write_scales(&self, scales: &mut [f64]) {
         let (positions, numbers) = scales.split_at_mut(2 * self.marker_count());
-        positions.fill((self.account.area / PI).sqrt());
+        let open = self.advance().abs() / TAU;
+        positions.fill(if open > 0.0 { open } else { (self.account.area / PI).sqrt() });
         let mean = self.number() / numbers.len().max(1) as f64;
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
@@ -137,8 +141,18 @@ impl Body for ActiveInterface {
         if self.carries() {
             push("the diffusion constant", self.diffusion());
         }
+        if let Some(elasticity) = &self.law.elasticity {
+            push("the stretching modulus", elasticity.stretching);
+            push("the bending modulus", elasticity.bending);
+        }
         push("the number of markers at the start", self.account.markers as f64);
-        let mean = self.account.number / (2.0 * (PI * self.account.area).sqrt());
+        let mut length = self.advance().abs();
+        if length > 0.0 {
+            push("the period", length);
+        } else {
+            length = 2.0 * (PI * self.account.area).sqrt();
+        }
+        let mean = self.account.number / length;
         for sample in LAW_SAMPLES {
             let name = format!("the tension at {sample} times the mean concentration at the start");
             push(&name, self.law.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
@@ -204,19 +218,35 @@ impl ActiveInterface {
             self.restore_area();
         }
         self.repair_numbers()?;
-        if let Some((first, second)) = self.crossing.first_crossing(&self.state.shape.markers)? {
+        if let Some((first, second)) = self.crossing.first_crossing_over(&self.state.shape.markers, self.advance())? {
             let place = self.markers()[first];
             return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
         }
         self.check_bounds(elsewhere)
     }
 
+    /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, else of the
+    /// curve through the markers.
+    pub(crate) fn area(&self) -> f64 {
+        if self.advance() == 0.0 {
+            return raw_area(self.markers());
+        }
+        let Geometry { tangents, weights, .. } = self.geometry();
+        let columns = self.markers().iter().zip(tangents).zip(weights);
+        -columns.map(|((marker, tangent), weight)| marker.y * tangent.x * weight).sum::<f64>()
+    }
+
     /// Checks that area and particles are conserved, and that no tension law without a plateau has gathered the
     /// particles in a point.
     fn check_bounds(&self, elsewhere: f64) -> Result<(), BodyError> {
         let total = self.number() + elsewhere;
+        let area = self.area();
+        let change = match self.advance() {
+            0.0 => area / self.account.area - 1.0,
+            period => (area - self.account.area) / (period * period),
+        };
         let changes = [
-            ("the area", raw_area(self.markers()) / self.account.area - 1.0),
+            ("the area", change),
             ("the number of particles", if total > 0.0 { total / self.account.number - 1.0 } else { 0.0 }),
         ];
         for ((what, change), bound) in changes.into_iter().zip(self.account.bounds) {
@@ -237,7 +267,7 @@ impl ActiveInterface {
     /// time for the quadratic part).
     fn restore_area(&mut self) {
         for _ in 0..2 {
-            let missing = self.account.area - raw_area(self.markers());
+            let missing = self.account.area - self.area();
             let total: f64 = self.geometry().weights.iter().sum();
             self.inflate(missing / total);
         }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use motile_base::{InputError, Vec2, all_finite, not_negative, positive, same_length};
 
-use super::{Account, ActiveInterface, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, State};
+use super::{Account, ActiveInterface, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, State};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport},
-    curve::{CrossingFinder, polygon::raw_area},
+    curve::{CrossingFinder, check_period},
 };
 
 impl Account {
@@ -18,12 +18,58 @@ impl Account {
 }
 
 impl ActiveInterface {
-    /// The interface through checked markers; without particles where there is no diffusion constant of theirs.
+    /// An interface that is periodic along x, from the markers of one period (equally spaced), the advance along x to
+    /// the next image of the first marker (length; plus or minus the period of the region), the particle numbers of the
+    /// segments that follow the markers, the tension law and the particles' diffusion constant along the interface
+    /// (length squared per time). Its inside is to the left: above it where the advance is positive.
+    ///
+    /// ```
+    /// use active_interface::{ActiveInterface, ContractileTension, wave};
+    ///
+    /// // one wave of height 0.1 in a period of 6, with 100 particles a length
+    /// let markers = wave(0.0, 6.0, &[0.1], &[], 128)?;
+    /// let law = ContractileTension::new(10.0, -1.0, active_interface::ExcludedVolume::None)?;
+    /// let interface = ActiveInterface::periodic(&markers, 6.0, vec![100.0 * 6.0 / 128.0; 128], law, 0.1)?;
+    /// let length: f64 = interface.segment_lengths().iter().sum();
+    /// println!("{length:.4}"); // longer than the period by (k a)^2/4 of it, k a = 0.1047
+    /// assert!((length / 6.0 - 1.0 - 0.00274).abs() < 1e-5);
+    /// # Ok::<(), active_interface::InterfaceError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// An advance that is zero or not finite; fewer than eight markers, lists of different length, positions that are
+    /// not finite, coincide, are spaced by more than a factor of four unevenly, do not close across the period, or
+    /// whose curve crosses itself or its image; negative or non-finite numbers, a negative diffusion constant.
+    pub fn periodic(
+        markers: &[Vec2],
+        advance: f64,
+        numbers: Vec<f64>,
+        tension: impl Tension + 'static,
+        diffusion: f64,
+    ) -> Result<Self, InterfaceError> {
+        check_period(markers, advance)?;
+        Self::build(markers.to_vec(), advance, numbers, Arc::new(tension), Some(diffusion))
+    }
+
+    /// An interface that is periodic along x ([`ActiveInterface::periodic`]) without particles, of constant tension
+    /// (force).
+    ///
+    /// # Errors
+    /// Those of [`ActiveInterface::periodic`], and a tension that is negative or not finite.
+    pub fn periodic_passive(markers: &[Vec2], advance: f64, tension: f64) -> Result<Self, InterfaceError> {
+        check_period(markers, advance)?;
+        let tension = Arc::new(crate::ConstantTension::new(tension)?);
+        Self::build(markers.to_vec(), advance, Vec::new(), tension, None)
+    }
+
+    /// The interface through checked markers, closed where it does not advance; without particles where there is no
+    /// diffusion constant of theirs.
     ///
     /// # Errors
     /// Lists of different length, negative or non-finite numbers, a negative diffusion constant.
     pub(crate) fn build(
         markers: Vec<Vec2>,
+        advance: f64,
         numbers: Vec<f64>,
         tension: Arc<dyn Tension>,
         diffusion: Option<f64>,
@@ -41,7 +87,7 @@ impl ActiveInterface {
             transport: diffusion.map(|_| Transport::new(count, Flux::Weno5)),
             stabiliser: Vec::new(),
             diffusivities: Vec::new(),
-            other: Shape::default(),
+            other: Shape { advance, ..Shape::default() },
             filter: ShortWaveFilter::default(),
             band: None,
             spectral: None,
@@ -53,20 +99,21 @@ impl ActiveInterface {
             stabilised: true,
             viscosity_inside: None,
             keeps_area: false,
+            elasticity: None,
         };
         let account = Account {
             spacing: 0.0,
             markers: count,
-            area: raw_area(&markers),
+            area: 0.0,
             number: numbers.iter().sum(),
             bounds: Account::BOUNDS,
             kept: Default::default(),
             last: Default::default(),
         };
         let mut interface = Self {
-            name: "droplet".to_owned(),
+            name: if advance == 0.0 { "droplet" } else { "interface" }.to_owned(),
             law,
-            state: State { shape: Shape { markers, ..Shape::default() }, numbers },
+            state: State { shape: Shape { markers, advance, ..Shape::default() }, numbers },
             derived: Derived { slip: vec![0.0; count], ..Derived::default() },
             account,
             scheme,
@@ -74,6 +121,7 @@ impl ActiveInterface {
         };
         interface.update();
         interface.account.spacing = interface.geometry().mean_length();
+        interface.account.area = interface.area();
         Ok(interface)
     }
 
@@ -104,6 +152,34 @@ impl ActiveInterface {
     pub fn with_area_constraint(mut self, on: bool) -> Self {
         self.law.keeps_area = on;
         self
+    }
+
+    /// Makes an elastic membrane of an interface that is periodic along x, at rest in its present shape, with the moduli
+    /// of stretching E_s (force) and bending B (force times length squared): its energy is
+    /// `INT E_s/2 (lambda - 1)^2 + B/2 (kappa - kappa0)^2 dS` over its reference length, lambda the stretch and kappa
+    /// the curvature, and its forces, besides those of the tension, are minus the gradient of that by the markers. Its
+    /// points are the markers, which move with the fluid ([`Motion::WithFluid`]), and carry the particles along.
+    ///
+    /// On a flat membrane between two fluids a wave of the displacement along it decays at the rate
+    /// `E_s k/(2 (eta_1 + eta_2))`, one of the height at `(gamma k + B k^3)/(2 (eta_1 + eta_2))`.
+    ///
+    /// # Errors
+    /// A closed interface, moduli that are negative or not finite.
+    pub fn with_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, InterfaceError> {
+        not_negative("the stretching modulus", stretching)?;
+        not_negative("the bending modulus", bending)?;
+        if self.advance() == 0.0 {
+            return Err(InterfaceError::ClosedMembrane);
+        }
+        self.law.motion = Motion::WithFluid;
+        self.law.elasticity = Some(Elasticity::new(stretching, bending, self.markers(), self.advance())?);
+        Ok(self)
+    }
+
+    /// Elastic energy of the shape whose forces were last written (force times length); zero without elasticity.
+    #[must_use]
+    pub fn elastic_energy(&self) -> f64 {
+        self.law.elasticity.as_ref().map_or(0.0, Elasticity::energy)
     }
 
     /// Bounds the relative changes of the area and of the number of particles since the start, beyond which a step is
@@ -183,7 +259,14 @@ impl ActiveInterface {
         &self.state.shape.geometry.lengths
     }
 
-    /// Area of the polygon at the start (length squared).
+    /// Advance along x from the first marker to its next image (length), zero for a closed interface.
+    #[must_use]
+    pub fn advance(&self) -> f64 {
+        self.state.shape.advance
+    }
+
+    /// Area of the polygon at the start (length squared); of an interface that is periodic along x that between it and
+    /// y = 0 in one period, positive where its inside is between them.
     #[must_use]
     pub fn initial_area(&self) -> f64 {
         self.account.area

@@ -1,8 +1,8 @@
-//! Geometry of a closed polygon of markers, and the motion that keeps the markers equally spaced.
+//! Geometry of a polygon of markers, closed or periodic along x, and the motion that keeps the markers equally spaced.
 
 use motile_base::Vec2;
 
-/// Geometry of a closed polygon, marker k followed by segment k.
+/// Geometry of a polygon, closed or one period of one that is periodic along x, marker k followed by segment k.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Geometry {
     /// Lengths of the segments (length).
@@ -30,14 +30,14 @@ impl Geometry {
         self.weights.resize(count, 0.0);
     }
 
-    /// The geometry of the polygon through the markers.
-    pub(crate) fn update(&mut self, markers: &[Vec2]) {
-        let count = markers.len();
+    /// The geometry of the polygon through the markers, which continues `advance` further along x (length).
+    pub(crate) fn update(&mut self, markers: &[Vec2], advance: f64) {
+        let (count, period) = (markers.len(), Vec2::new(advance, 0.0));
         self.resize(count);
         self.perimeter = 0.0;
         for k in 0..count {
-            let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);
-            let after = markers[if k + 1 == count { 0 } else { k + 1 }];
+            let (before, here) = (if k == 0 { markers[count - 1] - period } else { markers[k - 1] }, markers[k]);
+            let after = if k + 1 == count { markers[0] + period } else { markers[k + 1] };
             let segment = after - here;
             let length = segment.length();
             self.perimeter += length;

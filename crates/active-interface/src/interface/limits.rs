@@ -1,6 +1,6 @@
 //! Stable time steps and warnings of an interface.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use motile_base::told_apart;
 use motile_scene::{FluidView, StepCause, StepLimit};
@@ -58,6 +58,15 @@ impl ActiveInterface {
     pub(super) fn add_step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
         let stiffness = view.interface_stiffness * self.largest_tension();
         limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
+        if let Some(elasticity) = &self.law.elasticity {
+            let lengths = &self.geometry().lengths;
+            let (count, shortest) = (lengths.len() as f64, lengths.iter().copied().fold(f64::INFINITY, f64::min));
+            let modes = view.shape_modes.map_or(count, |modes| (modes as f64).min(count));
+            let wave = PI * modes / (count * shortest);
+            // It decays at the rate wave stiffness/(2 (eta_in + eta_out)).
+            let dt = 8.0 * viscosity / (wave * elasticity.stiffness(wave));
+            limits(StepLimit::decay(dt, "the elasticity of the interface"));
+        }
         if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
             // The rate of the next step, and that of the last one where the flow itself sets it.
             let rate = self.derived.relaxation.max(relaxation * self.spacing_rate(viscosity));

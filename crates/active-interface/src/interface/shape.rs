@@ -4,11 +4,13 @@ use motile_base::Vec2;
 
 use super::{geometry::Geometry, spectral::SpectralCurve};
 
-/// Markers of a closed curve with the geometry of the curve through them.
+/// Markers of a closed curve, or of one period of a curve that is periodic along x, with the geometry of the curve through them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Shape {
-    /// Positions (length), counter-clockwise.
+    /// Positions (length), counter-clockwise, or with the inside to the left.
     pub(crate) markers: Vec<Vec2>,
+    /// Advance along x from the first marker to its next image (length), zero for a closed curve.
+    pub(crate) advance: f64,
     pub(crate) geometry: Geometry,
     /// Count of computations of the geometry, for tests.
     pub(crate) evaluations: usize,
@@ -37,8 +39,8 @@ impl Shape {
     pub(crate) fn update(&mut self, spectral: Option<&mut SpectralCurve>) {
         self.evaluations += 1;
         match spectral.filter(|spectral| spectral.len() == self.markers.len()) {
-            Some(spectral) => spectral.update(&self.markers, &mut self.geometry),
-            None => self.geometry.update(&self.markers),
+            Some(spectral) => spectral.update(&self.markers, self.advance, &mut self.geometry),
+            None => self.geometry.update(&self.markers, self.advance),
         }
     }
 }

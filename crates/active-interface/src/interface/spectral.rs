@@ -1,4 +1,4 @@
-//! Geometry, forces and marker motion of a smooth closed curve by Fourier series in the marker number.
+//! Geometry, forces and marker motion of a smooth curve, closed or periodic along x, by Fourier series in the marker number.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,7 +7,8 @@ use num_complex::Complex64;
 
 use super::geometry::{Geometry, add_tangential_motion, write_normal_motion};
 
-/// Fourier series along a closed curve of M markers, marker k at the parameter alpha = 2 pi k / M.
+/// Fourier series along a closed curve of M markers, marker k at the parameter alpha = 2 pi k / M, or along one period
+/// of a curve that is periodic along x, whose steady advance is not part of the series.
 ///
 /// Where the flow itself is spectrally accurate, the chords of the polygon would be the largest error of a scene: their
 /// lengths, directions and normals are of second order in the spacing. Here all of them come from X_alpha.
@@ -37,21 +38,26 @@ impl SpectralCurve {
     }
 
     /// Computes the geometry of the smooth curve through the markers; directions are those at the middle of segments.
-    pub(crate) fn update(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+    /// The curve advances by `advance` along x (length) in a turn of the parameter.
+    pub(crate) fn update(&mut self, markers: &[Vec2], advance: f64, geometry: &mut Geometry) {
         geometry.resize(self.len());
         geometry.stretch.resize(self.len(), 0.0);
         let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
-        analyse(&mut self.vectors, markers.iter().map(|x| Complex64::new(x.x - markers[0].x, x.y - markers[0].y)));
+        let (step, slope) = (advance / self.len() as f64, advance / TAU);
+        let relative =
+            |(k, x): (usize, &Vec2)| Complex64::new(x.x - markers[0].x - step * k as f64, x.y - markers[0].y);
+        analyse(&mut self.vectors, markers.iter().enumerate().map(relative));
         self.vectors.differentiate();
-        for (k, &tangent) in self.vectors.values().iter().enumerate() {
+        for (k, tangent) in self.vectors.values().iter().map(|tangent| tangent + slope).enumerate() {
             let stretch = tangent.norm();
             geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
         }
         self.vectors.shift(0.5 * spacing);
-        for (direction, tangent) in geometry.directions.iter_mut().zip(self.vectors.values()) {
+        let tangents = self.vectors.values().iter().map(|tangent| tangent + slope);
+        for (direction, tangent) in geometry.directions.iter_mut().zip(tangents) {
             *direction = vector(tangent / tangent.norm());
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.

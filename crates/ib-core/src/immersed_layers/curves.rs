@@ -90,7 +90,8 @@ impl LayerCurves {
 
     /// Finds out which markers are on which curve.
     fn arrange(&mut self, groups: &[MarkerGroup]) -> Result<(), FlowError> {
-        self.groups = groups.to_vec();
+        // Not theirs until all of them are arranged.
+        self.groups.clear();
         self.curves.clear();
         let mut starts = [0; 3];
         let mut curve = |markers: Vec<(usize, i32)>, periods: i32, nodes: usize| {
@@ -105,12 +106,13 @@ impl LayerCurves {
             let inside = (least..=most).contains(&found);
             if inside { Ok(()) } else { Err(FlowError::Count { body, what, found, least, most }) }
         };
-        for (body, group) in groups.iter().enumerate().filter(|(_, group)| group.kind.is_closed_curve()) {
+        for (body, group) in groups.iter().enumerate().filter(|(_, group)| group.kind.is_curve()) {
             refuse(body, "markers", group.range.len(), [self.nodes, MOST_MARKERS])?;
-            self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes)?);
+            let periods = group.kind.advance().map_or(0, |advance| if advance > 0.0 { 1 } else { -1 });
+            self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), periods, self.nodes)?);
         }
         self.interfaces = self.curves.len();
-        for (body, group) in groups.iter().enumerate().filter(|(_, group)| !group.kind.is_closed_curve()) {
+        for (body, group) in groups.iter().enumerate().filter(|(_, group)| !group.kind.is_curve()) {
             for surface in group.layers() {
                 let count = surface.points.len();
                 refuse(body, "points", count, Settings::NODES)?;
@@ -129,6 +131,7 @@ impl LayerCurves {
         self.values.resize(most.unwrap_or(0), Vec2::ZERO);
         self.forces.resize(2 * nodes, 0.0);
         self.velocities.resize(2 * nodes, 0.0);
+        self.groups.extend_from_slice(groups);
         Ok(())
     }
 

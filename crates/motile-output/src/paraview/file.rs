@@ -81,20 +81,27 @@ impl VtkFile {
     /// line.
     #[must_use]
     pub fn closed_lines(lines: &[Vec<Vec2>]) -> Self {
+        Self::lines(lines, &[])
+    }
+
+    /// Closed lines as in [`VtkFile::closed_lines`], then open ones.
+    #[must_use]
+    pub fn lines(closed: &[Vec<Vec2>], open: &[Vec<Vec2>]) -> Self {
         let (mut corners, mut ends, mut first): (Vec<i64>, Vec<i64>, i64) = Default::default();
-        for line in lines {
+        let lines = || closed.iter().chain(open);
+        for (number, line) in lines().enumerate() {
             let next = first + line.len() as i64;
-            corners.extend((first..next).chain((first < next).then_some(first)));
+            corners.extend((first..next).chain((first < next && number < closed.len()).then_some(first)));
             ends.push(corners.len() as i64);
             first = next;
         }
-        let (points, cells) = (first as usize, lines.len());
+        let (points, cells) = (first as usize, closed.len() + open.len());
         let piece = format!(
             "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{cells}\" NumberOfStrips=\"0\" \
              NumberOfPolys=\"0\""
         );
         let cell_text = connectivity(&corners, &ends);
-        let geometry = format!("{}<Lines>\n{cell_text}</Lines>\n", positions(lines.iter().flatten()));
+        let geometry = format!("{}<Lines>\n{cell_text}</Lines>\n", positions(lines().flatten()));
         Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 

@@ -110,8 +110,9 @@ impl Look {
     pub(crate) fn legends(&self, all: &[Snapshot]) -> Legends {
         let pressures = all.iter().flat_map(|seen| seen.flow.iter().map(|sample| sample.pressure));
         let unit = self.concentration.unwrap_or(1.0);
-        let droplets = all.iter().flat_map(|seen| &seen.droplets);
-        let concentrations = droplets.flat_map(|droplet| droplet.concentration.iter().map(|c| c / unit));
+        let of_droplets = all.iter().flat_map(|seen| &seen.droplets).map(|droplet| &droplet.concentration);
+        let of_others = all.iter().flat_map(|seen| &seen.interfaces).map(|line| &line.concentration);
+        let concentrations = of_droplets.chain(of_others).flatten().map(|c| c / unit);
         let label = if self.concentration.is_some() { "concentration c/c_{0}" } else { "concentration c" };
         let inside = all.iter().flat_map(|seen| &seen.inside).flat_map(|field| field.densities.iter().flatten());
         let solids = all.iter().flat_map(|seen| &seen.solids).flat_map(|solid| solid.values(self.solids));

@@ -12,6 +12,7 @@ use crate::{
         font::text_width,
         ticks::{nice_step_below, number},
     },
+    interfaces::closed,
     streamlines,
 };
 use motile::motile_base::Vec2;
@@ -384,15 +385,23 @@ impl Painter<'_> {
 
     fn interfaces(&mut self) {
         let (seen, legends) = (self.picture.seen, self.picture.legends);
-        for droplet in &seen.droplets {
-            let unit = self.layout.unit_of(&droplet.markers);
-            let closed = |values: &[f64]| values.iter().chain(values.first()).copied().collect::<Vec<f64>>();
-            let colours: Option<Vec<Rgb>> = legends.concentration.as_ref().map(|scale| {
-                closed(&droplet.concentration).into_iter().map(|c| scale.colour(c / legends.unit)).collect()
-            });
-            for shift in self.images(&droplet.markers.iter()) {
-                let mut path = self.layout.path(&droplet.markers, shift);
-                path.extend(path.first().copied());
+        let droplets = seen.droplets.iter().map(|droplet| {
+            (
+                closed(droplet.markers.clone()),
+                closed(droplet.concentration.clone()),
+                self.layout.unit_of(&droplet.markers),
+            )
+        });
+        let unit = self.layout.unit;
+        let others = seen.interfaces.iter().map(|line| (line.markers.clone(), line.concentration.clone(), unit));
+        let lines: Vec<(Vec<Vec2>, Vec<f64>, f64)> = droplets.chain(others).collect();
+        for (markers, concentration, unit) in lines {
+            let colours: Option<Vec<Rgb>> = legends
+                .concentration
+                .as_ref()
+                .map(|scale| concentration.into_iter().map(|c| scale.colour(c / legends.unit)).collect());
+            for shift in self.images(&markers.iter()) {
+                let path = self.layout.path(&markers, shift);
                 self.outlined(&path, Rgb::INK, [0.56 * unit, 0.8 * unit], 0.7);
                 if let Some(colours) = &colours {
                     self.drawing.stroke_coloured(&path, colours, 0.42 * unit);

@@ -59,12 +59,12 @@ impl Films {
             surfaces.each_near(&frame, surroundings.domain.periods, reach, &mut |other| near.push(other));
             near.sort_unstable();
             for &other in &near {
-                if kind.is_closed_curve() || surfaces.kinds[other].is_closed_curve() {
+                if kind.is_curve() || surfaces.kinds[other].is_curve() {
                     self.find_between(surfaces, [body, other], surroundings, reach);
                 }
             }
             self.near = near;
-            if kind.is_closed_curve() {
+            if kind.is_curve() {
                 self.find_walls(surfaces, body, surroundings, reach);
             }
         }
@@ -79,6 +79,15 @@ impl Films {
     ) {
         let [from, to] = [body, other].map(|index| &surfaces.boundaries[index]);
         let [Some(frame), Some(large)] = [from, to].map(Boundary::frame) else { return };
+        if surfaces.kinds[other].advance().is_some() {
+            let periods = [domain.periods[0], None];
+            for (shift, sign) in surfaces.images_across(body, other, domain.periods) {
+                if frame.moved(shift).is_near(&large, periods, reach) {
+                    self.add_contacts(surfaces, [body, other], (shift, periods, sign), reach);
+                }
+            }
+            return;
+        }
         let periods = if other == body { [None; 2] } else { domain.periods };
         let mut outer = std::iter::successors(around.get(body).copied().flatten(), |&outer| around[outer]);
         let sign = if outer.any(|outer| outer == other) { -1.0 } else { 1.0 };
@@ -86,16 +95,28 @@ impl Films {
             if !frame.moved(shift).is_near(&large, periods, reach) {
                 continue;
             }
-            for (place, corner) in from.corners().zip(surfaces.firsts[body]..) {
-                let Some(found) = to.nearest_within(place + shift, periods, reach) else { continue };
-                let start = surfaces.firsts[other] + found.side;
-                let ends = Some([start, surfaces.corners[start].next]);
-                self.contacts.push(contact(corner, ends, &found, to.sides()[found.side], sign));
-            }
+            self.add_contacts(surfaces, [body, other], (shift, periods, sign), reach);
             if shift == Vec2::ZERO {
                 // There is one such place.
                 return;
             }
+        }
+    }
+
+    /// Adds the contacts of the corners of a body, displaced, with the sides of another one.
+    fn add_contacts(
+        &mut self,
+        surfaces: &Surfaces,
+        [body, other]: [usize; 2],
+        (shift, periods, sign): (Vec2, [Option<f64>; 2], f64),
+        reach: f64,
+    ) {
+        let to = &surfaces.boundaries[other];
+        for (place, corner) in surfaces.boundaries[body].corners().zip(surfaces.firsts[body]..) {
+            let Some(found) = to.nearest_within(place + shift, periods, reach) else { continue };
+            let start = surfaces.firsts[other] + found.side;
+            let ends = Some([start, surfaces.corners[start].next]);
+            self.contacts.push(contact(corner, ends, &found, to.sides()[found.side], sign));
         }
     }
 

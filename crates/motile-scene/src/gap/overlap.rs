@@ -74,14 +74,14 @@ impl Surfaces {
 
     /// Depth to which a body may be inside another one (length), of a [`Surfaces::contact_scale`].
     pub(super) fn allowed(&self, scale: f64, bodies: [usize; 2]) -> f64 {
-        let interfaces = bodies.iter().all(|&body| self.kinds[body].is_closed_curve());
+        let interfaces = bodies.iter().all(|&body| self.kinds[body].is_curve());
         (if interfaces { CURVES } else { CONTACT }) * scale
     }
 
     /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface
     /// (length).
     pub(crate) fn contact_scale(&self, view: &FluidView) -> f64 {
-        let interfaces = self.boundaries.iter().zip(&self.kinds).filter(|(_, kind)| kind.is_closed_curve());
+        let interfaces = self.boundaries.iter().zip(&self.kinds).filter(|(_, kind)| kind.is_curve());
         view.spacing.unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
     }
 
@@ -92,12 +92,15 @@ impl Surfaces {
             let (frame, mut innermost) = (boundary.frame()?, None);
             // A part of the inner one may have crossed: [`Boundary::lies_in`].
             self.each_near(&frame, periods, frame.size(), &mut |outer| {
+                if self.kinds[outer].advance().is_some() {
+                    return;
+                }
                 let size = self.boundaries[outer].frame().map_or(f64::INFINITY, |frame| frame.size());
                 if innermost.is_none_or(|least| (size, outer) < least) && self.lies_in(inner, outer, periods) {
                     innermost = Some((size, outer));
                 }
             });
-            innermost.map(|(_, outer)| outer)
+            innermost.map(|(_, outer)| outer).or_else(|| self.stratum(inner, periods))
         }));
     }
 
@@ -107,6 +110,9 @@ impl Surfaces {
         let [first, second] = [&self.boundaries[a], &self.boundaries[b]];
         if !first.frame()?.is_near(&second.frame()?, periods, 0.0) {
             return None;
+        }
+        if [a, b].iter().any(|&body| self.kinds[body].advance().is_some()) {
+            return self.crossing(a, b, periods);
         }
         let deepest = |places: &mut dyn Iterator<Item = (Vec2, f64)>| places.max_by(|a, b| a.1.total_cmp(&b.1));
         for (outer, inner, kind) in [(first, second, self.kinds[a]), (second, first, self.kinds[b])] {
@@ -148,7 +154,7 @@ impl Boundary {
     }
 
     /// At most [`SIDES`] of its sides, spread over it.
-    fn some_sides(&self) -> impl Iterator<Item = [Vec2; 2]> {
+    pub(super) fn some_sides(&self) -> impl Iterator<Item = [Vec2; 2]> {
         self.sides().iter().step_by(self.sides().len().div_ceil(SIDES).max(1)).copied()
     }
 }

@@ -52,7 +52,7 @@ impl InterfaceGroups {
         let (exterior, Markers { positions, forces, .. }) = (self.flow.viscosity(), markers);
         let interfaces = interfaces(markers).map(|group| group.interface(positions, forces, exterior));
         self.flow.load(interfaces).map_err(|error| {
-            let groups = markers.groups.iter().enumerate().filter(|(_, group)| group.kind.is_closed_curve());
+            let groups = markers.groups.iter().enumerate().filter(|(_, group)| group.kind.is_curve());
             let bodies: Vec<usize> = groups.map(|(body, _)| body).collect();
             FlowError::from(error).of_body(|curve| bodies.get(curve).copied().unwrap_or(curve))
         })
@@ -72,11 +72,11 @@ impl InterfaceGroups {
         let mut interface = 0;
         for MarkerGroup { range, kind, host, .. } in &markers.groups {
             let velocities = &mut markers.velocities[range.clone()];
-            if kind.is_closed_curve() {
+            if kind.is_curve() {
                 flow.velocities(interface, velocities)?;
                 interface += 1;
             } else if let Some(host) = *host {
-                let curve = markers.groups[..host].iter().filter(|group| group.kind.is_closed_curve()).count();
+                let curve = markers.groups[..host].iter().filter(|group| group.kind.is_curve()).count();
                 flow.velocities_inside(curve, &markers.positions[range.clone()], velocities)?;
             } else {
                 samples.resize(range.len(), FlowSample::default());
@@ -97,7 +97,7 @@ impl InterfaceGroups {
     pub fn tell_dipoles(&self, markers: &mut Markers) -> Result<(), FlowError> {
         let mut interface = 0;
         for group in 0..markers.groups.len() {
-            if markers.groups[group].kind.is_closed_curve() {
+            if markers.groups[group].kind.is_curve() {
                 if let Some(dipole) = self.flow.rigid_dipole(interface) {
                     markers.set_rigid_dipole(group, dipole)?;
                 }
@@ -150,7 +150,7 @@ impl InterfaceGroups {
 
 /// The groups that are interfaces.
 fn interfaces(markers: &Markers) -> impl Iterator<Item = &MarkerGroup> + Clone {
-    markers.groups.iter().filter(|group| group.kind.is_closed_curve())
+    markers.groups.iter().filter(|group| group.kind.is_curve())
 }
 
 /// A quarter of the largest wave number of a curve.

@@ -21,6 +21,14 @@ pub enum MarkerKind {
         /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,
     },
+    /// A fluid interface that is periodic along x, the inside to its left: markers at equally spaced parameters over one
+    /// period.
+    OpenInterface {
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        viscosity_inside: Option<f64>,
+        /// Advance along x from the first marker to its next image (length): plus or minus the period of the region.
+        advance: f64,
+    },
     /// The closed outline of a rigid body that moves freely, markers in counter-clockwise order.
     Rigid,
     /// Points in no particular order, such as those of an elastic solid.
@@ -28,30 +36,40 @@ pub enum MarkerKind {
 }
 
 impl MarkerKind {
-    /// True for the markers of a closed curve.
+    /// True for the markers of a curve, closed or periodic along x.
     #[must_use]
-    pub fn is_closed_curve(&self) -> bool {
+    pub fn is_curve(&self) -> bool {
         *self != Self::Points
     }
 
     /// The surface of a body of this many markers, unless it is told otherwise.
     pub(crate) fn surface(&self, count: usize) -> Vec<SurfaceCurve> {
-        if self.is_closed_curve() { vec![SurfaceCurve::through(0..count, 0)] } else { Vec::new() }
+        let periods = self.advance().map_or(0, |advance| if advance > 0.0 { 1 } else { -1 });
+        if self.is_curve() { vec![SurfaceCurve::through(0..count, periods)] } else { Vec::new() }
+    }
+
+    /// Advance along x over one period (length) of an interface that is periodic along x: positive where its inside is
+    /// above. `None` for what is closed.
+    #[must_use]
+    pub fn advance(&self) -> Option<f64> {
+        if let Self::OpenInterface { advance, .. } = self { Some(*advance) } else { None }
     }
 
     /// Viscosity of the fluid inside (stress times time), where it is another one than outside.
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         match self {
-            Self::Interface { viscosity_inside } | Self::UnevenInterface { viscosity_inside } => *viscosity_inside,
+            Self::Interface { viscosity_inside }
+            | Self::UnevenInterface { viscosity_inside }
+            | Self::OpenInterface { viscosity_inside, .. } => *viscosity_inside,
             Self::Rigid | Self::Points => None,
         }
     }
 
-    /// True for the markers of a closed curve with fluid inside, in which other bodies may lie.
+    /// True for the markers of a curve with fluid inside, in which other bodies may lie.
     #[must_use]
     pub fn holds_fluid(&self) -> bool {
-        matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. })
+        matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. } | Self::OpenInterface { .. })
     }
 }
 
@@ -84,7 +102,10 @@ impl MarkerGroup {
         let viscosities = self.viscosities(exterior);
         match self.kind {
             MarkerKind::Rigid => Interface::rigid(positions, forces, viscosities[1]),
-            _ => Interface::closed(positions, forces, viscosities),
+            kind => {
+                let period = Vec2::new(kind.advance().unwrap_or(0.0), 0.0);
+                Interface { period, ..Interface::closed(positions, forces, viscosities) }
+            }
         }
     }
 

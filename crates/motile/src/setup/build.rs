@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Curve, InitialConcentration};
+use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
@@ -35,6 +35,8 @@ pub struct Built {
     pub shells: Vec<Handle<Shell>>,
     /// The gels that fill the box.
     pub gels: Vec<Handle<GelInBox>>,
+    /// The interfaces that are periodic along x.
+    pub interfaces: Vec<Handle<ActiveInterface>>,
 }
 
 /// Accuracy of layers beside solids, whose inner points see them through a grid.
@@ -82,11 +84,12 @@ impl Setup {
             gel.map(|gel| scene.add(gel));
             inside.map(|inside| scene.add(inside));
         }
-        let (solids, rigid_bodies, shells, gels) = (handles(&scene), handles(&scene), handles(&scene), handles(&scene));
+        let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
+        let (gels, interfaces) = (handles(&scene), handles(&scene));
         if self.mirror_symmetric {
             scene = scene.held_symmetric()?;
         }
-        Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels })
+        Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels, interfaces })
     }
 
     /// The particles that diffuse inside a droplet, made to be the body `host`.

@@ -184,6 +184,24 @@ impl Particles {
         };
         ContractileTension::new(tension, self.activity, excluded_volume)
     }
+
+    /// Refuses values out of their range, but for the exchange with an inside.
+    pub(super) fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        checked.finite("particles.activity", self.activity)?;
+        checked.not_negative("particles.diffusion", self.diffusion)?;
+        checked.positive("particles.concentration", self.concentration)?;
+        let (key, tension) = ("particles.activity", self.activity * self.concentration);
+        let remedy = "the tension that it makes at the mean concentration is not finite: give less";
+        checked.require(tension.is_finite(), key, self.activity, remedy)?;
+        match self.excluded_volume {
+            Exclusion::None => {}
+            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
+            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+        }
+        let Start::Perturbed { amplitude, .. } = self.start else { return Ok(()) };
+        let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
+        checked.require(holds, key, amplitude, "give a number from 0 to below 1")
+    }
 }
 
 /// Exchange of particles with the inside of the droplet: `dc/dt = ... + k_on C - k_off c`, C the density beside the
@@ -373,17 +391,7 @@ impl BodySetup for DropletSetup {
         self.shape.check(checked)?;
         self.gel.map_or(Ok(()), |gel| gel.check(checked, self))?;
         let Some(particles) = &self.particles else { return Ok(()) };
-        checked.finite("particles.activity", particles.activity)?;
-        checked.not_negative("particles.diffusion", particles.diffusion)?;
-        checked.positive("particles.concentration", particles.concentration)?;
-        let (key, tension) = ("particles.activity", particles.activity * particles.concentration);
-        let remedy = "the tension that it makes at the mean concentration is not finite: give less";
-        checked.require(tension.is_finite(), key, particles.activity, remedy)?;
-        match particles.excluded_volume {
-            Exclusion::None => {}
-            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
-            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
-        }
+        particles.check(checked)?;
         if let Some(ExchangeSetup { binding, unbinding, number_inside, diffusion_inside, spacing_inside }) =
             particles.exchange
         {
@@ -411,9 +419,7 @@ impl BodySetup for DropletSetup {
                 }
             }
         }
-        let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
-        let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
-        checked.require(holds, key, amplitude, "give a number from 0 to below 1")
+        Ok(())
     }
 }
 
@@ -435,13 +441,16 @@ impl DropletShape {
                 checked.all_finite("shape.modes.cosines", cosines)?;
                 checked.all_finite("shape.modes.sines", sines)
             }
-            Self::Points(points) => {
-                if points.len() < 8 || points.len() as f64 > MARKERS[1] {
-                    let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
-                    checked.refuse("shape.points", &format!("{} points", points.len()), remedy)?;
-                }
-                checked.all_finite("shape.points", points.as_flattened())
-            }
+            Self::Points(points) => check_points(points, checked),
         }
     }
+}
+
+/// Refuses points of a shape.
+pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>) -> Result<(), SetupError> {
+    if points.len() < 8 || points.len() as f64 > MARKERS[1] {
+        let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
+        checked.refuse("shape.points", &format!("{} points", points.len()), remedy)?;
+    }
+    checked.all_finite("shape.points", points.as_flattened())
 }

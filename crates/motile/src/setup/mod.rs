@@ -11,6 +11,7 @@ mod fill;
 mod flow;
 mod gel;
 mod gel_in_box;
+mod interface;
 mod method;
 mod numbers;
 mod particles_entry;
@@ -25,6 +26,7 @@ pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particle
 pub use flow::{FlowSetup, PoiseuilleSetup};
 pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
+pub use interface::{ElasticitySetup, InterfaceSetup, InterfaceShape, Side};
 pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use numbers::Numbers;
 pub use rigid_body::RigidBodySetup;
@@ -106,6 +108,9 @@ pub struct Setup {
     /// Active polar gels that fill the box, one at most.
     #[serde(default)]
     pub gels: Vec<GelInBoxSetup>,
+    /// Interfaces that are periodic along x: active boundaries.
+    #[serde(default)]
+    pub interfaces: Vec<InterfaceSetup>,
     /// Rigid walls and obstacles in a channel, besides its straight walls; by boundary integrals only.
     #[serde(default)]
     pub walls: Vec<WallSetup>,
@@ -129,6 +134,7 @@ impl Default for Setup {
             rigid_bodies: Vec::new(),
             shells: Vec::new(),
             gels: Vec::new(),
+            interfaces: Vec::new(),
             walls: Vec::new(),
         }
     }
@@ -151,7 +157,11 @@ impl Setup {
     /// All bodies with their numbers in their lists, in the order in which they are added to the scene.
     fn bodies(&self) -> impl Iterator<Item = (usize, &dyn BodySetup)> {
         let bodies = numbered(&self.droplets).chain(numbered(&self.solids));
-        bodies.chain(numbered(&self.rigid_bodies)).chain(numbered(&self.shells)).chain(numbered(&self.gels))
+        bodies
+            .chain(numbered(&self.rigid_bodies))
+            .chain(numbered(&self.shells))
+            .chain(numbered(&self.gels))
+            .chain(numbered(&self.interfaces))
     }
 
     /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not

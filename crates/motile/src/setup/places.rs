@@ -23,6 +23,10 @@ impl Setup {
             self.check_walls(&key, corners, flow)?;
         }
         let surfaces = Surfaces::of(bodies.iter().map(|Planned { boundary, kind, .. }| (boundary.clone(), *kind)));
+        if let Some((body, other, viscosities)) = surfaces.conflict(view.domain.periods, view.viscosity) {
+            let [key, other] = [body, other].map(|body| self.key(body));
+            return Err(SetupError::TwoViscosities { key, other, viscosities });
+        }
         match surfaces.first_overlap(view) {
             None => surfaces.contact(view).map_or(Ok(()), |(body, other, place)| {
                 let ([key, other], [x, y]) = ([body, other].map(|body| self.key(body)), place.into());

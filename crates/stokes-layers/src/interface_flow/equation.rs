@@ -31,7 +31,7 @@ const FOUR_PI: f64 = 4.0 * PI;
 pub(super) struct Sides {
     inside: Inside,
     /// Viscosity outside (stress times time).
-    outside: f64,
+    pub(super) outside: f64,
 }
 
 impl Sides {

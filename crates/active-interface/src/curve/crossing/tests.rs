@@ -80,3 +80,29 @@ proptest! {
         prop_assert_eq!(first_crossing(&points).unwrap(), slow(&points));
     }
 }
+
+/// An overhanging line crosses its own image before it crosses itself.
+#[test]
+fn lines_cross_their_next_images() {
+    let period = 4.0;
+    let line = |overhang: f64| -> Vec<Vec2> {
+        let angle = |k: usize| -> f64 { TAU * k as f64 / 200.0 };
+        (0..200)
+            .map(|k| Vec2::new(period * k as f64 / 200.0 + overhang * (2.0 * angle(k)).sin(), angle(k).cos()))
+            .collect()
+    };
+    let mut finder = CrossingFinder::default();
+    for direction in [1.0, -1.0] {
+        let mut crossing = |overhang: f64| {
+            let mut points = line(overhang);
+            points.iter_mut().for_each(|point| point.x *= direction);
+            finder.first_crossing_over(&points, direction * period).unwrap()
+        };
+        assert_eq!([0.0, 0.3, 0.6].map(&mut crossing), [None; 3], "{direction}");
+        // It turns back by more than the period: its arms meet.
+        assert!(crossing(3.0).is_some());
+    }
+    // A closed polygon is one.
+    let circle: Vec<Vec2> = (0..20).map(|k| Vec2::from_angle(0.1 * std::f64::consts::PI * f64::from(k))).collect();
+    assert_eq!(finder.first_crossing_over(&circle, 0.0).unwrap(), None);
+}

@@ -9,7 +9,7 @@ fn errors(n: usize) -> (f64, f64) {
             Vec2::new(3.0 + c, s)
         })
         .collect();
-    let spline = PeriodicSpline::new(&points).unwrap();
+    let spline = PeriodicSpline::new(&points, Vec2::ZERO).unwrap();
     let off = (0..1000)
         .map(|i| ((spline.point(f64::from(i) / 1000.0) - Vec2::new(3.0, 0.0)).length() - 1.0).abs())
         .fold(0.0, f64::max);
@@ -28,11 +28,11 @@ fn fourth_order_on_a_circle() {
 fn goes_through_its_points_and_refuses_doubles() {
     let mut points: Vec<Vec2> =
         [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [0.4, 1.1]].iter().map(|&[x, y]| Vec2::new(x, y)).collect();
-    let spline = PeriodicSpline::new(&points).unwrap();
+    let spline = PeriodicSpline::new(&points, Vec2::ZERO).unwrap();
     for (point, knot) in points.iter().zip(&spline.knots) {
         assert!((spline.point(knot / spline.knots[4]) - point).length() < 1e-14);
     }
     assert!((spline.point(1.0) - points[0]).length() < 1e-14);
     points[2] = points[1];
-    assert!(matches!(PeriodicSpline::new(&points), Err(InterfaceError::CoincidentPoints { index: 1 })));
+    assert!(matches!(PeriodicSpline::new(&points, Vec2::ZERO), Err(InterfaceError::CoincidentPoints { index: 1 })));
 }

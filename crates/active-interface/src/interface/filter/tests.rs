@@ -7,7 +7,7 @@ fn ring(ripple: f64) -> (Vec<Vec2>, Geometry) {
     let radius = |k: u32| if k.is_multiple_of(2) { 1.0 + ripple } else { 1.0 - ripple };
     let markers: Vec<Vec2> = (0..24).map(|k| radius(k) * Vec2::from_angle(TAU * f64::from(k) / 24.0)).collect();
     let mut geometry = Geometry::default();
-    geometry.update(&markers);
+    geometry.update(&markers, 0.0);
     (markers, geometry)
 }
 

@@ -11,7 +11,7 @@ fn an_ellipse_to_round_off() {
     let markers = curve.markers(256).unwrap();
     let mut geometry = Geometry::default();
     let mut spectral = SpectralCurve::new(256).unwrap();
-    spectral.update(&markers, &mut geometry);
+    spectral.update(&markers, 0.0, &mut geometry);
     let scale = markers[0].x / 1.3;
     for (marker, tau) in markers.iter().zip(&geometry.tangents) {
         let exact = Vec2::new(-marker.y / 0.64, marker.x / 1.69).normalize();
@@ -43,7 +43,7 @@ fn motion_keeps_spacing_and_area() {
     let markers = Curve::fourier(1.0, &[0.0, 0.1, 0.05], &[]).unwrap().markers(128).unwrap();
     let mut geometry = Geometry::default();
     let mut spectral = SpectralCurve::new(128).unwrap();
-    spectral.update(&markers, &mut geometry);
+    spectral.update(&markers, 0.0, &mut geometry);
     let velocities: Vec<Vec2> = markers.iter().map(|x| Vec2::new(x.y + 0.2 * x.x * x.x, 0.3 * x.x - x.y)).collect();
     let (mut motion, mut slip) = (vec![Vec2::ZERO; 128], vec![0.0; 128]);
     spectral.equidistribute(&geometry, &velocities, 0.0, &mut motion, &mut slip);
@@ -52,7 +52,7 @@ fn motion_keeps_spacing_and_area() {
     let step = 1e-5;
     let moved: Vec<Vec2> = markers.iter().zip(&motion).map(|(x, v)| x + step * v).collect();
     let mut after = Geometry::default();
-    spectral.update(&moved, &mut after);
+    spectral.update(&moved, 0.0, &mut after);
     let rates: Vec<f64> = after.lengths.iter().zip(&geometry.lengths).map(|(a, b)| (a - b) / step).collect();
     let mean = rates.iter().sum::<f64>() / 128.0;
     assert!(rates.iter().all(|rate| (rate - mean).abs() < 1e-6), "{mean}");

@@ -58,7 +58,7 @@ impl Bodies {
 
     /// Some body is a closed curve.
     pub(super) fn have_curves(&self) -> bool {
-        self.list.iter().any(|body| body.kind().is_closed_curve())
+        self.list.iter().any(|body| body.kind().is_curve())
     }
 
     /// Calls `act` with the number of each body, the body, and the viscosity around it, until it fails.

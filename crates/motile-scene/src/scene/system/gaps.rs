@@ -36,7 +36,7 @@ impl<H: Hydrodynamics> System<H> {
         // Keeps what is not a number.
         let nearer = |least: (f64, _, _), gap: (f64, _, _)| if gap.0 < least.0 || gap.0.is_nan() { gap } else { least };
         let groups = self.bodies.markers.groups().iter().enumerate();
-        let gaps = groups.filter(|(_, group)| group.kind.is_closed_curve()).flat_map(|(body, group)| {
+        let gaps = groups.filter(|(_, group)| group.kind.is_curve()).flat_map(|(body, group)| {
             let places = &self.bodies.markers.positions[group.range.clone()];
             let of_straight = |walls| places.iter().map(move |place| (wall_gap(&[*place], walls), body, *place));
             let straight = domain.walls.and_then(|walls| of_straight(walls).reduce(nearer));
@@ -151,7 +151,7 @@ impl<H: Hydrodynamics> System<H> {
 
     /// The largest distance of neighbouring nodes of an interface (length).
     fn node_spacing(&self, view: &FluidView) -> f64 {
-        let groups = self.bodies.markers.groups().iter().filter(|group| group.kind.is_closed_curve());
+        let groups = self.bodies.markers.groups().iter().filter(|group| group.kind.is_curve());
         let spacings = groups.map(|group| {
             let markers = &self.bodies.markers.positions[group.range.clone()];
             let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -175,6 +175,10 @@ impl<H: Hydrodynamics> System<H> {
         self.bodies.check_guests()?;
         self.find_gaps();
         let view = self.hydrodynamics.fluid_view();
+        if let Some((body, other, viscosities)) = self.contacts.surfaces.conflict(view.domain.periods, view.viscosity) {
+            let [body, other] = [body, other].map(|index| self.bodies.name_of(index));
+            return Err(SceneError::TwoViscosities { time: self.clock.time, body, other, viscosities });
+        }
         if let Some(overlap) = self.contacts.gaps.crossed.or_else(|| self.contacts.surfaces.first_overlap(&view)) {
             let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;
             let [body, other] = [body, other].map(|index| self.bodies.name_of(index));

@@ -1,0 +1,275 @@
+//! Descriptions of interfaces that are periodic along x.
+
+use std::f64::consts::TAU;
+
+use active_interface::{ActiveInterface, InitialConcentration, InterfaceError, Motion, line_through, wave};
+use motile_base::{Region, Vec2};
+use motile_scene::{Body, Scene, gap::Boundary};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    AnyFlow, IntegralMethod, LayersMethod, Method, MethodKind, Particles, Setup, Start,
+    body::{BodySetup, Planned},
+    checked::Checked,
+    droplet::check_points,
+};
+use crate::SetupError;
+
+/// An interface that is periodic along x over the whole length of a box or a channel, with a tension of its own and,
+/// unless it is passive, active particles: the active boundary of section 5.2.2.3.1 of Cowley.
+///
+/// ```
+/// use motile::prelude::*;
+/// use motile::setup::{InterfaceSetup, Side};
+///
+/// // A layer of fluid between two active interfaces in a channel.
+/// let setup = Setup {
+///     region: Region::Channel { length: 6.0, width: 6.0, drive: Drive::ZeroGradient },
+///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+///     interfaces: vec![
+///         InterfaceSetup { height: -1.0, inside: Side::Below, ..InterfaceSetup::active(-0.5) },
+///         InterfaceSetup { height: 1.0, ..InterfaceSetup::active(-0.5) },
+///     ],
+///     droplets: Vec::new(),
+///     ..Setup::default()
+/// };
+/// let Built { mut scene, interfaces, .. } = setup.build()?;
+/// scene.run(1.0).go()?;
+/// let seen = scene.observe(interfaces[1])?;
+/// println!("height {:.6}, {:.3} particles", seen.height, seen.particle_number);
+/// assert!((seen.height - 1.0).abs() < 1e-9 && (seen.particle_number - 600.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct InterfaceSetup {
+    /// Name for messages.
+    pub name: String,
+    /// Mean height (length); regions are centred on the origin.
+    pub height: f64,
+    /// Side on which its inside is.
+    pub inside: Side,
+    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid on the other side.
+    pub viscosity: Option<f64>,
+    /// Tension gamma0 of the interface without particles (force).
+    pub tension: f64,
+    /// Motion of the markers along the interface; across it they move with the fluid.
+    pub motion: Motion,
+    /// Area between the interface and a horizontal line restored to the initial one after each step.
+    pub area_constraint: bool,
+    /// Its shape at the start.
+    pub shape: InterfaceShape,
+    /// Elasticity along it, at rest in the shape at the start; `None` for a fluid interface. It needs markers that move
+    /// with the fluid.
+    pub elasticity: Option<ElasticitySetup>,
+    /// The active particles on the interface; `None` for a passive one, in a file `particles = "none"`. A polarised
+    /// start is `(1 - cos(2 pi x/L)) c0`, L the length of the region.
+    #[serde(with = "super::particles_entry")]
+    pub particles: Option<Particles>,
+}
+
+/// Elasticity of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ElasticitySetup {
+    /// Modulus of stretching (force).
+    pub stretching: f64,
+    /// Modulus of bending (force times length squared).
+    #[serde(default)]
+    pub bending: f64,
+}
+
+/// Side of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Above it.
+    #[default]
+    Above,
+    /// Below it.
+    Below,
+}
+
+/// The shape of an interface at the start, about its height.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum InterfaceShape {
+    /// Flat.
+    #[default]
+    Flat,
+    /// `y = sum_k a_k cos(2 pi k x/L) + b_k sin(2 pi k x/L)`, k from 1, L the length of the region.
+    Waves {
+        /// Amplitudes a_k (length).
+        cosines: Vec<f64>,
+        /// Amplitudes b_k (length).
+        #[serde(default)]
+        sines: Vec<f64>,
+    },
+    /// The smooth curve through points of one period (length), along x or against it; the next image of the first
+    /// follows the last.
+    Points(Vec<[f64; 2]>),
+}
+
+impl Default for InterfaceSetup {
+    /// A flat interface of activity -2 in the middle, its inside above.
+    fn default() -> Self {
+        Self {
+            name: "interface".to_owned(),
+            height: 0.0,
+            inside: Side::default(),
+            viscosity: None,
+            tension: 10.0,
+            motion: Motion::default(),
+            area_constraint: true,
+            shape: InterfaceShape::default(),
+            elasticity: None,
+            particles: Some(Particles::default()),
+        }
+    }
+}
+
+impl InterfaceSetup {
+    /// The default interface with this activity zeta delta-mu (force times length; negative if contractile).
+    #[must_use]
+    pub fn active(activity: f64) -> Self {
+        Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
+    }
+
+    /// An interface without particles, of constant tension (force).
+    #[must_use]
+    pub fn passive(tension: f64) -> Self {
+        Self { tension, particles: None, ..Self::default() }
+    }
+
+    fn markers(&self, advance: f64, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
+        match &self.shape {
+            InterfaceShape::Flat => wave(self.height, advance, &[], &[], count),
+            InterfaceShape::Waves { cosines, sines } => wave(self.height, advance, cosines, sines, count),
+            InterfaceShape::Points(points) => {
+                let mut points: Vec<Vec2> = points.iter().map(|&[x, y]| Vec2::new(x, y + self.height)).collect();
+                let ends = points.first().zip(points.last());
+                if ends.is_some_and(|(first, last)| (last.x - first.x) * advance < 0.0) {
+                    points.reverse();
+                }
+                line_through(&points, advance, count)
+            }
+        }
+    }
+}
+
+impl Setup {
+    /// An interface of this scene, for scenes that are put together by hand.
+    ///
+    /// # Errors
+    /// Parameters out of their range.
+    pub fn interface(&self, interface: &InterfaceSetup) -> Result<ActiveInterface, SetupError> {
+        let [length, _] = self.region.lengths();
+        let advance = if interface.inside == Side::Above { length } else { -length };
+        let count = match &self.method {
+            Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
+                *cells.max(nodes)
+            }
+            Method::Grid(grid) => (length / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)).ceil() as usize,
+        };
+        let markers = interface.markers(advance, count)?;
+        let made = match &interface.particles {
+            None => ActiveInterface::periodic_passive(&markers, advance, interface.tension)?,
+            Some(particles) => {
+                let c0 = particles.concentration;
+                let initial = match particles.start {
+                    Start::Polarised => {
+                        InitialConcentration::by_arc_fraction(move |s| c0 * (1.0 - (TAU * (s - 0.5)).cos()))
+                    }
+                    Start::Uniform => InitialConcentration::uniform(c0)?,
+                    Start::Perturbed { amplitude, seed } => InitialConcentration::perturbed(c0, amplitude, seed)?,
+                };
+                let numbers = initial.particle_numbers_over(&markers, advance)?;
+                let law = particles.law(interface.tension)?;
+                let made = ActiveInterface::periodic(&markers, advance, numbers, law, particles.diffusion)?;
+                made.with_flux(particles.flux)
+            }
+        };
+        let made = made.with_name(&interface.name).with_motion(interface.motion);
+        let mut made = made.with_area_constraint(interface.area_constraint);
+        if let Some(ElasticitySetup { stretching, bending }) = interface.elasticity {
+            made = made.with_elasticity(stretching, bending)?;
+        }
+        Ok(match interface.viscosity {
+            Some(inside) => made.with_viscosity_inside(inside)?,
+            None => made,
+        })
+    }
+}
+
+impl BodySetup for InterfaceSetup {
+    fn kind(&self) -> [&'static str; 2] {
+        ["interfaces", "interface"]
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
+        Some(("interfaces across the period", &[MethodKind::Integral, MethodKind::Layers]))
+    }
+
+    fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
+        let body = setup.interface(self)?;
+        if let Region::Channel { length, width, .. } = setup.region
+            && body.markers().iter().any(|marker| marker.y.abs() >= 0.5 * width)
+        {
+            return Err(SetupError::NoRoom { length, width, hint: String::new() });
+        }
+        let boundary = Boundary::of(&body, setup.region.periods());
+        let kind = body.kind();
+        let add = |scene: &mut Scene<AnyFlow>| {
+            scene.add(body);
+            Ok(())
+        };
+        Ok(Planned { boundary, kind, corners: Vec::new(), add: Box::new(add) })
+    }
+
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
+        if setup.region == Region::Plane {
+            let remedy = "an interface across the period needs one along x: give a box or a channel";
+            return Checked { place: "" }.refuse("region", &"plane", remedy);
+        }
+        if let (Region::Box { .. }, true) = (setup.region, setup.flow.shear != 0.0) {
+            let remedy = "the images of an interface across the period of a sheared box slide past each other, which \
+                          is not computed: give a channel with wall-velocity";
+            return Checked { place: "flow" }.refuse("shear", &setup.flow.shear, remedy);
+        }
+        checked.finite("height", self.height)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("tension", self.tension)?;
+        if let Motion::Equidistributed { relaxation, .. } = self.motion {
+            checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
+        }
+        if let Some(ElasticitySetup { stretching, bending }) = self.elasticity {
+            checked.not_negative("elasticity.stretching", stretching)?;
+            checked.not_negative("elasticity.bending", bending)?;
+            if self.motion != Motion::WithFluid {
+                let remedy = "the points of an elastic interface move with the fluid: give \"with-fluid\"";
+                checked.refuse("motion", &"equidistributed", remedy)?;
+            }
+        }
+        match &self.shape {
+            InterfaceShape::Flat => {}
+            InterfaceShape::Waves { cosines, sines } => {
+                checked.all_finite("shape.waves.cosines", cosines)?;
+                checked.all_finite("shape.waves.sines", sines)?;
+            }
+            InterfaceShape::Points(points) => check_points(points, checked)?,
+        }
+        let Some(particles) = &self.particles else { return Ok(()) };
+        if particles.exchange.is_some() {
+            let remedy = "nothing holds the particles that leave it: give \"none\", or a droplet";
+            checked.refuse("particles.exchange", &"given", remedy)?;
+        }
+        particles.check(checked)
+    }
+}
