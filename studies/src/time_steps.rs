@@ -1,9 +1,11 @@
 //! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
 //! against the predicted ones between walls and of swimmers, the order between halvings of the step, and adaptive
-//! against fixed steps for a swimmer that starts.
+//! against fixed steps for a swimmer that starts, errors of the default steps in scenes of all kinds.
 //!
-//! `cargo run --release -p studies -- time_steps` prints five tables, which `--write` keeps as
+//! `cargo run --release -p studies -- time_steps` prints six tables, which `--write` keeps as
 //! `docs/tables/time-steps-STUDY.csv`. `--study` chooses one of them; `--help` lists the flags.
+
+mod default_steps;
 
 use std::time::Instant;
 
@@ -40,6 +42,8 @@ enum Study {
     Order,
     /// Adaptive and fixed steps of a swimmer that starts.
     Transient,
+    /// Errors of the default steps in scenes of all kinds.
+    Default,
 }
 
 /// What time steps cost.
@@ -63,10 +67,16 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             Study::Coupling => coupling(),
             Study::Order => orders(),
             Study::Transient => transient(),
+            Study::Default => default_steps::default_steps(),
         }?;
         let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
         let (file, command) = (format!("time-steps-{name}"), format!("time_steps --study {name}"));
-        flags.keep.tables(&file, &command, &["crates/elastic-solids", "studies/src/time_steps.rs"], &[table])?;
+        flags.keep.tables(
+            &file,
+            &command,
+            &["crates/elastic-solids", "studies/src/time_steps.rs", "studies/src/time_steps"],
+            &[table],
+        )?;
     }
     Ok(())
 }

@@ -17,7 +17,7 @@ fn check(kind: SceneKind, targets: [&[f64]; 2], scene: &Setup) {
         speeds(&Setup { method, step, ..scene.clone() }, &STEADY).expect("a good swimmer")
     };
     // Far finer than anything that is recommended.
-    let exact = speed(without_grid(96, 512).method, StepSize::OfLimit(0.5));
+    let exact = speed(without_grid(96, 512).method, StepSize::Adaptive { tolerance: 1e-5 });
     for (method, targets) in KINDS.into_iter().zip(targets) {
         for &target in targets {
             let Recommendation { method, step, .. } = recommend(kind, method, target).expect("a measured target");

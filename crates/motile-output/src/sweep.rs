@@ -150,7 +150,7 @@ fn is_stop(error: &anyhow::Error) -> bool {
 }
 
 /// Entries of a summary that collected tables leave out: names of the run, and costs, which differ between machines.
-const COST: [&str; 12] = [
+const COST: [&str; 13] = [
     "run",
     trial::FINGERPRINT,
     "seconds",
@@ -163,6 +163,7 @@ const COST: [&str; 12] = [
     "steps_failed",
     "dt_shortest",
     "dt_longest",
+    "step_error",
 ];
 
 fn collect(trials: &[Trial], directory: &std::path::Path) -> Result<()> {

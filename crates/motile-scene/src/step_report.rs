@@ -29,6 +29,9 @@ pub struct StepReport {
     pub shortest: f64,
     /// The longest step (time).
     pub longest: f64,
+    /// Largest estimated error of a step that was taken, in the measure of
+    /// [`StepSize::Adaptive`](crate::StepSize::Adaptive) (no dimension); 0 where none was estimated.
+    pub largest_error: f64,
     /// Reasons for the lengths, in the order of first occurrence.
     pub limiting: Vec<Limiting>,
 }

@@ -16,11 +16,6 @@ pub enum SceneKind {
     Channel,
 }
 
-/// Part of the stability limit that a step takes: below it the errors of time are far below those of space.
-const OF_LIMIT: f64 = 0.9;
-/// In a channel films drain and the limit falls on the way.
-const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
-
 /// The largest error at any time between t = 40 and 80, over the scenes of `docs/tables/recommended.csv` of that kind
 /// that [`recommend`] covers, of these settings and of all finer ones of the same kind; on grids and for small errors
 /// with a fifth or more to spare for places and directions that were not tried. From coarse to fine.
@@ -100,6 +95,5 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
         let smallest = entries.iter().map(|(error, _)| *error).fold(f64::INFINITY, f64::min);
         return Err(SetupError::TargetError { target: target_error, smallest, largest: LARGEST });
     };
-    let fraction = if scene == SceneKind::Channel { OF_LIMIT_IN_CHANNELS } else { OF_LIMIT };
-    Ok(Recommendation { method, step: StepSize::OfLimit(fraction) })
+    Ok(Recommendation { method, step: StepSize::default() })
 }

@@ -12,6 +12,8 @@ use crate::validation::{Tables, per_cent};
 
 /// The time from which a swimmer counts as steady, and that of its last look (10 s).
 const WINDOW: [f64; 2] = [40.0, 80.0];
+/// Steps of the runs that others are compared with.
+const EXACT: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
 /// Between two looks: no multiple of the time in which a swimmer crosses a cell.
 const EVERY: f64 = 0.8;
 
@@ -68,7 +70,7 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
 
 /// The settings of a kind of scenes, from coarse to fine, and their steps.
 fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
-    let step = StepSize::OfLimit(if kind == SceneKind::Channel { 0.5 } else { 0.9 });
+    let step = StepSize::default();
     let integral = |&(nodes, cells): &(usize, usize)| {
         (format!("{nodes} nodes, {cells} cells"), Method::Integral(IntegralMethod { nodes, cells }), step)
     };
@@ -105,8 +107,7 @@ pub(crate) fn recommended(quick: bool) -> Tables {
                 let first = (WINDOW[0] / EVERY) as usize;
                 Ok::<_, motile_tests::validation::StudyError>(speeds[first..].to_vec())
             };
-            let exact =
-                late(&Setup { method: without_grid(96, 512).method, step: StepSize::OfLimit(0.5), ..scene.clone() })?;
+            let exact = late(&Setup { method: without_grid(96, 512).method, step: EXACT, ..scene.clone() })?;
             let mean = |speeds: &[f64]| speeds.iter().sum::<f64>() / speeds.len() as f64;
             for (settings, method, step) in settings(kind, quick) {
                 let mut setup = Setup { method, step, ..scene.clone() };

@@ -230,7 +230,9 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
                             // Where a step has to end says nothing about the steps that follow.
                             self.scene.control.next = next.max(self.scene.control.next);
                         }
-                        self.scene.report.count(dt, shortened, reason, &body);
+                        let report = &mut self.scene.report;
+                        report.count(dt, shortened, reason, &body);
+                        report.largest_error = report.largest_error.max(error * tolerance);
                         return self.arrive(dt, remaining, goal);
                     }
                     self.scene.report.rejections += 1;

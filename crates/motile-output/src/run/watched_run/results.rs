@@ -148,6 +148,7 @@ impl WatchedRun {
             body => format!("{} of {body}", limiting.reason),
         });
         summary.put("dt_set_by", limiting, "for most steps");
+        summary.put("step_error", report.largest_error, "largest estimate of a step's, in parts of R0 and of c0");
         summary.put("steps_rejected", report.rejections, "for their error");
         summary.put("steps_failed", report.failures, "and retried");
         summary.put("stages", scene.integrator_work().stages, "of all steps");
