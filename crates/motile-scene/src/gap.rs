@@ -16,7 +16,7 @@ pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use surface_curve::{SurfaceCurve, SurfacePoint};
 
 use crate::{Body, Domain, FluidView, MarkerKind, Markers};
-use boundary::shifts;
+use boundary::{shifts, smallest};
 use motile_base::{
     Vec2,
     boxes::{BoxTree, Frame},
@@ -165,13 +165,14 @@ impl Surfaces {
             let bodies = self.boundaries.iter().zip(&self.kinds).enumerate();
             bodies.filter_map(move |(body, (surface, kind))| (kind.is_curve() == closed).then_some((body, surface)))
         };
-        let distance = |place: Vec2| {
-            let distances = of_kind(false).filter(|(_, solid)| !solid.is_empty());
-            let distances = distances.map(|(_, solid)| solid.distance(place, periods));
+        let within = |place: Vec2, reach: f64| {
+            let distances = of_kind(false).filter_map(|(_, solid)| solid.distance_if_within(place, periods, reach));
             distances.min_by(|a, b| a.abs().total_cmp(&b.abs()))
         };
-        let corners = of_kind(true).flat_map(|(body, surface)| surface.corners().zip(0..).map(move |c| (body, c)));
-        let gaps = corners.filter_map(|(body, (place, corner))| Some((distance(place)?, body, corner, place)));
+        let gaps = of_kind(true).filter_map(|(body, surface)| {
+            let (distance, corner) = smallest(surface.corners(), within)?;
+            Some((distance, body, corner, surface.corners().nth(corner)?))
+        });
         gaps.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 

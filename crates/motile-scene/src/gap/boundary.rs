@@ -142,10 +142,7 @@ impl Boundary {
     /// x and y): negative inside the body, infinite without sides, not a number for a point that is not finite.
     #[must_use]
     pub fn distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
-        if !(point.x.is_finite() && point.y.is_finite()) {
-            return f64::NAN;
-        }
-        self.distance_within(point, periods, f64::INFINITY).unwrap_or(f64::INFINITY)
+        self.distance_if_within(point, periods, f64::INFINITY).unwrap_or(f64::INFINITY)
     }
 
     /// The signed distance if its magnitude is below `reach` (length); see [`Boundary::distance`].
@@ -168,30 +165,42 @@ impl Boundary {
     /// `None` without points or sides.
     #[must_use]
     pub fn smallest(&self, points: &[Vec2], periods: [Option<f64>; 2]) -> Option<(f64, usize)> {
-        if self.is_empty() {
-            return None;
-        }
-        let mut least: Option<(f64, usize)> = None;
-        // The last point, if it is outside.
-        let mut outside: Option<Vec2> = None;
-        for (number, &point) in points.iter().enumerate() {
-            let distance = match (least, outside) {
-                // Nearer than twice the least distance to a point outside that is as far or farther: if this one is as
-                // far it is outside too, as the line between the two does not reach the boundary.
-                (Some((least, _)), Some(last)) if (point - last).length() < 2.0 * least => {
-                    self.distance_within(point, periods, least)
-                }
-                _ => Some(self.distance(point, periods)),
-            };
-            if let Some(distance) = distance
-                && least.is_none_or(|(least, _)| distance.total_cmp(&least).is_lt())
-            {
-                least = Some((distance, number));
-            }
-            outside = distance.is_none_or(|distance| distance > 0.0).then_some(point);
-        }
-        least
+        let within = |point, reach| self.distance_if_within(point, periods, reach);
+        smallest(points.iter().copied(), within).filter(|_| !self.is_empty())
     }
+
+    /// As [`Boundary::distance_within`], not a number for a point that is not finite.
+    pub(super) fn distance_if_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+        let finite = point.x.is_finite() && point.y.is_finite();
+        if finite { self.distance_within(point, periods, reach) } else { Some(f64::NAN) }
+    }
+}
+
+/// The smallest signed distance of points from boundaries, `within(point, reach)` where its magnitude is below `reach`,
+/// and the number of that point.
+pub(super) fn smallest(
+    points: impl Iterator<Item = Vec2>,
+    within: impl Fn(Vec2, f64) -> Option<f64>,
+) -> Option<(f64, usize)> {
+    let mut smallest: Option<(f64, usize)> = None;
+    // The last point, if it is outside.
+    let mut outside: Option<Vec2> = None;
+    for (number, point) in points.enumerate() {
+        let reach = match (smallest, outside) {
+            // Nearer than twice the least distance to a point outside that is as far or farther: if this one is as far
+            // it is outside too, as the line between the two does not reach the boundary.
+            (Some((least, _)), Some(last)) if (point - last).length() < 2.0 * least => least,
+            _ => f64::INFINITY,
+        };
+        let distance = within(point, reach);
+        if let Some(distance) = distance
+            && smallest.is_none_or(|(least, _)| distance.total_cmp(&least).is_lt())
+        {
+            smallest = Some((distance, number));
+        }
+        outside = distance.is_none_or(|distance| distance > 0.0).then_some(point);
+    }
+    smallest
 }
 
 /// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that
