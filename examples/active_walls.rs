@@ -37,7 +37,6 @@ enum Between {
 
 /// A layer of fluid between two active walls.
 #[derive(Debug, Parser)]
-#[command(after_help = "The default run takes 1,017 steps, 2,035 evaluations of the flow.")]
 struct Flags {
     /// Activity of the particles on the walls, negative: contractile
     #[arg(long, default_value_t = -1.0, value_parser = activity, allow_hyphen_values = true)]
@@ -60,6 +59,9 @@ struct Flags {
     /// Moduli of stretching and bending of the walls; without them they are fluid
     #[arg(long, value_name = "STRETCHING,BENDING", value_parser = pair, allow_hyphen_values = true)]
     elastic: Option<[f64; 2]>,
+    /// Seed of the perturbation of the particles on the walls
+    #[arg(long, default_value_t = 1)]
+    wall_seed: u64,
     /// What is between the walls
     #[arg(long, value_enum, default_value_t = Between::None)]
     droplet: Between,
@@ -144,6 +146,16 @@ fn simulate(flags: &Flags) -> Result<()> {
 /// The scene that the flags describe.
 fn scene(flags: &Flags) -> Result<Setup> {
     let (gap, length) = (flags.gap, flags.length);
+    let DropletFlags { activity, excluded_volume, viscosity_in, angle, initial, seed, .. } = &flags.flags;
+    let of_particles = activity.is_some() || excluded_volume.is_some() || initial.is_some() || seed.is_some();
+    ensure!(
+        flags.droplet == Between::Active || !(of_particles || angle.is_some()),
+        "a flag of the droplet's particles is given: give --droplet active, or leave it out"
+    );
+    ensure!(
+        flags.droplet != Between::None || viscosity_in.is_none(),
+        "--viscosity-in is that of a droplet: give --droplet passive or active, or --viscosity-beyond"
+    );
     let mut setup = flags.method.setup(&flags.flags, None)?;
     setup.region = match flags.width {
         None => Region::Box { lengths: [length, 2.0 * gap] },
@@ -167,7 +179,7 @@ fn scene(flags: &Flags) -> Result<Setup> {
         }),
         ..InterfaceSetup::default()
     };
-    let seed = flags.flags.seed.unwrap_or(1);
+    let seed = flags.wall_seed;
     setup.interfaces = vec![wall(-0.5 * gap, Side::Below, seed), wall(0.5 * gap, Side::Above, seed.wrapping_add(1))];
     match flags.droplet {
         Between::None => setup.droplets.clear(),
