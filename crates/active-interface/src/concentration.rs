@@ -66,6 +66,9 @@ pub(crate) fn weno5(v: [f64; 5]) -> f64 {
 /// linear in n, for implicit time stepping. Every change is a difference of fluxes, so the total number is kept to
 /// round-off.
 ///
+/// On a surface of revolution a segment stands for half of a ring: numbers are over its area, and Phi_k has the length
+/// of its edge as a factor ([`Cells`]).
+///
 /// All velocities, fluxes and diffusivities are lists of M values, one a marker; numbers and lengths are lists of M
 /// values, one a segment. Values that are not finite stay so, and the state that follows is refused when it is read.
 /// Nothing is allocated after construction.
@@ -78,6 +81,31 @@ pub(crate) struct Transport {
     diagonal: Vec<f64>,
     upper: Vec<f64>,
     solver: CyclicTridiagonal,
+}
+
+/// Cells of particles along a curve, cell k between faces k and k + 1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cells<'a> {
+    /// Sizes, over which numbers are concentrations: the lengths, or areas of halves of rings (length squared).
+    pub(crate) sizes: &'a [f64],
+    /// Lengths along the curve (length).
+    pub(crate) lengths: &'a [f64],
+    /// Lengths of the faces, halves of circles (length); empty in the plane, where they have none.
+    pub(crate) faces: &'a [f64],
+}
+
+impl Cells<'_> {
+    /// Factor of the flux through a face.
+    fn face(&self, k: usize) -> f64 {
+        self.faces.get(k).copied().unwrap_or(1.0)
+    }
+}
+
+impl<'a, T: AsRef<[f64]> + ?Sized> From<&'a T> for Cells<'a> {
+    /// Cells in the plane of these lengths.
+    fn from(lengths: &'a T) -> Self {
+        Self { sizes: lengths.as_ref(), lengths: lengths.as_ref(), faces: &[] }
+    }
 }
 
 impl Transport {
@@ -109,14 +137,15 @@ impl Transport {
     /// relative to the markers (length per time; positive towards higher marker numbers).
     ///
     /// Face values are not allowed to be negative: where a reconstruction undershoots zero nothing flows.
-    pub(crate) fn add_advection(
+    pub(crate) fn add_advection<'a>(
         &mut self,
         numbers: &[f64],
-        lengths: &[f64],
+        cells: impl Into<Cells<'a>>,
         relative_velocities: &[f64],
         rate: &mut [f64],
     ) {
-        write_concentrations(numbers, lengths, &mut self.concentrations);
+        let cells = cells.into();
+        write_concentrations(numbers, cells.sizes, &mut self.concentrations);
         let c = &self.concentrations;
         let m = c.len();
         for (k, (flux, &velocity)) in self.fluxes.iter_mut().zip(relative_velocities).enumerate() {
@@ -132,23 +161,24 @@ impl Transport {
                     .max(0.0)
                 }
             };
-            *flux = face * velocity;
+            *flux = face * velocity * cells.face(k);
         }
         add_flux_differences(&self.fluxes, 1.0, rate);
     }
 
     /// Adds `factor` times the diffusive part of dn_k/dt to `out`, for the diffusivities D_k at the markers (length
     /// squared per time).
-    pub(crate) fn add_diffusion(
+    pub(crate) fn add_diffusion<'a>(
         &mut self,
-        lengths: &[f64],
+        cells: impl Into<Cells<'a>>,
         diffusivities: &[f64],
         numbers: &[f64],
         factor: f64,
         out: &mut [f64],
     ) {
-        write_concentrations(numbers, lengths, &mut self.concentrations);
-        self.diffuse(lengths, diffusivities);
+        let cells = cells.into();
+        write_concentrations(numbers, cells.sizes, &mut self.concentrations);
+        self.diffuse(cells, diffusivities);
         add_flux_differences(&self.fluxes, factor, out);
     }
 
@@ -157,24 +187,31 @@ impl Transport {
     ///
     /// The result is n plus a difference of fluxes, so that the total is kept to round-off; where all n are positive,
     /// so are all y, but for round-off. Not a number where a length is not positive.
-    pub(crate) fn solve_diffusion(&mut self, lengths: &[f64], diffusivities: &[f64], factor: f64, numbers: &mut [f64]) {
-        if !lengths.iter().all(|&length| length > 0.0) {
+    pub(crate) fn solve_diffusion<'a>(
+        &mut self,
+        cells: impl Into<Cells<'a>>,
+        diffusivities: &[f64],
+        factor: f64,
+        numbers: &mut [f64],
+    ) {
+        let cells = cells.into();
+        if !cells.sizes.iter().all(|&length| length > 0.0) {
             return numbers.fill(f64::NAN);
         }
         let m = self.len();
         // Unknowns are the concentrations: l_k c_k - factor (g_{k+1} (c_{k+1} - c_k) - g_k (c_k - c_{k-1})) = n_k, a
         // symmetric matrix whose diagonal dominates.
         for (k, diffusivity) in diffusivities.iter().enumerate() {
-            let conductance = factor * diffusivity / spacing_at(lengths, k);
+            let conductance = factor * diffusivity * cells.face(k) / spacing_at(cells.lengths, k);
             self.lower[k] = -conductance;
             self.upper[before(k, 1, m)] = -conductance;
         }
-        for (k, length) in lengths.iter().enumerate() {
-            self.diagonal[k] = length - self.lower[k] - self.upper[k];
+        for (k, size) in cells.sizes.iter().enumerate() {
+            self.diagonal[k] = size - self.lower[k] - self.upper[k];
         }
         self.concentrations.copy_from_slice(numbers);
         self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations);
-        self.diffuse(lengths, diffusivities);
+        self.diffuse(cells, diffusivities);
         add_flux_differences(&self.fluxes, factor, numbers);
     }
 
@@ -184,10 +221,10 @@ impl Transport {
     }
 
     /// Writes the diffusive fluxes of `self.concentrations` to `self.fluxes`.
-    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) {
+    fn diffuse(&mut self, cells: Cells<'_>, diffusivities: &[f64]) {
         let (c, m) = (&self.concentrations, self.concentrations.len());
         for (k, (flux, diffusivity)) in self.fluxes.iter_mut().zip(diffusivities).enumerate() {
-            *flux = -diffusivity * (c[k] - c[before(k, 1, m)]) / spacing_at(lengths, k);
+            *flux = -diffusivity * cells.face(k) * (c[k] - c[before(k, 1, m)]) / spacing_at(cells.lengths, k);
         }
     }
 }

@@ -101,6 +101,14 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_bounds(area, particles)?, ..self })
     }
 
+    /// See [`ActiveInterface::of_revolution`].
+    ///
+    /// # Errors
+    /// Those of [`ActiveInterface::of_revolution`].
+    pub fn of_revolution(self) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.of_revolution()?, ..self })
+    }
+
     /// See [`ActiveInterface::with_stabiliser`].
     #[must_use]
     pub fn with_stabiliser(self, on: bool) -> Self {

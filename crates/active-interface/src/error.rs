@@ -6,6 +6,17 @@ use motile_base::{InputError, all_finite};
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterfaceError {
+    /// Markers that are not the meridian of a body of revolution with its mirror image.
+    #[error(
+        "the marker at ({x}, {y}) has no mirror image at the x axis: give a body of revolution an even number of \
+         markers, equidistributed, the first on the axis, and a heading along it"
+    )]
+    NotOfRevolution {
+        /// x coordinate of the marker (length).
+        x: f64,
+        /// y coordinate of the marker (length).
+        y: f64,
+    },
     /// A number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     Tension,
-    concentration::{Repair, Transport},
+    concentration::{Cells, Repair, Transport},
     curve::{CrossingFinder, MINIMUM_MARKERS},
 };
 use elasticity::Elasticity;
@@ -170,8 +170,7 @@ pub struct ActiveInterface {
 /// Implicit diffusion of particles over an interface of a given shape.
 pub(crate) struct Diffusion<'a> {
     pub(crate) transport: &'a mut Transport,
-    /// Lengths of the segments (length).
-    pub(crate) lengths: &'a [f64],
+    pub(crate) cells: Cells<'a>,
     /// Diffusivities at the markers (length squared per time).
     pub(crate) diffusivities: &'a [f64],
 }
@@ -198,12 +197,12 @@ impl ActiveInterface {
     }
 
     fn update_tensions(&mut self) {
-        let lengths = &self.state.shape.geometry.lengths;
+        let sizes = self.state.shape.geometry.cells().sizes;
         let Derived { concentrations, tensions, .. } = &mut self.derived;
-        concentrations.resize(lengths.len(), 0.0);
-        tensions.resize(lengths.len(), 0.0);
+        concentrations.resize(sizes.len(), 0.0);
+        tensions.resize(sizes.len(), 0.0);
         for (k, c) in concentrations.iter_mut().enumerate() {
-            *c = self.state.numbers.get(k).map_or(0.0, |n| n / lengths[k]);
+            *c = self.state.numbers.get(k).map_or(0.0, |n| n / sizes[k]);
         }
         self.law.tension.values(concentrations, tensions);
     }
@@ -216,7 +215,7 @@ impl ActiveInterface {
         let count = self.markers().len();
         // Markers of the others are inserted and removed.
         let stay = matches!(self.law.motion, Motion::Equidistributed { .. }) || self.state.shape.advance != 0.0;
-        let smooth = view.shape_modes.is_some() && stay;
+        let smooth = self.state.shape.of_revolution || (view.shape_modes.is_some() && stay);
         if smooth != self.scheme.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.scheme.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
             self.scheme.other.markers.clear();
@@ -240,7 +239,12 @@ impl ActiveInterface {
     /// Those of [`ActiveInterface::fit`].
     fn tension_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
         self.fit(view)?;
-        let directions = &self.state.shape.geometry.directions;
+        let Shape { geometry, of_revolution, .. } = &self.state.shape;
+        if let Some(spectral) = self.scheme.spectral.as_mut().filter(|_| *of_revolution) {
+            spectral.ring_forces(geometry, &self.derived.tensions, forces);
+            return Ok(());
+        }
+        let directions = &geometry.directions;
         let pull = |k: usize| self.derived.tensions[k] * directions[k];
         let mut before = pull(directions.len() - 1);
         for (k, force) in forces.iter_mut().enumerate() {
@@ -311,10 +315,10 @@ impl ActiveInterface {
         rates.fill(0.0);
         if let Some(transport) = self.scheme.transport.as_mut() {
             let rates = &mut rates[..count];
-            transport.add_advection(numbers, &geometry.lengths, slip, rates);
+            transport.add_advection(numbers, geometry.cells(), slip, rates);
             // The implicit part has the stabiliser's diffusion added: take it off here.
             if self.scheme.stabiliser.len() == count {
-                transport.add_diffusion(&geometry.lengths, &self.scheme.stabiliser, numbers, -1.0, rates);
+                transport.add_diffusion(geometry.cells(), &self.scheme.stabiliser, numbers, -1.0, rates);
             }
         }
     }
@@ -365,7 +369,7 @@ impl ActiveInterface {
             other.move_to(positions, spectral.as_mut());
             &other.geometry
         };
-        Some(Diffusion { transport, lengths: &geometry.lengths, diffusivities })
+        Some(Diffusion { transport, cells: geometry.cells(), diffusivities })
     }
 
     /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time): filters the markers,

@@ -11,6 +11,7 @@ mod moments;
 mod periodic;
 mod polar;
 mod profile;
+mod revolution;
 mod squirmer;
 
 use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
@@ -52,6 +53,9 @@ pub struct InterfaceState<'a> {
     pub viscosities: [f64; 2],
     /// Bodies inside the droplet ([`BodyFlow::enclosed`]), whose forces are among its force moments.
     pub enclosed: Vec<Enclosed>,
+    /// True for a body of revolution in three dimensions, of which the markers are the meridian with its mirror image,
+    /// and forces and numbers those of halves of rings.
+    pub of_revolution: bool,
 }
 
 impl<'a> InterfaceState<'a> {
@@ -66,6 +70,7 @@ impl<'a> InterfaceState<'a> {
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
             enclosed: flow.enclosed(),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
+            of_revolution: droplet.is_of_revolution(),
         }
     }
 
@@ -91,7 +96,7 @@ pub struct Observables {
     pub centroid: Vec2,
     /// Velocity of the centroid (length per time), from the flux of area.
     pub velocity: Vec2,
-    /// Area (length squared).
+    /// Area (length squared), in three dimensions the volume (length cubed).
     pub area: f64,
     /// Perimeter (length).
     pub perimeter: f64,
@@ -130,7 +135,8 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed } = *state;
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed, of_revolution } =
+        *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
@@ -143,6 +149,9 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     for body in enclosed {
         moments.add_body(body, convention, &frame)?;
     }
+    // In three dimensions the numbers that segments would have in the plane at the same concentrations.
+    let in_plane = of_revolution.then(|| revolution::numbers_in_plane(markers, numbers));
+    let numbers = in_plane.as_deref().unwrap_or(numbers);
     let mut record = Observables {
         centroid: area.centroid,
         velocity,
@@ -177,6 +186,9 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         );
         record.active_region = active_region(&lengths, numbers)?;
         record.active_curvature = record.active_region.and_then(|region| active_curvature(markers, &region).ok());
+    }
+    if of_revolution {
+        revolution::observe_in_space(state, &mut record)?;
     }
     Ok(record)
 }

@@ -45,8 +45,10 @@
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod flow;
+mod revolution;
 mod wall;
 
 pub use flow::BoundaryIntegral;
+pub use revolution::RevolutionIntegral;
 pub use stokes_layers::{LayerError, PeriodicCalculus, Settings, TensionPlacement};
 pub use wall::RigidWall;

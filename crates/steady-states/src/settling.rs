@@ -192,7 +192,11 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let fine = with_nodes(setup, nodes.max(2 * COARSE));
     let droplet = fine.droplet(&fine.droplets[0])?;
     let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
-    Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
+    // Numbers over lengths, in three dimensions too: a density is one per length of a ring.
+    let sizes = droplet.segment_sizes().iter().zip(droplet.segment_lengths());
+    let numbers: Vec<f64> =
+        droplet.particle_numbers().iter().zip(sizes).map(|(number, (size, length))| number * length / size).collect();
+    Ok(Profile::from_markers(droplet.markers(), &numbers)?.with_nuclei(nuclei))
 }
 
 /// Refuses a droplet off the axis, or that swims aside, in three dimensions.

@@ -382,6 +382,7 @@ impl SteadyState {
                 numbers: &numbers,
                 viscosities: model.viscosities,
                 inside: None,
+                of_revolution: false,
                 enclosed: model
                     .rigid_dipoles()
                     .map(|dipole| Enclosed { rigid_dipole: Some(dipole), ..Enclosed::default() })

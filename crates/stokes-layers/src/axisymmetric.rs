@@ -545,6 +545,11 @@ fn load(
         }
     };
     half.analyse(grid.nodes, |k| (force(k).y, force(k).x), &mut meridian.force);
+    // The waves that are left out must not leave a net force: it is that of all waves of the points.
+    let left_out = half.integral(|k| force(k).x) - meridian::integral(&meridian.force.sin);
+    if left_out != 0.0 {
+        meridian.add_uniform_force(grid, left_out);
+    }
     meridian.update_forces(grid);
     Ok(())
 }

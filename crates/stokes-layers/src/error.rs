@@ -126,6 +126,9 @@ pub enum LayerError {
     /// A region of three dimensions for curves of the plane.
     #[error("curves in the plane are no surfaces of revolution: use `AxisymmetricFlow`, or a region of the plane")]
     InThreeDimensions,
+    /// A region of the plane for surfaces of revolution.
+    #[error("bodies of revolution are in three dimensions: use the region space or tube")]
+    InTwoDimensions,
     /// Surfaces with singular equations.
     #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
     SingularSurfaces,

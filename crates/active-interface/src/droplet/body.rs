@@ -86,7 +86,7 @@ impl Body for ActiveDroplet {
         if let (Some(pool), [inside], [out_inside]) = (&self.pool, inside, out_inside)
             && let Some(diffusion) = self.interface.diffusion_at(positions)
         {
-            *out_inside += pool.add(factor, diffusion.lengths, numbers, *inside, &mut out[positions.len()..]);
+            *out_inside += pool.add(factor, diffusion.cells.sizes, numbers, *inside, &mut out[positions.len()..]);
         }
     }
 
@@ -97,9 +97,9 @@ impl Body for ActiveDroplet {
         };
         let (positions, numbers) = state.split_at_mut(2 * self.interface.marker_count());
         if let Some(diffusion) = self.interface.diffusion_at(positions) {
-            let (lengths, diffusivities) = (diffusion.lengths, diffusion.diffusivities);
-            pool.solve(factor, lengths, numbers, inside, |factor, numbers| {
-                diffusion.transport.solve_diffusion(lengths, diffusivities, factor, numbers);
+            let (cells, diffusivities) = (diffusion.cells, diffusion.diffusivities);
+            pool.solve(factor, cells.sizes, numbers, inside, |factor, numbers| {
+                diffusion.transport.solve_diffusion(cells, diffusivities, factor, numbers);
             });
         }
     }

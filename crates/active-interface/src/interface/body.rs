@@ -95,14 +95,14 @@ impl Body for ActiveInterface {
         let (positions, numbers) = state.split_at(2 * self.marker_count());
         let out = &mut out[positions.len()..];
         if let Some(diffusion) = self.diffusion_at(positions) {
-            diffusion.transport.add_diffusion(diffusion.lengths, diffusion.diffusivities, numbers, factor, out);
+            diffusion.transport.add_diffusion(diffusion.cells, diffusion.diffusivities, numbers, factor, out);
         }
     }
 
     fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.marker_count());
         if let Some(diffusion) = self.diffusion_at(positions) {
-            diffusion.transport.solve_diffusion(diffusion.lengths, diffusion.diffusivities, factor, numbers);
+            diffusion.transport.solve_diffusion(diffusion.cells, diffusion.diffusivities, factor, numbers);
         }
     }
 
@@ -126,7 +126,7 @@ impl Body for ActiveInterface {
     fn write_scales(&self, scales: &mut [f64]) {
         let (positions, numbers) = scales.split_at_mut(2 * self.marker_count());
         let open = self.advance().abs() / TAU;
-        positions.fill(if open > 0.0 { open } else { (self.account.area / PI).sqrt() });
+        positions.fill(if open > 0.0 { open } else { self.radius_at_start() });
         let mean = self.number() / numbers.len().max(1) as f64;
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
@@ -150,7 +150,8 @@ impl Body for ActiveInterface {
         if length > 0.0 {
             push("the period", length);
         } else {
-            length = 2.0 * (PI * self.account.area).sqrt();
+            let radius = self.radius_at_start();
+            length = if self.state.shape.of_revolution { 2.0 * radius } else { 1.0 } * TAU * radius;
         }
         let mean = self.account.number / length;
         for sample in LAW_SAMPLES {
@@ -226,8 +227,11 @@ impl ActiveInterface {
     }
 
     /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, else of the
-    /// curve through the markers.
+    /// curve through the markers; volume of a body of revolution (length cubed).
     pub(crate) fn area(&self) -> f64 {
+        if self.state.shape.of_revolution {
+            return self.geometry().volume(self.markers());
+        }
         if self.advance() == 0.0 {
             return raw_area(self.markers());
         }
@@ -246,7 +250,7 @@ impl ActiveInterface {
             period => (area - self.account.area) / (period * period),
         };
         let changes = [
-            ("the area", change),
+            (if self.state.shape.of_revolution { "the volume" } else { "the area" }, change),
             ("the number of particles", if total > 0.0 { total / self.account.number - 1.0 } else { 0.0 }),
         ];
         for ((what, change), bound) in changes.into_iter().zip(self.account.bounds) {
@@ -263,12 +267,18 @@ impl ActiveInterface {
         Ok(())
     }
 
+    /// Radius of the circle or sphere of the size at the start (length).
+    fn radius_at_start(&self) -> f64 {
+        let size = self.account.area / PI;
+        if self.state.shape.of_revolution { (0.75 * size).cbrt() } else { size.sqrt() }
+    }
+
     /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second
     /// time for the quadratic part).
     fn restore_area(&mut self) {
         for _ in 0..2 {
             let missing = self.account.area - self.area();
-            let total: f64 = self.geometry().weights.iter().sum();
+            let total = self.geometry().total_weight();
             self.inflate(missing / total);
         }
     }

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use motile_base::{InputError, Vec2, all_finite, not_negative, positive, same_length};
 
-use super::{Account, ActiveInterface, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, State};
+use super::{
+    Account, ActiveInterface, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
+    geometry::Geometry,
+};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport},
@@ -197,6 +200,51 @@ impl ActiveInterface {
         Ok(self)
     }
 
+    /// Makes the interface one of a body of revolution about the x axis in three dimensions, of which the markers, whose
+    /// first one is on the axis, are the meridian with its mirror image. Concentrations stay and become numbers per
+    /// area; the area that is kept becomes the volume, and tensions are per length.
+    ///
+    /// # Errors
+    /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the
+    /// fluid.
+    pub fn of_revolution(mut self) -> Result<Self, InterfaceError> {
+        let (markers, count) = (self.markers(), self.markers().len());
+        let differs = |k: &usize| {
+            let image = markers[(count - k) % count];
+            markers[*k].distance(Vec2::new(image.x, -image.y)) > 1e-9 * self.geometry().perimeter
+        };
+        let wrong = (0..count).find(|k| differs(k) || (!count.is_multiple_of(2) && 2 * k + 1 == count));
+        if let Some(Vec2 { x, y }) = wrong.map(|k| markers[k]) {
+            return Err(InterfaceError::NotOfRevolution { x, y });
+        }
+        if self.law.motion == Motion::WithFluid {
+            return Err(InterfaceError::NotOfRevolution { x: f64::NAN, y: f64::NAN });
+        }
+        self.scheme.spectral = Some(SpectralCurve::new(count)?);
+        (self.state.shape.of_revolution, self.scheme.other.of_revolution) = (true, true);
+        self.update();
+        let Geometry { lengths, rings, .. } = &self.state.shape.geometry;
+        for ((number, area), length) in self.state.numbers.iter_mut().zip(&rings.areas).zip(lengths) {
+            *number *= area / length;
+        }
+        self.update();
+        (self.account.area, self.account.number) = (self.area(), self.number());
+        Ok(self)
+    }
+
+    /// True for a body of revolution in three dimensions.
+    #[must_use]
+    pub fn is_of_revolution(&self) -> bool {
+        self.state.shape.of_revolution
+    }
+
+    /// Sizes of the segments, over which particle numbers are concentrations: their lengths (length), of a body of
+    /// revolution half of the areas of their rings (length squared).
+    #[must_use]
+    pub fn segment_sizes(&self) -> &[f64] {
+        self.state.shape.geometry.cells().sizes
+    }
+
     /// Switches the stabiliser (on by default), which makes the fast relaxation of crowded particles implicit: a
     /// diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and subtracted explicitly.
     #[must_use]
@@ -265,8 +313,9 @@ impl ActiveInterface {
         self.state.shape.advance
     }
 
-    /// Area of the polygon at the start (length squared); of an interface that is periodic along x that between it and
-    /// y = 0 in one period, positive where its inside is between them.
+    /// Area of the polygon at the start (length squared), of a body of revolution its volume (length cubed); of an
+    /// interface that is periodic along x the area between it and y = 0 in one period, positive where its inside is
+    /// between them.
     #[must_use]
     pub fn initial_area(&self) -> f64 {
         self.account.area

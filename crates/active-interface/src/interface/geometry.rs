@@ -2,6 +2,8 @@
 
 use motile_base::Vec2;
 
+use crate::concentration::Cells;
+
 /// Geometry of a polygon, closed or one period of one that is periodic along x, marker k followed by segment k.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Geometry {
@@ -18,6 +20,36 @@ pub(crate) struct Geometry {
     pub(crate) stretch: Vec<f64>,
     /// Sum of the lengths of the segments (length).
     pub(crate) perimeter: f64,
+    /// Rings of a surface of revolution; empty in the plane.
+    pub(crate) rings: Rings,
+}
+
+/// Halves of the rings that segments and markers of a surface of revolution stand for: its curve is the meridian with
+/// its mirror image.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Rings {
+    /// Areas of the segments (length squared).
+    pub(crate) areas: Vec<f64>,
+    /// Lengths of the circles at the markers (length).
+    pub(crate) circles: Vec<f64>,
+    /// Signed distances of the middles of the segments from the axis (length).
+    pub(crate) middles: Vec<f64>,
+    /// Weights of the markers in integrals over the surface (length squared), exact for trigonometric polynomials: the
+    /// distance from the axis times even functions is a series of sines over the meridian.
+    pub(crate) weights: Vec<f64>,
+}
+
+impl Rings {
+    /// Factors of the trapezoidal rule's weights for so many markers that integrate sines from 0 to pi exactly.
+    pub(crate) fn quadrature(count: usize) -> Vec<f64> {
+        let half = count / 2;
+        let factor = |k: usize| -> f64 {
+            let t = std::f64::consts::PI * k.min(count - k) as f64 / half as f64;
+            let sines = (1..half).step_by(2).map(|m| (m as f64 * t).sin() / m as f64);
+            4.0 / std::f64::consts::PI * sines.sum::<f64>()
+        };
+        (0..count).map(factor).collect()
+    }
 }
 
 impl Geometry {
@@ -50,6 +82,29 @@ impl Geometry {
         }
     }
 
+    /// Cells of particles.
+    pub(crate) fn cells(&self) -> Cells<'_> {
+        let Self { lengths, rings, .. } = self;
+        let sizes = if rings.areas.is_empty() { lengths } else { &rings.areas };
+        Cells { sizes, lengths, faces: &rings.circles }
+    }
+
+    /// Weight of a marker in an integral over the interface (length, or length squared).
+    fn weight(&self, marker: usize) -> f64 {
+        self.rings.weights.get(marker).copied().unwrap_or(self.weights[marker])
+    }
+
+    /// Volume of a body of revolution through these markers (length cubed).
+    pub(crate) fn volume(&self, markers: &[Vec2]) -> f64 {
+        let parts = markers.iter().zip(&self.tangents).enumerate();
+        parts.map(|(k, (x, tau))| self.weight(k) * (x - markers[0]).dot(outward(*tau)) / 3.0).sum()
+    }
+
+    /// Length of the interface, or area of a surface of revolution by the markers' weights.
+    pub(crate) fn total_weight(&self) -> f64 {
+        (0..self.weights.len()).map(|k| self.weight(k)).sum()
+    }
+
     /// Mean length of the segments (length).
     pub(crate) fn mean_length(&self) -> f64 {
         self.perimeter / self.lengths.len() as f64
@@ -69,11 +124,12 @@ pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
     square.sqrt() * std::f64::consts::TAU / geometry.perimeter
 }
 
-/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the arc weights, so that the
-/// area enclosed stays.
+/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the weights, so that the area
+/// or volume enclosed stays.
 pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], motion: &mut [Vec2]) {
     let (mut flux, mut total) = (0.0, 0.0);
-    for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(&geometry.weights) {
+    for (k, (u, tau)) in velocities.iter().zip(&geometry.tangents).enumerate() {
+        let w = geometry.weight(k);
         flux += u.dot(outward(*tau)) * w;
         total += w;
     }

@@ -4,7 +4,8 @@ use motile_base::Vec2;
 
 use super::{geometry::Geometry, spectral::SpectralCurve};
 
-/// Markers of a closed curve, or of one period of a curve that is periodic along x, with the geometry of the curve through them.
+/// Markers of a closed curve, or of one period of a curve that is periodic along x, with the geometry of the curve
+/// through them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Shape {
     /// Positions (length), counter-clockwise, or with the inside to the left.
@@ -12,6 +13,8 @@ pub(crate) struct Shape {
     /// Advance along x from the first marker to its next image (length), zero for a closed curve.
     pub(crate) advance: f64,
     pub(crate) geometry: Geometry,
+    /// True for the meridian of a surface of revolution with its mirror image.
+    pub(crate) of_revolution: bool,
     /// Count of computations of the geometry, for tests.
     pub(crate) evaluations: usize,
 }
@@ -39,7 +42,12 @@ impl Shape {
     pub(crate) fn update(&mut self, spectral: Option<&mut SpectralCurve>) {
         self.evaluations += 1;
         match spectral.filter(|spectral| spectral.len() == self.markers.len()) {
-            Some(spectral) => spectral.update(&self.markers, self.advance, &mut self.geometry),
+            Some(spectral) => {
+                spectral.update(&self.markers, self.advance, &mut self.geometry);
+                if self.of_revolution {
+                    spectral.update_rings(&self.markers, &mut self.geometry);
+                }
+            }
             None => self.geometry.update(&self.markers, self.advance),
         }
     }

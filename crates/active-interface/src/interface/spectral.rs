@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use motile_base::{InputError, PeriodicSeries, Vec2};
 use num_complex::Complex64;
 
-use super::geometry::{Geometry, add_tangential_motion, write_normal_motion};
+use super::geometry::{Geometry, Rings, add_tangential_motion, write_normal_motion};
 
 /// Fourier series along a closed curve of M markers, marker k at the parameter alpha = 2 pi k / M, or along one period
 /// of a curve that is periodic along x, whose steady advance is not part of the series.
@@ -16,10 +16,17 @@ use super::geometry::{Geometry, add_tangential_motion, write_normal_motion};
 pub(crate) struct SpectralCurve {
     vectors: PeriodicSeries,
     numbers: PeriodicSeries,
+    /// Factors of a quadrature over the meridian, of a body of revolution.
+    quadrature: Vec<f64>,
 }
 
 fn vector(z: Complex64) -> Vec2 {
     Vec2::new(z.re, z.im)
+}
+
+/// Integral of exp(i wave alpha) over a segment from alpha = 0 on.
+fn segment_integral(wave: f64, spacing: f64) -> Complex64 {
+    if wave == 0.0 { spacing.into() } else { (Complex64::cis(wave * spacing) - 1.0) / Complex64::new(0.0, wave) }
 }
 
 /// Computes the coefficients of as many samples as the series has, which cannot fail.
@@ -30,7 +37,7 @@ fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = C
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Result<Self, InputError> {
         let series = PeriodicSeries::new(count)?;
-        Ok(Self { vectors: series.clone(), numbers: series })
+        Ok(Self { vectors: series.clone(), numbers: series, quadrature: Vec::new() })
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -65,18 +72,69 @@ impl SpectralCurve {
         // The unpaired wave of an even number of markers, all minima and maxima at the markers, adds nothing.
         let count = self.len();
         self.numbers.scale(|m| if 2 * m < count { 1.0 } else { 0.0 });
-        self.numbers.multiply(|wave| {
-            if wave == 0.0 {
-                spacing.into()
-            } else {
-                (Complex64::cis(wave * spacing) - 1.0) / Complex64::new(0.0, wave)
-            }
-        });
+        self.numbers.multiply(|wave| segment_integral(wave, spacing));
         geometry.perimeter = 0.0;
         for (length, value) in geometry.lengths.iter_mut().zip(self.numbers.values()) {
             *length = value.re;
             geometry.perimeter += value.re;
         }
+    }
+
+    /// Computes the rings of a surface of revolution, after [`SpectralCurve::update`].
+    pub(crate) fn update_rings(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+        let (count, spacing) = (self.len(), TAU / self.len() as f64);
+        let Rings { areas, circles, middles, weights } = &mut geometry.rings;
+        for list in [&mut *areas, circles, middles, weights] {
+            list.resize(count, 0.0);
+        }
+        if self.quadrature.len() != count {
+            self.quadrature = Rings::quadrature(count);
+        }
+        analyse(&mut self.numbers, markers.iter().map(|x| x.y.into()));
+        self.numbers.shift(0.5 * spacing);
+        for (middle, value) in middles.iter_mut().zip(self.numbers.values()) {
+            *middle = value.re;
+        }
+        for (circle, x) in circles.iter_mut().zip(markers) {
+            *circle = PI * x.y.abs();
+        }
+        for (k, weight) in weights.iter_mut().enumerate() {
+            *weight = self.quadrature[k] * circles[k] * geometry.weights[k];
+        }
+        let products = markers.iter().zip(&geometry.stretch);
+        analyse(&mut self.numbers, products.map(|(x, stretch)| (PI * x.y * stretch).into()));
+        self.numbers.multiply(|wave| segment_integral(wave, spacing));
+        for (area, value) in areas.iter_mut().zip(self.numbers.values()) {
+            *area = value.re.abs();
+        }
+    }
+
+    /// Forces of the tensions of segments on a surface of revolution (force), those on halves of rings: `pi INT g
+    /// dalpha` over a marker's piece with `g_x = d(gamma y tau_x)/dalpha`, `g_y = d(gamma y tau_y)/dalpha - gamma
+    /// |X_alpha|`, mirrored below the axis, as densities at the markers times the spacing.
+    pub(crate) fn ring_forces(&mut self, geometry: &Geometry, tensions: &[f64], forces: &mut [Vec2]) {
+        let (count, spacing) = (self.len(), TAU / self.len() as f64);
+        let pull = |k: usize| PI * tensions[k] * geometry.rings.middles[k] * geometry.directions[k];
+        let mut before = pull(count - 1);
+        for (k, force) in forces.iter_mut().enumerate() {
+            let here = pull(k);
+            *force = here - before;
+            before = here;
+        }
+        self.sharpen(forces);
+        // The pull around the axis, from the middles of the segments to the markers.
+        let around = tensions.iter().zip(&geometry.lengths).map(|(tension, length)| PI * tension * length);
+        analyse(&mut self.numbers, around.map(Complex64::from));
+        self.numbers.multiply(|wave| {
+            let half = 0.5 * wave * spacing;
+            Complex64::cis(-half) * if half == 0.0 { 1.0 } else { half / half.sin() }
+        });
+        for (k, (force, around)) in forces.iter_mut().zip(self.numbers.values()).enumerate() {
+            force.y -= around.re;
+            *force = if 2 * k > count { -*force } else { *force };
+        }
+        // Both parts cancel at the poles.
+        (forces[0], forces[count / 2]) = (Vec2::ZERO, Vec2::ZERO);
     }
 
     /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density

@@ -19,7 +19,7 @@ pub enum Convention {
 
 impl Convention {
     /// Factor of the viscous term between viscosities inside and outside (stress times time).
-    fn factor(self, [inside, outside]: [f64; 2]) -> Result<f64, InputError> {
+    pub(super) fn factor(self, [inside, outside]: [f64; 2]) -> Result<f64, InputError> {
         let difference = finite("the viscosity outside", outside)? - finite("the viscosity inside", inside)?;
         Ok(if self == Self::FarField { difference } else { -difference })
     }
@@ -49,6 +49,8 @@ pub struct ForceMoments {
     pub dipole: [[f64; 2]; 2],
     /// F_ijk (force times length squared); `None` with a rigid body inside, on whose surface the forces are not known.
     pub quadrupole: Option<[[[f64; 2]; 2]; 2]>,
+    /// True for a body of revolution in three dimensions, whose dipole across both directions is F_yy.
+    pub in_space: bool,
 }
 
 impl ForceMoments {
@@ -57,8 +59,9 @@ impl ForceMoments {
     #[must_use]
     pub fn stresslet(&self) -> [[f64; 2]; 2] {
         let [[xx, xy], [yx, yy]] = self.dipole;
-        let (half, off) = (0.5 * (xx - yy), 0.5 * (xy + yx));
-        [[half, off], [off, -half]]
+        let (along, across) = if self.in_space { (2.0 / 3.0, -1.0 / 3.0) } else { (0.5, -0.5) };
+        let off = 0.5 * (xy + yx);
+        [[along * (xx - yy), off], [off, across * (xx - yy)]]
     }
 
     /// Adds the moments of a body inside.

@@ -38,6 +38,7 @@ fn record(count: usize, heading: f64) -> Observables {
         viscosities: [100.0, 100.0],
         inside: None,
         enclosed: Vec::new(),
+        of_revolution: false,
     };
     observe(&state, Convention::FarField).unwrap()
 }
@@ -95,6 +96,7 @@ fn a_drop_without_particles_at_rest() {
         viscosities,
         inside: None,
         enclosed: Vec::new(),
+        of_revolution: false,
     };
     let record = observe(&state, Convention::AsPrinted).unwrap();
     assert_eq!(record.get("concentration_max"), None);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
-use boundary_integral::{BoundaryIntegral, Settings};
+use boundary_integral::{BoundaryIntegral, RevolutionIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
 use interior_fields::{GelInBox, ParticlesInDroplet};
@@ -86,7 +86,7 @@ impl Setup {
         }
         let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
         let (gels, interfaces) = (handles(&scene), handles(&scene));
-        if self.mirror_symmetric {
+        if self.mirror_symmetric || self.region.is_of_revolution() {
             scene = scene.held_symmetric()?;
         }
         Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels, interfaces })
@@ -152,6 +152,7 @@ impl Setup {
         };
         let made = made.with_name(&droplet.name).with_motion(droplet.motion);
         let made = made.with_area_constraint(droplet.area_constraint);
+        let made = if self.region.is_of_revolution() { made.of_revolution()? } else { made };
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
@@ -226,20 +227,28 @@ impl Setup {
 
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod) -> Result<AnyFlow, SetupError> {
         let settings = Settings { nodes, ..Settings::default() };
+        if self.region.is_of_revolution() {
+            let perimeter = self.shortest_perimeter()?.unwrap_or(TAU);
+            return Ok(Box::new(RevolutionIntegral::new(self.region, self.viscosity, settings, perimeter)?));
+        }
         let mut flow = BoundaryIntegral::new(self.region, self.viscosity, settings)?;
         if !self.walls.is_empty() {
             flow = flow.with_walls(&self.rigid_walls()?)?;
         }
+        Ok(Box::new(match self.shortest_perimeter()? {
+            Some(perimeter) => flow.with_reference_perimeter(perimeter)?,
+            None => flow,
+        }))
+    }
+
+    /// Perimeter of the smallest droplet or shell (length).
+    fn shortest_perimeter(&self) -> Result<Option<f64>, SetupError> {
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape).chain(self.shells.iter().map(|s| &s.shape));
         let perimeters = shapes.map(|shape| match shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),
         });
-        let shortest = perimeters.collect::<Result<Vec<f64>, SetupError>>()?.into_iter().reduce(f64::min);
-        Ok(Box::new(match shortest {
-            Some(perimeter) => flow.with_reference_perimeter(perimeter)?,
-            None => flow,
-        }))
+        Ok(perimeters.collect::<Result<Vec<f64>, SetupError>>()?.into_iter().reduce(f64::min))
     }
 
     /// True if there is fluid of another viscosity than the exterior one.

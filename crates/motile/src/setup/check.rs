@@ -37,6 +37,9 @@ impl Setup {
                 }
             }
         }
+        if self.region.is_of_revolution() {
+            self.check_revolution()?;
+        }
         match &self.method {
             Method::Integral(integral) => integral.check("method.integral")?,
             Method::Layers(layers) => self.check_layers(layers)?,
@@ -71,6 +74,57 @@ impl Setup {
             wall.check(&format!("walls[{number}]"), self)?;
         }
         self.check_correction()
+    }
+
+    /// Refuses what has no meaning or no method for bodies of revolution in three dimensions.
+    fn check_revolution(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        let refuse = |key: &str, value: &dyn std::fmt::Display, remedy: &str| {
+            top.refuse(key, value, format!("{remedy}, or a region of the plane"))
+        };
+        if self.method.kind() != MethodKind::Integral {
+            return refuse("method", &self.method.kind().key(), "three dimensions have no grid: give integral");
+        }
+        let planar = [
+            ("solids", self.solids.len()),
+            ("rigid-bodies", self.rigid_bodies.len()),
+            ("shells", self.shells.len()),
+            ("gels", self.gels.len()),
+            ("walls", self.walls.len()),
+            ("interfaces", self.interfaces.len()),
+        ];
+        if let Some((key, count)) = planar.into_iter().find(|(_, count)| *count > 0) {
+            return refuse(key, &count, "they are bodies of two dimensions: leave them out");
+        }
+        if self.repulsion.is_some() {
+            return refuse("repulsion", &"given", "it is one of curves: leave it out");
+        }
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            let checked = Checked { place: &format!("droplets[{number}]") };
+            let refuse = |key: &str, value: &dyn std::fmt::Display, remedy: &str| {
+                checked.refuse(key, value, format!("{remedy}, or a region of the plane"))
+            };
+            if droplet.centre[1] != 0.0 {
+                return refuse("centre[1]", &droplet.centre[1], "bodies of revolution are on the x axis: give 0");
+            }
+            if droplet.angle.sin().abs() > 1e-12 {
+                return refuse(
+                    "angle",
+                    &droplet.angle,
+                    "a droplet swims along the x axis: give 0, or pi for backwards",
+                );
+            }
+            if droplet.motion == Motion::WithFluid {
+                return refuse("motion", &"with-fluid", "its markers lose their images: give equidistributed");
+            }
+            if droplet.gel.is_some() {
+                return refuse("gel", &"given", "gels are of two dimensions: leave it out");
+            }
+            if droplet.particles.is_some_and(|particles| particles.exchange.is_some()) {
+                return refuse("particles.exchange", &"given", "it is one of two dimensions: leave it out");
+            }
+        }
+        Ok(())
     }
 
     /// Refuses a body that the method cannot compute.

@@ -14,7 +14,7 @@ pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_CELLS as f64];
 ///
 /// | | integral | layers | grid |
 /// |---|---|---|---|
-/// | region | plane, box, channel | box, channel | box, channel |
+/// | region | plane, box, channel; space, tube | box, channel | box, channel |
 /// | droplets, shells | spectral | spectral | second order, uncorrected first |
 /// | in one another, of other viscosities | spectral | spectral | first order, uncorrected |
 /// | rigid bodies | spectral | spectral | |

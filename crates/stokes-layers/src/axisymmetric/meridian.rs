@@ -95,12 +95,29 @@ pub(super) struct Half {
     intervals: usize,
     /// cos(pi m/intervals) for m = 0 .. 2 intervals - 1.
     cosines: Vec<f64>,
+    /// Weights of the points in integrals of sines from 0 to pi.
+    weights: Vec<f64>,
+}
+
+/// Integral from 0 to pi of a series of sines, coefficient k at the wave k.
+pub(super) fn integral(sines: &[f64]) -> f64 {
+    sines.iter().enumerate().skip(1).step_by(2).map(|(k, value)| 2.0 * value / k as f64).sum()
 }
 
 impl Half {
     pub(super) fn new(intervals: usize) -> Self {
         let angle = |m: usize| PI * m as f64 / intervals as f64;
-        Self { intervals, cosines: (0..2 * intervals).map(|m| angle(m).cos()).collect() }
+        let weight = |j: usize| -> f64 {
+            let wave = |k: usize| (k as f64 * angle(j)).sin() * 4.0 / (intervals * k) as f64;
+            (1..intervals).step_by(2).map(wave).sum()
+        };
+        let cosines = (0..2 * intervals).map(|m| angle(m).cos()).collect();
+        Self { intervals, cosines, weights: (0..=intervals).map(weight).collect() }
+    }
+
+    /// Integral from 0 to pi of the series of sines through values at the points.
+    pub(super) fn integral(&self, value: impl Fn(usize) -> f64) -> f64 {
+        self.weights.iter().enumerate().map(|(j, weight)| weight * value(j)).sum()
     }
 
     pub(super) fn intervals(&self) -> usize {
@@ -290,6 +307,15 @@ impl Meridian {
             }
         }
         2.0 * Vec2::new(x.iter().sum(), r.iter().sum())
+    }
+
+    /// Adds a uniform force per area along x, of the sum `total` over the parameter (force per azimuth).
+    pub(super) fn add_uniform_force(&mut self, grid: &Grid, total: f64) {
+        let rings: Vec<f64> = self.nodes.iter().map(|node| node.place.y * node.tangent.length()).collect();
+        let mut series = Pair::new(grid.largest() + 1);
+        grid.analyse(&rings, &rings, &mut series);
+        let factor = total / integral(&series.sin);
+        self.force.sin.iter_mut().zip(&series.sin).for_each(|(force, ring)| *force += factor * ring);
     }
 
     /// Takes over forces whose coefficients have been set.

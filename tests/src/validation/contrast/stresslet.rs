@@ -48,7 +48,16 @@ impl Exact {
                 [markers.positions(), markers.forces(), markers.velocities()].map(|list| &list[range.clone()]);
             let viscosities = [self.droplets[index].ratio, 1.0];
             let (numbers, inside, enclosed) = (&[][..], None, Vec::new());
-            let state = InterfaceState { markers, forces, velocities, numbers, viscosities, inside, enclosed };
+            let state = InterfaceState {
+                markers,
+                forces,
+                velocities,
+                numbers,
+                viscosities,
+                inside,
+                enclosed,
+                of_revolution: false,
+            };
             let seen = observe(&state, Convention::FarField)?;
             let [[along, across], _] = seen.moments.stresslet();
             // Back from the droplet's axes.

@@ -1,0 +1,111 @@
+//! Hydrodynamics of bodies of revolution by boundary integrals.
+
+use std::f64::consts::TAU;
+
+use motile_base::{FlowSample, Region, SolveReport, Vec2, all_points_finite};
+use motile_scene::{
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, Markers, checkpoint::SavedState,
+};
+use stokes_layers::{LayerError, Settings, axisymmetric::AxisymmetricFlow};
+
+/// Stokes flow in three dimensions of bodies of revolution about the x axis, in unbounded fluid or in a straight tube:
+/// [`AxisymmetricFlow`], which has the equations, for the markers of bodies.
+///
+/// Every body is a group of markers of a closed curve, the meridian with its mirror image, as many as nodes or more,
+/// equally spaced in the parameter; forces are those on halves of rings.
+#[derive(Debug, Clone)]
+pub struct RevolutionIntegral {
+    flow: AxisymmetricFlow,
+    region: Region,
+    work: FlowWork,
+    stiffness: f64,
+}
+
+impl RevolutionIntegral {
+    /// A solver for exterior fluid of the given viscosity (stress times time) in space or in a tube, with interfaces of
+    /// that perimeter of the closed curve (length) until they are known.
+    ///
+    /// # Errors
+    /// A region of the plane; a viscosity that is not positive and finite; settings out of their range.
+    pub fn new(region: Region, viscosity: f64, settings: Settings, perimeter: f64) -> Result<Self, LayerError> {
+        let flow = AxisymmetricFlow::new(viscosity, settings)?;
+        let flow = match region {
+            Region::Space => flow,
+            Region::Tube { radius } => flow.with_tube(radius)?,
+            _ => return Err(LayerError::InTwoDimensions),
+        };
+        let stiffness = stiffness(settings.nodes, perimeter);
+        Ok(Self { flow, region, work: FlowWork::default(), stiffness })
+    }
+
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        let mut shortest = f64::INFINITY;
+        for group in markers.groups() {
+            if !group.kind.is_curve() {
+                return Err(FlowError::Unsupported {
+                    what: "points in the fluid around bodies of revolution",
+                    remedy: "give droplets and rigid bodies of revolution alone, or a region of the plane",
+                });
+            }
+            let places = &markers.positions()[group.range.clone()];
+            let next = places.iter().cycle().skip(1);
+            shortest = shortest.min(places.iter().zip(next).map(|(a, b)| a.distance(*b)).sum());
+        }
+        if shortest.is_finite() {
+            self.stiffness = stiffness(self.flow.settings().nodes, shortest);
+        }
+        let exterior = self.flow.viscosity();
+        let surface = |group: &MarkerGroup| group.interface(markers.positions(), markers.forces(), exterior);
+        Ok(self.flow.load(markers.groups().iter().map(surface))?)
+    }
+}
+
+/// A quarter of the largest wave number of a curve: waves of a drop relax as those of an interface in the plane.
+fn stiffness(nodes: usize, perimeter: f64) -> f64 {
+    0.25 * (nodes / 2) as f64 * TAU / perimeter
+}
+
+impl Hydrodynamics for RevolutionIntegral {
+    fn fluid_view(&self) -> FluidView {
+        FluidView {
+            domain: Domain::from(self.region),
+            viscosity: self.flow.viscosity(),
+            spacing: None,
+            second_order: true,
+            shape_modes: Some(self.flow.settings().nodes),
+            interface_stiffness: self.stiffness,
+        }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        self.load(markers)?;
+        self.work.evaluations += 1;
+        self.flow.solve()?;
+        let ranges: Vec<_> = markers.groups().iter().map(|group| group.range.clone()).collect();
+        for (surface, range) in ranges.into_iter().enumerate() {
+            self.flow.velocities(surface, &mut markers.velocities_mut()[range])?;
+        }
+        Ok(SolveReport::default())
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        all_points_finite("the points to sample", points)?;
+        self.load(markers)?;
+        self.flow.solve()?;
+        Ok(self.flow.sample(points, out)?)
+    }
+
+    fn work(&self) -> FlowWork {
+        self.work
+    }
+
+    fn save(&self) -> SavedState {
+        SavedState { reals: vec![self.stiffness], counts: Vec::new() }
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        if let [stiffness] = saved.reals[..] {
+            self.stiffness = stiffness;
+        }
+    }
+}
