@@ -1,6 +1,7 @@
 //! Physics across the crates: each claim of the documentation against something exact or computed independently.
 
 mod allocation;
+mod bending;
 mod channel;
 mod contact;
 mod contrast;

@@ -123,6 +123,14 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_viscosity_inside(viscosity)?, ..self })
     }
 
+    /// See [`ActiveInterface::with_bending`].
+    ///
+    /// # Errors
+    /// A modulus that is negative or not finite, a reference curvature that is not finite.
+    pub fn with_bending(self, modulus: f64, reference_curvature: f64) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_bending(modulus, reference_curvature)?, ..self })
+    }
+
     /// See [`ActiveInterface::with_open_number`].
     #[must_use]
     pub fn with_open_number(self) -> Self {

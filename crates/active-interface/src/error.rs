@@ -121,6 +121,10 @@ pub enum InterfaceError {
         /// Part of the particles on the fullest segment.
         part: f64,
     },
+    /// Bending of an interface whose markers are inserted and removed, so that no smooth curve goes through them, or of
+    /// one of revolution.
+    #[error("bending needs a fixed number of markers in two dimensions: move them by Motion::Equidistributed")]
+    UnevenBending,
     /// Negative particle numbers without as many particles elsewhere to make up for them.
     #[error("the particle numbers add up to {total}: give numbers with a positive sum, or a smaller time step")]
     NoParticles {

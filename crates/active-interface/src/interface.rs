@@ -2,6 +2,7 @@
 //!
 //! A droplet adds what only a closed curve has: particles inside, moments, and a radius to be resolved.
 
+mod bending;
 mod body;
 mod build;
 mod elasticity;
@@ -23,6 +24,7 @@ use crate::{
     concentration::{Cells, Repair, Transport},
     curve::{CrossingFinder, MINIMUM_MARKERS},
 };
+use bending::Bending;
 use elasticity::Elasticity;
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
@@ -83,6 +85,8 @@ pub(crate) struct Law {
     pub(crate) keeps_area: bool,
     /// Elasticity along the interface, if it is a membrane.
     pub(crate) elasticity: Option<Elasticity>,
+    /// Bending, if the interface resists it.
+    pub(crate) bending: Option<Bending>,
 }
 
 /// Unknowns of an interface: marker positions (with their geometry) and the particle numbers of the segments.
@@ -156,6 +160,7 @@ pub(crate) struct Account {
 /// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
 /// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (Cowley (2.5), (2.31); t_k along segment
 /// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (Cowley (2.3)).
+/// An interface may resist bending ([`ActiveInterface::with_bending`]).
 #[derive(Debug, Clone)]
 pub struct ActiveInterface {
     name: String,
@@ -233,11 +238,11 @@ impl ActiveInterface {
     }
 
     /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and those
-    /// of elasticity where there is some.
+    /// of elasticity and bending where there are any.
     ///
     /// # Errors
     /// Those of [`ActiveInterface::fit`].
-    fn tension_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
+    fn all_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
         self.fit(view)?;
         let Shape { geometry, of_revolution, .. } = &self.state.shape;
         if let Some(spectral) = self.scheme.spectral.as_mut().filter(|_| *of_revolution) {
@@ -255,8 +260,12 @@ impl ActiveInterface {
         if let Some(spectral) = self.scheme.spectral.as_mut() {
             spectral.sharpen(forces);
         }
+        let Law { elasticity, bending, .. } = &mut self.law;
         let Shape { markers, advance, .. } = &self.state.shape;
-        self.law.elasticity.as_mut().map_or(Ok(()), |elasticity| elasticity.add_forces(markers, *advance, forces))
+        if let Some(elasticity) = elasticity {
+            elasticity.add_forces(markers, *advance, forces)?;
+        }
+        bending.as_mut().map_or(Ok(()), |bending| bending.add_forces(markers, *advance, forces))
     }
 
     /// Takes over the finite state of an interface of `count` markers.

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{InputError, PeriodicSeries, Vec2, all_points_finite, not_negative, positive, same_length};
+use motile_base::{CurveForces, InputError, Vec2, all_points_finite, not_negative, positive, same_length};
 use motile_scene::{Body, BodyError, FluidView, MarkerKind, StepLimit, points};
-use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use crate::{SolidError, rigid_body::closed_outline};
@@ -59,11 +58,7 @@ pub struct Shell {
     lengths: Vec<f64>,
     curvatures: Vec<f64>,
     area: f64,
-    series: PeriodicSeries,
-    /// First and second derivative of the position by the parameter (length).
-    slopes: [Vec<Complex64>; 2],
-    /// Derivatives of the energy density by both (force).
-    pulls: [Vec<Complex64>; 2],
+    curve: CurveForces,
     /// Truncation of the motion where the flow resolves fewer modes than there are markers.
     modes: Option<usize>,
     motions: Vec<Vec2>,
@@ -80,7 +75,6 @@ impl Shell {
         not_negative("the bending modulus", bending)?;
         let (positions, area, _) = closed_outline(points)?;
         let count = positions.len();
-        let zeros = vec![Complex64::ZERO; count];
         let mut shell = Self {
             name: "shell".to_owned(),
             positions,
@@ -91,19 +85,16 @@ impl Shell {
             lengths: Vec::new(),
             curvatures: Vec::new(),
             area,
-            series: PeriodicSeries::new(count)?,
-            slopes: [zeros.clone(), zeros.clone()],
-            pulls: [zeros.clone(), zeros],
+            curve: CurveForces::new(count)?,
             modes: None,
             motions: vec![Vec2::ZERO; count],
         };
-        shell.differentiate()?;
-        shell.lengths = shell.slopes[0].iter().map(|slope| slope.norm()).collect();
+        shell.curve.move_to(&shell.positions)?;
+        shell.lengths = shell.curve.measures().map(|[speed, _]| speed).collect();
         for &length in &shell.lengths {
             positive("the distance of neighbouring points", length)?;
         }
-        let [first, second] = &shell.slopes;
-        shell.curvatures = first.iter().zip(second).map(|(d, dd)| (d.conj() * dd).im / d.norm().powi(3)).collect();
+        shell.curvatures = shell.curve.measures().map(|[speed, cross]| cross / speed.powi(3)).collect();
         Ok(shell)
     }
 
@@ -145,9 +136,9 @@ impl Shell {
         same_length("the points of a shell", self.positions.len(), points.len())?;
         all_points_finite("the points of a shell", points)?;
         self.positions.copy_from_slice(points);
-        self.differentiate()?;
-        for slope in &self.slopes[0] {
-            positive("the distance of neighbouring points", slope.norm())?;
+        self.curve.move_to(points)?;
+        for [speed, _] in self.curve.measures() {
+            positive("the distance of neighbouring points", speed)?;
         }
         Ok(self)
     }
@@ -170,70 +161,44 @@ impl Shell {
         let sum: f64 = self
             .strains()
             .zip(&self.lengths)
-            .map(|([stretch, bend, _], length)| {
+            .map(|([stretch, bend], length)| {
                 length * (self.stretching * (stretch - 1.0).powi(2) + self.bending * bend * bend)
             })
             .sum();
         0.5 * sum * TAU / self.positions.len() as f64
     }
 
-    /// Stretch, change of the bending measure from that at rest, and the measure itself, at each point.
-    fn strains(&self) -> impl Iterator<Item = [f64; 3]> {
-        let [first, second] = &self.slopes;
+    /// Stretch, and change of the bending measure from that at rest (1/length), at each point.
+    fn strains(&self) -> impl Iterator<Item = [f64; 2]> {
         let rest = self.lengths.iter().zip(&self.curvatures);
-        first.iter().zip(second).zip(rest).map(|((d, dd), (length, curvature))| {
-            let stretch = d.norm() / length;
-            let mut bend = (d.conj() * dd).im / d.norm().powi(3);
-            if self.measure == BendingMeasure::TurningAngle {
-                bend *= stretch;
-            }
-            [stretch, bend - curvature, bend]
+        self.curve.measures().zip(rest).map(|([speed, cross], (length, curvature))| {
+            let stretch = speed / length;
+            let bend = cross / speed.powi(3);
+            let measured = match self.measure {
+                BendingMeasure::Curvature => bend,
+                BendingMeasure::TurningAngle => bend * stretch,
+            };
+            [stretch, measured - curvature]
         })
-    }
-
-    /// Brings the derivatives up to date.
-    fn differentiate(&mut self) -> Result<(), InputError> {
-        self.series.analyse_vectors(&self.positions)?;
-        for slope in &mut self.slopes {
-            self.series.differentiate();
-            slope.copy_from_slice(self.series.values());
-        }
-        Ok(())
     }
 
     /// Writes the elastic forces on the fluid (force): minus the gradient of the energy by the points.
     fn forces(&mut self, forces: &mut [Vec2]) -> Result<(), InputError> {
-        let turns = Complex64::I;
-        // The energy density changes by P . dX' + Q . dX'', X' and X'' the derivatives by the parameter.
-        let power = match self.measure {
-            BendingMeasure::Curvature => 3.0,
-            BendingMeasure::TurningAngle => 2.0,
-        };
-        let mut pulls = std::mem::take(&mut self.pulls);
-        let [first, second] = &mut pulls;
-        for (index, [stretch, change, measure]) in self.strains().enumerate() {
-            let [d, dd] = [self.slopes[0][index], self.slopes[1][index]];
-            let (speed, length) = (d.norm(), self.lengths[index]);
-            let moment = self.bending * change * length;
-            let by_product = match self.measure {
-                BendingMeasure::Curvature => moment / speed.powi(3),
-                BendingMeasure::TurningAngle => moment / (speed * speed * length),
+        let Self { curve, lengths, curvatures, stretching, bending, measure, .. } = self;
+        forces.fill(Vec2::ZERO);
+        let pull = |index: usize, [speed, cross]: [f64; 2]| {
+            let length = lengths[index];
+            // The measure is w over this power of v, over the reference length to make up for it.
+            let (power, unit) = match measure {
+                BendingMeasure::Curvature => (3, 1.0),
+                BendingMeasure::TurningAngle => (2, length),
             };
-            let along = self.stretching * (stretch - 1.0) - power * moment * measure / speed;
-            first[index] = along * d / speed - by_product * turns * dd;
-            second[index] = by_product * turns * d;
-        }
-        self.series.analyse(second.iter().copied())?;
-        self.series.differentiate();
-        first.iter_mut().zip(self.series.values()).for_each(|(first, value)| *first -= value);
-        self.series.analyse(first.iter().copied())?;
-        self.pulls = pulls;
-        self.series.differentiate();
-        let weight = TAU / self.positions.len() as f64;
-        for (force, value) in forces.iter_mut().zip(self.series.values()) {
-            *force = weight * Vec2::new(value.re, value.im);
-        }
-        Ok(())
+            let per_cross = 1.0 / (speed.powi(power) * unit);
+            let moment = *bending * (cross * per_cross - curvatures[index]) * length;
+            let along = *stretching * (speed / length - 1.0);
+            [along - f64::from(power) * moment * cross * per_cross / speed, moment * per_cross]
+        };
+        curve.add(pull, forces)
     }
 }
 
@@ -256,7 +221,7 @@ impl Body for Shell {
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.modes = view.shape_modes.filter(|&modes| modes < self.positions.len());
-        self.differentiate()?;
+        self.curve.move_to(&self.positions)?;
         Ok(self.forces(forces)?)
     }
 
@@ -281,7 +246,7 @@ impl Body for Shell {
         self.motions.copy_from_slice(velocities);
         if let Some(modes) = self.modes {
             // As long as the series, so that the call cannot fail.
-            let _ = self.series.truncate_vectors(&mut self.motions, modes);
+            let _ = self.curve.truncate(&mut self.motions, modes);
         }
         points::write(&self.motions, rate);
     }
@@ -298,7 +263,7 @@ impl Body for Shell {
             None => 4.0 * view.interface_stiffness,
         };
         let (mut stretched, mut tension) = (1.0_f64, 0.0_f64);
-        for [stretch, ..] in self.strains() {
+        for [stretch, _] in self.strains() {
             stretched = stretched.max(stretch).max(1.0 / stretch);
             tension = tension.max(self.stretching * (stretch - 1.0).abs());
         }

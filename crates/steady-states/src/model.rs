@@ -126,13 +126,17 @@ impl Model {
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "give the method of boundary integrals");
         };
-        let [DropletSetup { particles: Some(particles), tension, viscosity, shape, .. }] = setup.droplets.as_slice()
+        let [DropletSetup { particles: Some(particles), tension, viscosity, shape, bending, .. }] =
+            setup.droplets.as_slice()
         else {
             return refuse("the scene is not of one active droplet", "give one droplet with particles");
         };
         if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some()
         {
             return refuse("the scene has solids, shells, shaped walls or a repulsion", "leave them out");
+        }
+        if *bending > 0.0 {
+            return refuse("the interface resists bending", "leave the bending out");
         }
         let disc = |body: &RigidBodySetup| match body.shape {
             DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),

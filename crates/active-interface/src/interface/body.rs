@@ -45,7 +45,11 @@ impl Body for ActiveInterface {
     }
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        Ok(self.tension_forces(view, forces)?)
+        let uneven = self.law.motion == Motion::WithFluid || self.state.shape.of_revolution;
+        if self.law.bending.is_some() && uneven {
+            return Err(InterfaceError::UnevenBending.into());
+        }
+        Ok(self.all_forces(view, forces)?)
     }
 
     /// Two coordinates a marker, and a particle number a segment where there are particles.
@@ -131,7 +135,7 @@ impl Body for ActiveInterface {
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
 
-    /// Viscosity, tension law and diffusion, and the number of markers at the start.
+    /// Viscosity, tension law, diffusion and bending, and the number of markers at the start.
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = Vec::new();
         let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
@@ -144,6 +148,10 @@ impl Body for ActiveInterface {
         if let Some(elasticity) = &self.law.elasticity {
             push("the stretching modulus", elasticity.stretching);
             push("the bending modulus", elasticity.bending);
+        }
+        if let Some(bending) = &self.law.bending {
+            push("the bending modulus", bending.modulus);
+            push("the reference curvature", bending.reference);
         }
         push("the number of markers at the start", self.account.markers as f64);
         let mut length = self.advance().abs();

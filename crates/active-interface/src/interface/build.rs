@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use motile_base::{InputError, Vec2, all_finite, not_negative, positive, same_length};
+use motile_base::{InputError, Vec2, all_finite, finite, not_negative, positive, same_length};
 
 use super::{
-    Account, ActiveInterface, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
-    geometry::Geometry,
+    Account, ActiveInterface, Bending, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve,
+    State, geometry::Geometry,
 };
 use crate::{
     Flux, InterfaceError, Tension,
@@ -103,6 +103,7 @@ impl ActiveInterface {
             viscosity_inside: None,
             keeps_area: false,
             elasticity: None,
+            bending: None,
         };
         let account = Account {
             spacing: 0.0,
@@ -260,6 +261,34 @@ impl ActiveInterface {
     pub fn with_viscosity_inside(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
         self.law.viscosity_inside = Some(positive("the viscosity inside", viscosity)?);
         Ok(self)
+    }
+
+    /// Makes the interface resist bending, with the energy `B/2 INT (kappa - kappa0)^2 ds` over its present length
+    /// (Helfrich, "Elastic properties of lipid bilayers: theory and possible experiments"), kappa its curvature
+    /// (1/length; positive for a circle). The forces are minus the gradient of this energy by the markers, with the
+    /// derivatives of the Fourier series through them. On a circle of radius R a mode k then relaxes as if the tension
+    /// were larger by `B (k^2 - 3/2)/R^2 + B kappa0^2/2`.
+    ///
+    /// # Errors
+    /// A modulus B (force times length squared) that is negative or not finite, a reference curvature kappa0 (1/length)
+    /// that is not finite.
+    pub fn with_bending(mut self, modulus: f64, reference_curvature: f64) -> Result<Self, InterfaceError> {
+        not_negative("the bending modulus", modulus)?;
+        finite("the reference curvature", reference_curvature)?;
+        self.law.bending = match modulus {
+            0.0 => None,
+            _ => Some(Bending::new(modulus, reference_curvature, self.markers().len())?),
+        };
+        Ok(self)
+    }
+
+    /// Energy of bending (force times length), 0 without.
+    ///
+    /// # Errors
+    /// Markers that were inserted or removed since the start ([`Motion::WithFluid`]), which interfaces with bending do
+    /// not allow.
+    pub fn bending_energy(&self) -> Result<f64, InterfaceError> {
+        Ok(self.law.bending.as_ref().map_or(Ok(0.0), |bending| bending.energy(self.markers(), self.advance()))?)
     }
 
     /// Switches off the check that the particles on the interface are conserved: for exchange with another body, such

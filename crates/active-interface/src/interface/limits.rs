@@ -45,6 +45,14 @@ impl ActiveInterface {
         self.derived.tensions.iter().fold(0.0_f64, |a, &b| a.max(b))
     }
 
+    /// Largest wave number of the shape (1/length): that of the flow, or on a grid that of the markers.
+    fn shortest_wave(&self, view: &FluidView) -> f64 {
+        match view.shape_modes {
+            Some(_) => 4.0 * view.interface_stiffness,
+            None => PI / self.geometry().mean_length(),
+        }
+    }
+
     /// Unit of the rate at which unequal spacing relaxes (1/time), see [`Motion::Equidistributed`].
     pub(super) fn spacing_rate(&self, viscosity: f64) -> f64 {
         let radius = self.geometry().perimeter / TAU;
@@ -56,8 +64,12 @@ impl ActiveInterface {
 
     /// Largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to 2/a.
     pub(super) fn add_step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
-        let stiffness = view.interface_stiffness * self.largest_tension();
-        limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
+        let (bending, reason) = match &self.law.bending {
+            None => (0.0, "the surface tension"),
+            Some(bending) => (bending.tension(self.shortest_wave(view)), "the bending"),
+        };
+        let stiffness = view.interface_stiffness * (self.largest_tension() + bending);
+        limits(StepLimit::decay(2.0 * viscosity / stiffness, reason));
         if let Some(elasticity) = &self.law.elasticity {
             let lengths = &self.geometry().lengths;
             let (count, shortest) = (lengths.len() as f64, lengths.iter().copied().fold(f64::INFINITY, f64::min));

@@ -182,3 +182,36 @@ fn the_stabiliser_by_hand() {
         }
     }
 }
+
+/// Forces of bending against differences of the energy, on a curve that is stretched unevenly.
+#[test]
+fn forces_of_bending_are_minus_the_gradient_of_the_energy() {
+    let count = 24;
+    let at = |k: usize| {
+        let t = std::f64::consts::TAU * k as f64 / count as f64;
+        Vec2::new(1.2 * t.cos() + 0.1 * (2.0 * t).sin(), 0.9 * t.sin() + 0.05 * (3.0 * t).cos())
+    };
+    let markers: Vec<Vec2> = (0..count).map(at).collect();
+    for reference in [0.0, 1.3] {
+        let mut bending = Bending::new(0.4, reference, count).unwrap();
+        let mut forces = vec![Vec2::ZERO; count];
+        bending.add_forces(&markers, 0.0, &mut forces).unwrap();
+        for (k, force) in forces.iter().enumerate() {
+            for axis in [Vec2::X, Vec2::Y] {
+                let energy = |step: f64| {
+                    let mut moved = markers.clone();
+                    moved[k] += step * axis;
+                    bending.energy(&moved, 0.0).unwrap()
+                };
+                let gradient = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+                assert!((force.dot(axis) + gradient).abs() < 1e-7, "{k}: {force:?} {gradient}");
+            }
+        }
+    }
+    // A circle of radius R has the energy pi B (1 - kappa0 R)^2/R.
+    let circle: Vec<Vec2> =
+        (0..count).map(|k| 2.0 * Vec2::from_angle(std::f64::consts::TAU * k as f64 / 24.0)).collect();
+    let bending = Bending::new(0.4, 0.2, count).unwrap();
+    let exact = std::f64::consts::PI * 0.4 * 0.6_f64.powi(2) / 2.0;
+    assert!((bending.energy(&circle, 0.0).unwrap() / exact - 1.0).abs() < 1e-12);
+}

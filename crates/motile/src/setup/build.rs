@@ -121,7 +121,7 @@ impl Setup {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let markers = self.outline(&curve, &droplet.name)?;
+        let markers = self.outline(&curve, self.marker_count(&curve, &droplet.name)?)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -153,16 +153,17 @@ impl Setup {
         let made = made.with_name(&droplet.name).with_motion(droplet.motion);
         let made = made.with_area_constraint(droplet.area_constraint);
         let made = if self.region.is_of_revolution() { made.of_revolution()? } else { made };
+        let made = made.with_bending(droplet.bending, droplet.reference_curvature)?;
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
         })
     }
 
-    /// Markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, the area of the
+    /// So many markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, the area of the
     /// smooth curve through them is that of the outline; otherwise, as on grids, that of the polygon is.
-    pub(super) fn outline(&self, curve: &Curve, name: &str) -> Result<Vec<Vec2>, SetupError> {
-        let mut markers = curve.markers(self.marker_count(curve, name)?)?;
+    pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
+        let mut markers = curve.markers(count)?;
         if !self.flow.is_none() {
             let still = vec![Vec2::ZERO; markers.len()];
             let Deformation { area, centroid, .. } =

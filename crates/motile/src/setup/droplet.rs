@@ -36,6 +36,11 @@ pub struct DropletSetup {
     pub viscosity: Option<f64>,
     /// Tension gamma0 of the interface without particles (force).
     pub tension: f64,
+    /// Bending modulus B of the interface (force times length squared), whose energy is
+    /// `B/2 INT (kappa - kappa0)^2 ds`.
+    pub bending: f64,
+    /// Curvature kappa0 (1/length; positive for a circle) at which bending is at rest.
+    pub reference_curvature: f64,
     /// Motion of the markers along the interface; across it they move with the fluid.
     pub motion: Motion,
     /// Area restored to the initial one after each step.
@@ -58,6 +63,8 @@ impl Default for DropletSetup {
             angle: 0.0,
             viscosity: None,
             tension: 10.0,
+            bending: 0.0,
+            reference_curvature: 0.0,
             motion: Motion::default(),
             area_constraint: false,
             shape: DropletShape::default(),
@@ -378,17 +385,26 @@ impl BodySetup for DropletSetup {
         Ok(Planned::of(setup.droplet(self)?))
     }
 
-    fn check(&self, checked: &Checked<'_>, _: &Setup) -> Result<(), SetupError> {
+    fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         checked.all_finite("centre", &self.centre)?;
         checked.finite("angle", self.angle)?;
         if let Some(viscosity) = self.viscosity {
             checked.positive("viscosity", viscosity)?;
         }
         checked.not_negative("tension", self.tension)?;
+        checked.not_negative("bending", self.bending)?;
+        checked.finite("reference-curvature", self.reference_curvature)?;
+        let remedy = "bending is that of curves in two dimensions: give none to bodies of revolution";
+        let plane = self.bending == 0.0 || !setup.region.is_of_revolution();
+        checked.require(plane, "bending", self.bending, remedy)?;
+        if self.bending > 0.0 && self.motion == Motion::WithFluid {
+            let remedy = "bending needs a fixed number of markers: give equidistributed ones";
+            checked.refuse("motion", &"with-fluid", remedy)?;
+        }
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
-        self.shape.check(checked)?;
+        self.shape.check(checked, "shape")?;
         self.gel.map_or(Ok(()), |gel| gel.check(checked, self))?;
         let Some(particles) = &self.particles else { return Ok(()) };
         particles.check(checked)?;
@@ -424,33 +440,35 @@ impl BodySetup for DropletSetup {
 }
 
 impl DropletShape {
-    pub(super) fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+    /// Checks the numbers of a shape under that key.
+    pub(super) fn check(&self, checked: &Checked<'_>, at: &str) -> Result<(), SetupError> {
+        let key = |name: &str| format!("{at}.{name}");
         match self {
-            Self::Round { radius } => checked.positive("shape.round.radius", *radius),
+            Self::Round { radius } => checked.positive(&key("round.radius"), *radius),
             Self::Squeezed { radius, half_height, .. } => {
-                checked.positive("shape.squeezed.radius", *radius)?;
-                checked.positive("shape.squeezed.half-height", *half_height)?;
-                let (key, remedy) = ("shape.squeezed.half-height", "give less than the radius");
-                checked.require(half_height <= radius, key, *half_height, remedy)
+                checked.positive(&key("squeezed.radius"), *radius)?;
+                let (key, remedy) = (key("squeezed.half-height"), "give less than the radius");
+                checked.positive(&key, *half_height)?;
+                checked.require(half_height <= radius, &key, *half_height, remedy)
             }
             Self::Ellipse { half_axes } => {
-                half_axes.iter().try_for_each(|&axis| checked.positive("shape.ellipse.half-axes", axis))
+                half_axes.iter().try_for_each(|&axis| checked.positive(&key("ellipse.half-axes"), axis))
             }
             Self::Modes { radius, cosines, sines } => {
-                checked.positive("shape.modes.radius", *radius)?;
-                checked.all_finite("shape.modes.cosines", cosines)?;
-                checked.all_finite("shape.modes.sines", sines)
+                checked.positive(&key("modes.radius"), *radius)?;
+                checked.all_finite(&key("modes.cosines"), cosines)?;
+                checked.all_finite(&key("modes.sines"), sines)
             }
-            Self::Points(points) => check_points(points, checked),
+            Self::Points(points) => check_points(points, checked, &key("points")),
         }
     }
 }
 
-/// Refuses points of a shape.
-pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>) -> Result<(), SetupError> {
+/// Refuses points of a shape under that key.
+pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>, key: &str) -> Result<(), SetupError> {
     if points.len() < 8 || points.len() as f64 > MARKERS[1] {
         let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
-        checked.refuse("shape.points", &format!("{} points", points.len()), remedy)?;
+        checked.refuse(key, &format!("{} points", points.len()), remedy)?;
     }
-    checked.all_finite("shape.points", points.as_flattened())
+    checked.all_finite(key, points.as_flattened())
 }

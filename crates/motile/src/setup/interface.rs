@@ -263,7 +263,7 @@ impl BodySetup for InterfaceSetup {
                 checked.all_finite("shape.waves.cosines", cosines)?;
                 checked.all_finite("shape.waves.sines", sines)?;
             }
-            InterfaceShape::Points(points) => check_points(points, checked)?,
+            InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }
         let Some(particles) = &self.particles else { return Ok(()) };
         if particles.exchange.is_some() {

@@ -1,5 +1,6 @@
 //! Descriptions of elastic membranes around fluid.
 
+use active_interface::Curve;
 use elastic_solids::{BendingMeasure, Shell};
 use serde::{Deserialize, Serialize};
 
@@ -10,8 +11,7 @@ use super::{
 };
 use crate::SetupError;
 
-/// A closed elastic membrane around fluid: the shell of a nucleus in a droplet, or a capsule. It is at rest in the
-/// shape that it starts in.
+/// A closed elastic membrane around fluid: the shell of a nucleus in a droplet, or a capsule.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ShellSetup {
@@ -23,15 +23,18 @@ pub struct ShellSetup {
     pub angle: f64,
     /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid around it.
     pub viscosity: Option<f64>,
-    /// Its shape.
+    /// Its shape at the start.
     pub shape: DropletShape,
+    /// Its shape at rest, on whose outline each point lies as far from the first, as a part of the length, as at the
+    /// start; `None` for that at the start.
+    pub rest: Option<DropletShape>,
     /// Modulus of stretching (force).
     pub stretching: f64,
     /// Modulus of bending (force times length squared).
     pub bending: f64,
     /// Measure of bending in its energy.
     pub measure: BendingMeasure,
-    /// Curvature at which bending is at rest everywhere (1/length); `None` for that of its shape.
+    /// Curvature at which bending is at rest everywhere (1/length); `None` for that of its shape at rest.
     pub reference_curvature: Option<f64>,
 }
 
@@ -44,6 +47,7 @@ impl Default for ShellSetup {
             angle: 0.0,
             viscosity: None,
             shape: DropletShape::Round { radius: 0.5 },
+            rest: None,
             stretching: 10.0,
             bending: 0.1,
             measure: BendingMeasure::default(),
@@ -62,9 +66,19 @@ impl BodySetup for ShellSetup {
     }
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
-        let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
-        let markers = setup.outline(&curve, &self.name)?;
-        let mut shell = Shell::new(&markers, self.stretching, self.bending)?.named(&self.name);
+        let placed = |shape: &DropletShape| -> Result<Curve, SetupError> {
+            Ok(shape.curve()?.0.rotated(self.angle).translated(self.centre.into()))
+        };
+        let curve = placed(&self.shape)?;
+        let markers = setup.outline(&curve, setup.marker_count(&curve, &self.name)?)?;
+        let mut shell = match &self.rest {
+            None => Shell::new(&markers, self.stretching, self.bending)?,
+            Some(rest) => {
+                let at_rest = setup.outline(&placed(rest)?, markers.len())?;
+                Shell::new(&at_rest, self.stretching, self.bending)?.deformed(&markers)?
+            }
+        };
+        shell = shell.named(&self.name);
         if let Some(curvature) = self.reference_curvature {
             shell = shell.with_reference_curvature(curvature)?;
         }
@@ -85,6 +99,7 @@ impl BodySetup for ShellSetup {
         if let Some(curvature) = self.reference_curvature {
             checked.finite("reference-curvature", curvature)?;
         }
-        self.shape.check(checked)
+        self.shape.check(checked, "shape")?;
+        self.rest.as_ref().map_or(Ok(()), |rest| rest.check(checked, "rest"))
     }
 }
