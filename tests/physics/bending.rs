@@ -154,7 +154,14 @@ fn a_shell_starts_deformed() {
         ..ShellSetup::default()
     };
     let method = Method::Integral(IntegralMethod { nodes: 32, cells: 32 });
-    let setup = Setup { region: Region::Plane, method, viscosity: 1.0, shells: vec![shell], ..Setup::default() };
+    let setup = Setup {
+        region: Region::Plane,
+        method,
+        viscosity: 1.0,
+        droplets: Vec::new(),
+        shells: vec![shell],
+        ..Setup::default()
+    };
     let Built { mut scene, shells, .. } = setup.build().expect("a scene");
     let energy = |scene: &Scene<_>| scene.body(shells[0]).expect("the shell").energy();
     let start = energy(&scene);
