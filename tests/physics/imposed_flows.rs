@@ -50,6 +50,7 @@ fn errors(case: &str, (seen, stress): (Deformation, [[f64; 2]; 2])) -> Vec<(&'st
         ("length", seen.perimeter),
         ("tip_speed", seen.tip_speed),
         ("waist_speed", seen.waist_speed),
+        ("max_speed", seen.largest_speed),
         ("kappa_tip", seen.tip_curvature),
         ("SB_xx", stress[0][0]),
         ("SB_xy", stress[0][1]),

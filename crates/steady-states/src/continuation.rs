@@ -248,7 +248,8 @@ impl Follower {
             if slopes[0] * slopes[1] < 0.0 && on_branch {
                 let (after, outcome) = (self.place(), self.outcome);
                 let fold = self.fold(&before, taken, slopes);
-                if self.part == Part::Even && before.point.frame[0] * after.point.frame[0] < 0.0 {
+                let swims = self.system.model.imposed().is_none();
+                if swims && self.part == Part::Even && before.point.frame[0] * after.point.frame[0] < 0.0 {
                     // The velocity has changed its sign: no fold, but the branch at rest, which this one joins.
                     special.push(SpecialPoint { kind: SpecialKind::BranchPoint, ..fold? });
                     end = Some(BranchEnd::Rest);

@@ -110,6 +110,12 @@ impl LimitCycle {
                 remedy: "leave it out, or follow the oscillation in a run",
             });
         }
+        if !state.setup().flow.is_none() {
+            return Err(SteadyError::Unsupported {
+                what: "the oscillation is in an imposed flow".into(),
+                remedy: "follow it in a run",
+            });
+        }
         if mode.symmetry != Symmetry::Antisymmetric || mode.value.im <= 0.0 || instants.is_multiple_of(2) {
             return Err(SteadyError::Unsupported {
                 what: format!(

@@ -1,7 +1,7 @@
 //! Flow of a droplet: of curves in the plane, or of surfaces of revolution.
 
 use motile::motile_base::Region;
-use motile_base::{FlowSample, Vec2};
+use motile_base::{FlowSample, ImposedFlow, Vec2};
 use stokes_layers::axisymmetric::{AxisymmetricFlow, MeridianCalculus};
 use stokes_layers::{Interface, InterfaceFlow, LayerError, PeriodicCalculus, Settings, TensionPlacement};
 
@@ -24,6 +24,15 @@ impl Flow {
             }
         };
         Ok(Self::Revolution { flow: Box::new(flow), calculus: MeridianCalculus::new(settings.nodes)? })
+    }
+
+    /// Imposes a flow, which there is none of in three dimensions.
+    pub(crate) fn impose(&mut self, imposed: ImposedFlow) -> Result<(), LayerError> {
+        if let Self::Plane { flow, .. } = self { flow.impose(imposed, 0.0) } else { Ok(()) }
+    }
+
+    pub(crate) fn imposed(&self) -> ImposedFlow {
+        if let Self::Plane { flow, .. } = self { flow.imposed() } else { ImposedFlow::NONE }
     }
 
     /// Forces of a tension (force) at the nodes.

@@ -1,4 +1,4 @@
-//! Steady swimmers, their stability and bifurcations, without a run.
+//! Steady swimmers and drops in imposed flows, their stability and bifurcations, without a run.
 //!
 //! A swimmer's speed takes hundreds of time units to settle and a growth rate of 1e-4 takes thousands to show. Here the
 //! equations of the steady state are solved by Newton's method, and the eigenvalues of their derivative say whether it
@@ -43,6 +43,10 @@
 //! singular; bordered by these it is regular, and V comes out with the state. The derivative is taken by central
 //! differences (errors of 1e-9), with one solution of the flow a difference. A state that is its own mirror image is
 //! solved for among such states, and its eigenvalues come sorted by symmetry.
+//!
+//! In an imposed flow (`Setup::flow`) a droplet may be without particles: its state is the shape alone, and a drop that
+//! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are looked
+//! for among all.
 //!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::active_interface::{ContractileTension, Tension};
-use motile::motile_base::FlowSample;
-use motile::motile_base::Region;
+use motile::active_interface::{ContractileTension, ExcludedVolume, Tension};
+use motile::motile_base::{FlowSample, ImposedFlow, Region};
 use motile::setup::{DropletSetup, DropletShape, Method, Particles, RigidBodySetup, Setup};
 use motile_base::{PeriodicSeries, Vec2};
 use stokes_layers::{Interface, Settings, TensionPlacement};
@@ -98,6 +97,9 @@ pub(crate) struct Model {
     pub(crate) concentration: f64,
     pub(crate) viscosities: [f64; 2],
     diffusion: f64,
+    /// Rate of change in units of which rates are small or large (1/time): D/R^2 with particles, without them that
+    /// at which the tension restores the circle or the imposed flow deforms it, whichever is faster.
+    rate: f64,
     law: ContractileTension,
     flow: Flow,
     /// Quadrature over rings, in three dimensions.
@@ -126,11 +128,12 @@ impl Model {
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "give the method of boundary integrals");
         };
-        let [DropletSetup { particles: Some(particles), tension, viscosity, shape, bending, .. }] =
-            setup.droplets.as_slice()
-        else {
-            return refuse("the scene is not of one active droplet", "give one droplet with particles");
+        let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
+            return refuse("the scene is not of one droplet", "give one droplet");
         };
+        if !setup.flow.is_none() && matches!(setup.region, Region::Box { .. }) {
+            return refuse("the images of a sheared box move for ever", "give the plane or a channel");
+        }
         if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some()
         {
             return refuse("the scene has solids, shells, shaped walls or a repulsion", "leave them out");
@@ -156,21 +159,37 @@ impl Model {
                 "leave it out, or give a region of the plane",
             );
         }
-        if particles.exchange.is_some() {
+        if particles.is_some_and(|particles| particles.exchange.is_some()) {
             return refuse("the particles are exchanged with the inside", "leave the exchange out");
         }
-        let &Particles { diffusion, concentration, .. } = particles;
-        motile_base::positive("the diffusion constant", diffusion)?;
+        let viscosities = [viscosity.unwrap_or(setup.viscosity), setup.viscosity];
+        let imposed = setup.flow.imposed(&setup.region)?;
+        let (law, [diffusion, concentration, rate]) = match particles {
+            Some(particles) => {
+                let &Particles { diffusion, concentration, .. } = particles;
+                motile_base::positive("the diffusion constant", diffusion)?;
+                (particles.law(*tension)?, [diffusion, concentration, diffusion / (radius * radius)])
+            }
+            None => {
+                let relaxation = tension / ((viscosities[0] + viscosities[1]) * radius);
+                let rate = relaxation.max(imposed.rate());
+                motile_base::positive("the rate at which the droplet relaxes or is deformed", rate)?;
+                (ContractileTension::new(*tension, 0.0, ExcludedVolume::None)?, [0.0, 0.0, rate])
+            }
+        };
+        let mut flow = Flow::new(setup.region, setup.viscosity, settings)?;
+        flow.impose(imposed)?;
         let nucleus =
             |radius| Nucleus { radius, centre: Vec2::ZERO, velocity: Vec2::ZERO, surface: vec![Vec2::ZERO; nodes] };
         Ok(Self {
             setup: setup.clone(),
             radius,
             concentration,
-            viscosities: [viscosity.unwrap_or(setup.viscosity), setup.viscosity],
+            viscosities,
             diffusion,
-            law: particles.law(*tension)?,
-            flow: Flow::new(setup.region, setup.viscosity, settings)?,
+            rate,
+            law,
+            flow,
             rings: setup.region.is_of_revolution().then(|| Rings::new(nodes)),
             series: PeriodicSeries::new(nodes)?,
             positions: vec![Vec2::ZERO; nodes],
@@ -189,7 +208,7 @@ impl Model {
 
     /// True where the flow of the loaded state is round-off.
     pub(crate) fn is_at_rest(&self) -> bool {
-        let speed = self.diffusion / self.radius;
+        let speed = self.rate * self.radius;
         self.velocities.iter().all(|velocity| velocity.length() < NO_FLOW * speed)
     }
 
@@ -230,12 +249,29 @@ impl Model {
             number += c * t.length() * weight;
         }
         let [size_at_rest, number_at_rest] = self.conserved();
-        [1.0 - size / size_at_rest, 1.0 - number / number_at_rest]
+        let particles = if self.carries() { 1.0 - number / number_at_rest } else { 0.0 };
+        [1.0 - size / size_at_rest, particles]
     }
 
-    /// Rate D/R^2 at which the concentration relaxes over the radius (1/time).
-    pub(crate) fn diffusion_rate(&self) -> f64 {
-        self.diffusion / (self.radius * self.radius)
+    /// Unit of rates: D/R^2 with particles (1/time).
+    pub(crate) fn rate_unit(&self) -> f64 {
+        self.rate
+    }
+
+    /// True with particles on the interface.
+    pub(crate) fn carries(&self) -> bool {
+        self.concentration > 0.0
+    }
+
+    /// Imposed flow, without what the drive of a channel drives.
+    pub(crate) fn imposed(&self) -> ImposedFlow {
+        self.flow.imposed()
+    }
+
+    /// True where the imposed flow is its own mirror image at the x axis.
+    pub(crate) fn is_mirror_symmetric(&self) -> bool {
+        let ImposedFlow { velocity: [_, v], gradient: [[_, uy], [vx, _]], .. } = self.imposed();
+        v == 0.0 && uy == 0.0 && vx == 0.0
     }
 
     pub(crate) fn in_plane(&self) -> bool {

@@ -33,12 +33,21 @@ pub(crate) struct Modes {
     largest: usize,
     /// Units of offset (length) and density.
     scales: [f64; 2],
+    /// Functions of the parameter: offset and density, or the offset alone without particles.
+    fields: usize,
     nuclei: usize,
 }
 
 impl Modes {
+    /// Layout of so many nodes and discs; a unit of density of zero stands for no particles.
     pub(crate) fn new(nodes: usize, scales: [f64; 2], nuclei: usize) -> Result<Self, SteadyError> {
-        Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, nuclei })
+        let fields = if scales[1] == 0.0 { 1 } else { 2 };
+        Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, fields, nuclei })
+    }
+
+    /// True where the density of particles is part of the state.
+    pub(crate) fn carries(&self) -> bool {
+        self.fields == 2
     }
 
     /// Number of nodes.
@@ -53,7 +62,7 @@ impl Modes {
 
     /// Number of all coefficients.
     pub(crate) fn len(&self) -> usize {
-        4 * self.largest + 2 + 2 * self.nuclei
+        self.fields * (2 * self.largest + 1) + 2 * self.nuclei
     }
 
     /// Coefficients of a part.
@@ -68,7 +77,7 @@ impl Modes {
 
     /// Number of mirror-symmetric coefficients.
     fn even(&self) -> usize {
-        2 * (self.largest + 1) + self.nuclei
+        self.fields * (self.largest + 1) + self.nuclei
     }
 
     /// Kind of a coefficient: true for the density (else the offset), true for a sine (else a cosine), wave number.
@@ -127,7 +136,8 @@ impl Modes {
     pub(crate) fn analyse(&mut self, offsets: &[f64], density: &[f64]) -> Result<DVector<f64>, SteadyError> {
         let [r, c] = self.scales;
         let nodes = self.nodes();
-        self.series.analyse(offsets.iter().zip(density).take(nodes).map(|(h, m)| Complex64::new(h / r, m / c)))?;
+        let scaled = |m: f64| if self.fields == 2 { m / c } else { 0.0 };
+        self.series.analyse(offsets.iter().zip(density).take(nodes).map(|(h, m)| Complex64::new(h / r, scaled(*m))))?;
         let coefficients = self.series.coefficients();
         let (even, all) = (self.even(), self.len());
         let mut state = DVector::zeros(all);
@@ -140,7 +150,7 @@ impl Modes {
             let down = if wave == 0 { up } else { coefficients[nodes - wave] };
             let (h, m) = (0.5 * (up + down.conj()), Complex64::new(0.0, -0.5) * (up - down.conj()));
             let factor = if wave == 0 { 1.0 } else { 2.0 };
-            for (field, value) in [h, m].into_iter().enumerate() {
+            for (field, value) in [h, m].into_iter().enumerate().take(self.fields) {
                 state[self.index(field == 1, false, wave)] = factor * value.re;
                 if wave > 0 {
                     state[self.index(field == 1, true, wave)] = -factor * value.im;

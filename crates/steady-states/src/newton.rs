@@ -69,7 +69,7 @@ impl System {
             })?;
             if size < SMALLEST_CORRECTION {
                 outcome.residual = self.residual(point)?.amax();
-                let steady = outcome.residual < LARGEST_RATE * self.model.diffusion_rate();
+                let steady = outcome.residual < LARGEST_RATE * self.model.rate_unit();
                 return if steady { Ok(outcome) } else { Err(outcome.failure()) };
             }
             kept = (size < REUSABLE).then_some(equations);
@@ -81,7 +81,7 @@ impl System {
     /// Steady to round-off: the rates (1/time) hold second derivatives of concentrations, which err by TOLERANCE times
     /// the square of the largest wave number, half the number of nodes; area and particles are those of the droplet.
     fn is_steady(&self, residual: f64) -> bool {
-        let floor = TOLERANCE * (0.5 * self.model.nodes() as f64).powi(2) * self.model.diffusion_rate();
+        let floor = TOLERANCE * (0.5 * self.model.nodes() as f64).powi(2) * self.model.rate_unit();
         residual < floor && self.model.lacks().iter().all(|lack| lack.abs() < SMALLEST_CORRECTION)
     }
 }

@@ -31,11 +31,15 @@ pub enum Parameter {
     TubeRadius,
     /// Radius of the first rigid disc inside (length).
     NucleusRadius,
+    /// Shear rate G of a flow that is imposed on the plane (1/time).
+    ShearRate,
+    /// Extension rate E of a flow that is imposed on the plane (1/time).
+    ExtensionRate,
 }
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 11] = [
+    pub const NAMES: [(&str, Self); 13] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -47,6 +51,8 @@ impl Parameter {
         ("length", Self::Length),
         ("tube-radius", Self::TubeRadius),
         ("nucleus-radius", Self::NucleusRadius),
+        ("shear", Self::ShearRate),
+        ("extension", Self::ExtensionRate),
     ];
 
     /// Name in command lines and files, from [`Parameter::NAMES`].
@@ -88,6 +94,8 @@ impl Parameter {
                 DropletShape::Round { radius } => Some(radius),
                 _ => None,
             },
+            Self::ShearRate => (setup.region == Region::Plane).then_some(setup.flow.shear),
+            Self::ExtensionRate => (setup.region == Region::Plane).then_some(setup.flow.extension),
         }
     }
 
@@ -135,6 +143,8 @@ impl Parameter {
             },
             Self::TubeRadius => setup.region = Region::Tube { radius: value },
             Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
+            Self::ShearRate => setup.flow.shear = value,
+            Self::ExtensionRate => setup.flow.extension = value,
         }
         Ok(setup)
     }

@@ -260,20 +260,35 @@ impl Profile {
 
     /// Droplet at another number of nodes, of equal spacing or, where `crowding` is positive, crowding where the
     /// concentration is steep: with the density of nodes `sqrt(1 + (crowding/c0 dc/ds)^2)` over the arc length,
-    /// smoothed.
+    /// smoothed; without particles where the curve is bent, the curvature taking the place of the slope.
     pub(crate) fn resampled(&self, nodes: usize, crowding: f64) -> Result<Self, SteadyError> {
         let fine = 4 * self.nodes().max(nodes);
         let sampler = Sampler::new(self)?;
         let places: Vec<Place> = (0..fine).map(|k| sampler.at(TAU * k as f64 / fine as f64)).collect();
         let mut weights: Vec<f64> = places.iter().map(|place| place.tangent.length()).collect();
         if crowding > 0.0 {
-            let concentrations: Vec<f64> = places.iter().zip(&weights).map(|(place, g)| place.density / g).collect();
-            let mean = concentrations.iter().sum::<f64>() / fine as f64;
-            let slopes = derivative(&concentrations)?;
-            let steep = |(slope, g): (&f64, &f64)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt();
+            let steep = |rate: f64| (1.0 + (crowding * rate).powi(2)).sqrt();
             let mut series = PeriodicSeries::new(fine)?;
-            analyse(&mut series, slopes.iter().zip(&weights).map(steep).collect::<Vec<_>>().iter())?;
-            let waves = MOST_WAVES.min(nodes as f64 / NODES_PER_WAVE);
+            let carries = self.density.iter().any(|density| *density != 0.0);
+            let densities: Vec<f64> = if carries {
+                let concentrations: Vec<f64> =
+                    places.iter().zip(&weights).map(|(place, g)| place.density / g).collect();
+                let mean = concentrations.iter().sum::<f64>() / fine as f64;
+                let slopes = derivative(&concentrations)?;
+                slopes.iter().zip(&weights).map(|(slope, g)| steep(slope / (g * mean))).collect()
+            } else {
+                let radius = weights.iter().sum::<f64>() / fine as f64;
+                series.analyse_vectors(&places.iter().map(|place| place.tangent).collect::<Vec<_>>())?;
+                series.differentiate();
+                let turning = |(place, bend): (&Place, &Complex64)| {
+                    let Vec2 { x, y } = place.tangent;
+                    (x * bend.im - y * bend.re) / place.tangent.length().powi(3)
+                };
+                places.iter().zip(series.values()).map(turning).map(|kappa| steep(kappa * radius)).collect()
+            };
+            analyse(&mut series, densities.iter())?;
+            let most = if carries { MOST_WAVES } else { f64::INFINITY };
+            let waves = most.min(nodes as f64 / NODES_PER_WAVE);
             series.scale(|m| (-(m as f64 / waves).powi(2)).exp());
             weights.iter_mut().zip(series.values()).for_each(|(weight, smooth)| *weight *= smooth.re);
         }
@@ -440,7 +455,7 @@ impl Profile {
         let sampler = Sampler::new(self)?;
         let tail = |series: &PeriodicSeries| {
             let size = |m: usize| series.coefficients()[m].norm() + series.coefficients()[count - m].norm();
-            let largest = (1..count / 2).map(size).fold(0.0, f64::max);
+            let largest = (1..count / 2).map(size).fold(f64::MIN_POSITIVE, f64::max);
             let last = (count * 7 / 16..count / 2).map(size).fold(0.0, f64::max);
             last / largest.max(FLAT * series.coefficients()[0].norm())
         };

@@ -30,13 +30,13 @@ const LARGEST_GROWTH: f64 = 3.0;
 const MOST_STEPS: usize = 80;
 
 impl SteadyState {
-    /// Steady swimmer that a description leads to: implicit steps in time from the start that the description gives,
+    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from the start that the description gives,
     /// on few nodes, then Newton's method at the nodes asked for. A start that is its own mirror image at the x axis
     /// leads to a state that is, too. Where this fails it is done at half the activity, and the activity then raised
     /// in steps.
     ///
     /// # Errors
-    /// A description of anything but one round active droplet (with rigid discs inside, if any) by the method of
+    /// A description of anything but one round droplet (with rigid discs inside, if any) by the method of
     /// boundary integrals; no convergence; a state that the nodes do not resolve.
     pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
         Self::settled(setup).or_else(|error| {
@@ -59,7 +59,8 @@ impl SteadyState {
     /// State by steps in time and Newton's method, in a few attempts.
     fn settled(setup: &Setup) -> Result<Self, SteadyError> {
         let start = start(setup)?;
-        let part = if is_mirror(&start) { Part::Even } else { Part::Full };
+        let mirror = is_mirror(&start) && System::new(setup)?.model.is_mirror_symmetric();
+        let part = if mirror { Part::Even } else { Part::Full };
         check_axis(setup, part)?;
         let mut failure = Outcome::default().failure();
         for (most_nodes, steady) in ATTEMPTS {
@@ -69,7 +70,7 @@ impl SteadyState {
                 Self::from_profile(setup, &system.profile(point), point.frame, part)
             });
             let model = &settling.system.model;
-            let unit = model.radius * model.diffusion_rate();
+            let unit = model.radius * model.rate_unit();
             let near = |a: f64, b: f64| (a - b).abs() < SAME_VELOCITY * (a.abs() + unit);
             match found {
                 Ok(found) => {
@@ -106,7 +107,7 @@ impl Settling {
         profile.check_room(setup)?;
         let point = system.point(&profile, [0.0; 3])?;
         let rates = system.residual(&point)?;
-        let step = FIRST_STEP / system.model.diffusion_rate();
+        let step = FIRST_STEP / system.model.rate_unit();
         Ok(Self { system, point, part, rates, step, most_nodes })
     }
 
@@ -114,7 +115,7 @@ impl Settling {
     fn settle(&mut self, steady: f64) -> Result<(), SteadyError> {
         for _ in 0..MOST_STEPS {
             let change = self.advance()?;
-            if change < steady && self.step * self.system.model.diffusion_rate() > 1.0 {
+            if change < steady && self.step * self.system.model.rate_unit() > 1.0 {
                 self.point = self.system.rebased(&self.point)?;
                 return Ok(());
             }
@@ -130,7 +131,7 @@ impl Settling {
     /// Takes one step, shortened until it succeeds; returns the largest change of a coefficient.
     fn advance(&mut self) -> Result<f64, SteadyError> {
         let jacobian = self.system.rough_jacobian(&self.point, self.part, &self.rates)?;
-        let shortest = LEAST_PART * FIRST_STEP / self.system.model.diffusion_rate();
+        let shortest = LEAST_PART * FIRST_STEP / self.system.model.rate_unit();
         loop {
             match self.attempt(&jacobian) {
                 Err(_) if self.step > shortest => self.step *= SHORTER,
@@ -194,8 +195,10 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
     // Numbers over lengths, in three dimensions too: a density is one per length of a ring.
     let sizes = droplet.segment_sizes().iter().zip(droplet.segment_lengths());
-    let numbers: Vec<f64> =
+    let mut numbers: Vec<f64> =
         droplet.particle_numbers().iter().zip(sizes).map(|(number, (size, length))| number * length / size).collect();
+    // A droplet without particles has none on any segment.
+    numbers.resize(droplet.markers().len(), 0.0);
     Ok(Profile::from_markers(droplet.markers(), &numbers)?.with_nuclei(nuclei))
 }
 
@@ -216,5 +219,5 @@ fn is_mirror(profile: &Profile) -> bool {
     let largest = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let places = |profile: &Profile| profile.positions.iter().chain(&profile.nuclei).copied().collect::<Vec<_>>();
     places(profile).iter().zip(places(&other)).all(|(a, b)| a.distance(b) < 1e-6)
-        && profile.density.iter().zip(&other.density).all(|(a, b)| (a - b).abs() < 1e-6 * largest)
+        && profile.density.iter().zip(&other.density).all(|(a, b)| (a - b).abs() <= 1e-6 * largest)
 }

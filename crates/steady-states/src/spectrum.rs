@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::SteadyError;
+use crate::model::FrameMotion;
 use crate::modes::Part;
 use crate::system::{DIFFERENCE, NO_EFFECT, Point, System};
 
@@ -140,7 +141,7 @@ impl System {
     pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
         let jacobian = self.jacobian(point, part)?;
         self.load(point)?;
-        let (_, generators) = self.generators(&point.base, part)?;
+        let (motions_of, generators) = self.generators(&point.base, part)?;
         let conserved = self.conserved_gradients(&point.base, part)?;
         // The equations take rigid motions to one another, turns to shifts in particular, but none to itself.
         let neutral = if generators.is_empty() {
@@ -149,7 +150,13 @@ impl System {
             let motions = DMatrix::from_columns(&generators);
             let inverse = (motions.transpose() * &motions).try_inverse();
             let parts = inverse.map(|inverse| inverse * motions.transpose() * &jacobian * &motions);
-            parts.map_or(f64::NAN, |parts| parts.diagonal().amax())
+            // A shift in a linear flow moves apart as that flow has it.
+            let [[ux, _], [_, vy]] = self.model.imposed().gradient;
+            let own = |motion: &FrameMotion| ux * motion[0] + vy * motion[1];
+            let parts = parts.map(|parts| parts.diagonal());
+            parts.map_or(f64::NAN, |parts| {
+                parts.iter().zip(&motions_of).map(|(part, motion)| (part - own(motion)).abs()).fold(0.0, f64::max)
+            })
         };
         let conserved = conserved.into_iter().filter(|gradient| gradient.norm() > NO_EFFECT);
         let removed: Vec<DVector<f64>> = conserved.chain(generators).collect();
@@ -176,7 +183,7 @@ impl System {
             modes.extend(values.into_iter().filter(|z| z.im >= 0.0).map(|value| Eigenmode { value, symmetry }));
         }
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
-        let zero = NO_GROWTH * self.model.diffusion_rate();
+        let zero = NO_GROWTH * self.model.rate_unit();
         Ok(Spectrum { modes, neutral, zero })
     }
 }

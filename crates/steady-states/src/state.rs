@@ -6,6 +6,7 @@ use std::time::Instant;
 use motile::active_interface::observables::{Convention, InterfaceState, Observables, observe};
 use motile::motile_base::FlowSample;
 use motile::motile_base::Region;
+use motile::motile_scene::Deformation;
 use motile::motile_scene::Enclosed;
 use motile::setup::Setup;
 use motile_base::Vec2;
@@ -56,7 +57,7 @@ pub struct Measured {
     /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
     /// [`Observables::aspect_ratio_moments`]; along x at rest.
     pub aspect_ratio: f64,
-    /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension).
+    /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension); zero without particles.
     pub concentration: [f64; 2],
     /// Perimeter of the interface (length); in three dimensions its area (length squared).
     pub perimeter: f64,
@@ -87,6 +88,10 @@ impl SteadyState {
     /// As [`SteadyState::find`].
     pub fn uniform(setup: &Setup) -> Result<Self, SteadyError> {
         let model = System::new(setup)?.model;
+        if !model.imposed().is_none() {
+            let (what, remedy) = ("a circle is deformed by the imposed flow".to_owned(), "use `SteadyState::find`");
+            return Err(SteadyError::Unsupported { what, remedy });
+        }
         let (nodes, radius, mean) = (model.nodes(), model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
         let centre = Vec2::from(setup.droplets[0].centre);
@@ -103,6 +108,10 @@ impl SteadyState {
     /// # Errors
     /// As [`SteadyState::find`].
     pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
+        if mirror && !System::new(setup)?.model.is_mirror_symmetric() {
+            let (what, remedy) = ("the imposed flow has no mirror symmetry".to_owned(), "look for any state");
+            return Err(SteadyError::Unsupported { what, remedy });
+        }
         if mirror {
             return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], Part::Even);
         }
@@ -150,7 +159,7 @@ impl SteadyState {
             return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
         }
         let tail = tails.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest));
-        let rate = system.model.diffusion_rate();
+        let rate = system.model.rate_unit();
         let [x, y, turn] = point.frame;
         let velocity = Vec2::new(x, y) + turn * profile.moments()?.centroid.perp();
         let setup = system.model.setup.clone();
@@ -285,7 +294,11 @@ impl SteadyState {
             speed: self.velocity().length(),
             stresslet,
             aspect_ratio,
-            concentration: self.profile.extrema()?.map(|c| c / model.concentration),
+            concentration: if model.carries() {
+                self.profile.extrema()?.map(|c| c / model.concentration)
+            } else {
+                [0.0; 2]
+            },
             perimeter,
             centroid,
             least_curvature: self.profile.least_curvature()?,
@@ -321,6 +334,28 @@ impl SteadyState {
             xy += dxy;
         }
         [xx, xy]
+    }
+
+    /// Deformation of the droplet, and its motion along its interface: the period of tank-treading in a shear.
+    ///
+    /// # Errors
+    /// A flow that cannot be solved for.
+    pub fn deformation(&self) -> Result<Deformation, SteadyError> {
+        let mut system = System::new(&self.setup)?;
+        system.load(&self.point)?;
+        Ok(Deformation::of(&self.profile.positions, &system.model.velocities)?)
+    }
+
+    /// Particle stress of the droplet with what is inside, symmetric and without trace (force times length), of
+    /// Batchelor's sign as in [`motile::motile_scene::Stress`].
+    ///
+    /// # Errors
+    /// A flow that cannot be solved for.
+    pub fn particle_stress(&self) -> Result<[[f64; 2]; 2], SteadyError> {
+        let mut system = System::new(&self.setup)?;
+        system.load(&self.point)?;
+        let [xx, xy] = self.force_dipole(&system, self.profile.moments()?.centroid, &self.profile.tangents()?);
+        Ok([[-xx, -xy], [-xy, xx]])
     }
 
     /// Flow at points (length), inside the droplet or outside of it, at any distance from the interface: velocity, its
@@ -379,7 +414,7 @@ impl SteadyState {
                 markers: &(0..fine).map(|k| at(&curve, k)).collect::<Vec<_>>(),
                 forces: &(0..fine).map(|k| at(&force, k) * scaled).collect::<Vec<_>>(),
                 velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
-                numbers: &numbers,
+                numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
                 inside: None,
                 of_revolution: false,

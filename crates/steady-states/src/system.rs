@@ -58,6 +58,8 @@ pub(crate) struct Equations {
     lu: LU<f64, Dyn, Dyn>,
     part: Part,
     motions: Vec<FrameMotion>,
+    /// Number of conserved quantities.
+    conserved: usize,
 }
 
 /// Equations of a description at its nodes.
@@ -186,8 +188,12 @@ impl System {
     /// but for channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
         let (plane, channel) = (self.model.in_plane(), self.model.in_channel());
-        let across = !channel && !self.model.is_of_revolution();
-        let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, across), ([0.0, 0.0, 1.0], true, plane)];
+        // An imposed flow has no turns, and a curved profile no shifts across it; the shifts of a linear flow change the
+        // velocity of the frame alone, so that the droplet stays where it is.
+        let imposed = self.model.imposed();
+        let across = !channel && imposed.bend == 0.0 && !self.model.is_of_revolution();
+        let turns = plane && imposed.is_none();
+        let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, across), ([0.0, 0.0, 1.0], true, turns)];
         let fits = |odd: bool| part == Part::Full || odd == (part == Part::Odd);
         all.into_iter().filter(|(_, odd, there)| *there && fits(*odd)).map(|(motion, ..)| motion).collect()
     }
@@ -214,7 +220,7 @@ impl System {
 
     /// Derivatives of area or volume and of the number of particles, over those of the droplet, by the coefficients of a
     /// part of the loaded state.
-    pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<[DVector<f64>; 2], SteadyError> {
+    pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<Vec<DVector<f64>>, SteadyError> {
         let range = self.modes.part(part);
         let [radius, density] = self.modes.scales();
         let discs = self.model.nuclei();
@@ -232,7 +238,11 @@ impl System {
             Ok::<_, SteadyError>(gradient.rows(range.start, range.len()).into_owned())
         };
         let [size, number] = self.model.conserved_gradients(base);
-        Ok([of(size)?, of(number)?])
+        let mut gradients = vec![of(size)?];
+        if self.model.carries() {
+            gradients.push(of(number)?);
+        }
+        Ok(gradients)
     }
 
     /// Derivative of the rates by a parameter (1/time over the parameter's unit).
@@ -267,14 +277,14 @@ impl System {
         let (motions, generators) = self.generators(&point.base, part)?;
         let conserved = self.conserved_gradients(&point.base, part)?;
         let (n, frames) = (range.len(), motions.len());
-        let size = n + frames + 2 + usize::from(along.is_some());
+        let size = n + frames + conserved.len() + usize::from(along.is_some());
         let mut matrix = DMatrix::zeros(size, size);
         matrix.view_mut((0, 0), (n, n)).copy_from(jacobian);
         // Where nothing flows a disc may be anywhere, which the equations leave open: it stays where it is.
         if self.model.is_at_rest() {
             for (row, _) in range.clone().enumerate().filter(|(_, index)| self.modes.is_of_disc(*index)) {
                 matrix.row_mut(row).fill(0.0);
-                matrix[(row, row)] = self.model.diffusion_rate();
+                matrix[(row, row)] = self.model.rate_unit();
             }
         }
         for (k, generator) in generators.iter().enumerate() {
@@ -292,7 +302,7 @@ impl System {
             matrix.view_mut((size - 1, 0), (1, n)).copy_from(&direction.rows(0, n).transpose());
             matrix[(size - 1, size - 1)] = direction[n];
         }
-        Ok(Equations { lu: matrix.clone().lu(), matrix, part, motions })
+        Ok(Equations { lu: matrix.clone().lu(), matrix, part, motions, conserved: conserved.len() })
     }
 
     /// Correction that takes the rates of the loaded point to zero, and area and particles to those of the droplet.
@@ -300,7 +310,7 @@ impl System {
         let range = self.modes.part(equations.part);
         let mut right = DVector::zeros(equations.len());
         right.rows_mut(0, range.len()).copy_from(&-residual.rows(range.start, range.len()));
-        for (k, lack) in self.model.lacks().into_iter().enumerate() {
+        for (k, lack) in self.model.lacks().into_iter().enumerate().take(equations.conserved) {
             right[range.len() + equations.motions.len() + k] = lack;
         }
         equations.solve(&right).map(|solution| equations.correction(self, &solution))
@@ -333,7 +343,7 @@ impl Equations {
                 *total += part * solution[range.len() + k];
             }
         }
-        let with_parameter = self.len() > range.len() + self.motions.len() + 2;
+        let with_parameter = self.len() > range.len() + self.motions.len() + self.conserved;
         let parameter = if with_parameter { solution[self.len() - 1] } else { 0.0 };
         Correction { state, frame, parameter }
     }

@@ -6,7 +6,7 @@ use motile_base::PeriodicSeries;
 use motile_base::{InputError, Vec2, at_least, same_length, spectrum};
 use num_complex::Complex64;
 
-/// Places of a curve between two markers that are looked at for its largest and smallest radius.
+/// Places of a curve for each marker that are looked at for its largest and smallest radius.
 const FINER: usize = 4;
 /// Most iterations for a place, and the step in the parameter below which it is found.
 const MOST_ITERATIONS: usize = 30;
@@ -42,7 +42,7 @@ pub struct Deformation {
     pub tip_speed: f64,
     /// Speed of the fluid relative to the centroid at the smallest distance (length per time).
     pub waist_speed: f64,
-    /// Largest speed of the fluid relative to the centroid at a marker (length per time).
+    /// Largest speed of the fluid on the curve relative to the centroid (length per time).
     pub largest_speed: f64,
     /// Time of a point of the curve for a turn along it, `INT ds/|v_t|` (time): that of tank-treading where the shape
     /// is steady; `None` where the velocity along the curve changes its sign.
@@ -70,6 +70,15 @@ impl Series {
             sums[2] -= wave * wave * term;
         }
         sums
+    }
+
+    /// Parameter of the largest (`sign` 1) or smallest (-1) distance from `centre`, for `count` markers.
+    fn extreme(&self, centre: Complex64, sign: f64, count: usize) -> f64 {
+        let step = TAU / (FINER * count) as f64;
+        let places = (0..FINER * count).map(|k| step * k as f64);
+        let distances = places.map(|parameter| (parameter, sign * (self.at(parameter)[0] - centre).norm_sqr()));
+        let best = distances.max_by(|a, b| a.1.total_cmp(&b.1));
+        self.stationary(centre, best.map_or(0.0, |(parameter, _)| parameter), step)
     }
 
     /// Parameter near `start` at which the distance from `centre` is stationary.
@@ -133,14 +142,7 @@ impl Deformation {
 
         let centroid = origin + middle;
         let centre = Complex64::new(centroid.x, centroid.y);
-        let fine = FINER * count;
-        let places = (0..fine).map(|k| TAU * k as f64 / fine as f64);
-        let distances: Vec<f64> = places.map(|parameter| (curve.at(parameter)[0] - centre).norm_sqr()).collect();
-        let extreme = |sign: f64| {
-            let best = (0..fine).max_by(|a, b| (sign * distances[*a]).total_cmp(&(sign * distances[*b])));
-            curve.stationary(centre, TAU * best.unwrap_or(0) as f64 / fine as f64, TAU / fine as f64)
-        };
-        let [tip, waist] = [extreme(1.0), extreme(-1.0)];
+        let [tip, waist] = [1.0, -1.0].map(|sign| curve.extreme(centre, sign, count));
         let [z, t, bend] = curve.at(tip);
         let extents = [(z - centre).norm(), (curve.at(waist)[0] - centre).norm()];
 
@@ -164,7 +166,7 @@ impl Deformation {
             tip_curvature: (t.conj() * bend).im / t.norm().powi(3),
             tip_speed: speed.at(tip)[0].norm(),
             waist_speed: speed.at(waist)[0].norm(),
-            largest_speed: own.iter().map(|v| v.length()).fold(0.0, f64::max),
+            largest_speed: speed.at(speed.extreme(Complex64::ZERO, 1.0, count))[0].norm(),
             period: turns.then(|| along.iter().map(|v| step / v.abs()).sum()),
         })
     }
