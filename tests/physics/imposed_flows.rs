@@ -260,3 +260,83 @@ fn checkpoints_in_time() {
     assert!(refused.contains("du/dy of the imposed flow"), "{refused}");
     std::fs::remove_dir_all(&directory).unwrap();
 }
+
+/// A sheared box of 6 x 6, whose images go once around in a strain of 1: shape and stress.
+#[test]
+fn sheared_box() {
+    let at = |dt: f64| {
+        let setup = Setup { region: Region::Box { lengths: [6.0; 2] }, ..drop_in(SHEAR, 1.0, 0.2, 64, dt) };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        ["0.5", "2"].map(|strain| {
+            scene.run(strain.parse().unwrap()).go().unwrap();
+            assert!((scene.system().hydrodynamics().strain() - scene.time()).abs() < 1e-12);
+            let case = format!("transient_L6_lam1_Ca0.2_strain{strain}");
+            let seen = scene.system_mut().deformation(droplets[0]).unwrap();
+            let stress = scene.system_mut().stress().unwrap();
+            let mut errors = errors(&case, (seen, stress.stresslet));
+            errors.push(("mean_stress_xy", stress.mean()[0][1] - reference(&case, "mean_stress_xy")));
+            errors.push(("mean_N1", stress.normal_difference() - reference(&case, "mean_N1")));
+            assert_eq!(stress.effective_viscosity(), Some(stress.mean()[0][1]));
+            errors
+        })
+    };
+    for (coarse, fine) in at(0.005).into_iter().zip(at(0.0025)) {
+        for ((name, coarse), (_, fine)) in coarse.into_iter().zip(fine) {
+            let tolerance = if ["D_mom", "D_ext", "mean_stress_xy", "mean_N1"].contains(&name) { 1e-6 } else { 1e-5 };
+            assert!(fine.abs() < tolerance, "{name} {fine:e}");
+            assert!(fine.abs() < coarse.abs() / 3.0 || fine.abs() < 3e-7, "{name} {coarse:e} {fine:e}");
+        }
+    }
+}
+
+/// The viscosity of a square lattice of drops that are hardly deformed, when its images have gone once around: the
+/// reference to four digits, and `1 + k phi/(1 - 2 m k phi)` of point stresslets to second order in the area fraction.
+#[test]
+fn dilute_emulsions() {
+    let viscosity = |side: f64, ratio: f64, capillary: f64| {
+        let dt = 0.1 * (1.0 + ratio) * capillary;
+        let drop = drop_in(SHEAR, ratio, capillary, 24, dt);
+        let setup = Setup { region: Region::Box { lengths: [side; 2] }, ..drop };
+        let Built { mut scene, .. } = setup.build().unwrap();
+        scene.run(1.0).go().unwrap();
+        let (stress, phi) = (scene.system_mut().stress().unwrap(), PI / (side * side));
+        (stress.effective_viscosity().unwrap() - 1.0) / phi
+    };
+    for ratio in [1.0, 5.0] {
+        let k = (1.0 + 2.0 * ratio) / (1.0 + ratio);
+        // The error of the capillary number is of second order.
+        let at = |side: f64| {
+            let [coarse, fine] = [0.02, 0.01].map(|capillary| viscosity(side, ratio, 2.0 * capillary / (1.0 + ratio)));
+            fine + (fine - coarse) / 3.0
+        };
+        let errors = [8.0, 16.0].map(|side| {
+            let phi = PI / (side * side);
+            at(side) - k / (1.0 + 2.0 * 0.149_105_66 * k * phi)
+        });
+        assert!(errors[0].abs() < 4.0 * (PI / 64.0).powi(2), "{ratio} {errors:?}");
+        assert!(errors[1].abs() < errors[0].abs() / 8.0, "{ratio} {errors:?}");
+        if ratio == 1.0 {
+            assert!((at(8.0) - reference("box_L8_lam1_diag", "k_eff=(eta_eff/eta-1)/phi")).abs() < 2e-4);
+        }
+    }
+}
+
+/// A run through several whole periods goes on bit for bit from a checkpoint.
+#[test]
+fn checkpoints_of_a_sheared_box() {
+    let make = || {
+        let region = Region::Box { lengths: [3.0, 2.5] };
+        let setup = Setup { region, step: StepSize::default(), ..drop_in(SHEAR, 3.0, 0.3, 24, 0.1) };
+        setup.build().unwrap().scene
+    };
+    let mut scene = make();
+    scene.run(1.7).go().unwrap();
+    let saved = scene.checkpoint("");
+    scene.run(3.0).go().unwrap();
+    let mut again = make();
+    again.resume(&saved).unwrap();
+    assert!((again.system().hydrodynamics().strain() - 1.7).abs() < 1e-12);
+    again.run(3.0).go().unwrap();
+    assert_eq!(scene.system().markers().positions(), again.system().markers().positions());
+    assert_eq!(scene.system().hydrodynamics().strain().to_bits(), again.system().hydrodynamics().strain().to_bits());
+}

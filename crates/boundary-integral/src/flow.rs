@@ -103,7 +103,7 @@ impl Hydrodynamics for BoundaryIntegral {
     /// before the first one with the reference perimeter.
     fn fluid_view(&self) -> FluidView {
         FluidView {
-            domain: Domain::from(*self.region()),
+            domain: Domain { periods: self.interfaces.flow.periods(), ..Domain::from(*self.region()) },
             viscosity: self.interfaces.flow.viscosity(),
             spacing: None,
             second_order: true,
@@ -161,10 +161,21 @@ impl Hydrodynamics for BoundaryIntegral {
     }
 
     fn save(&self) -> SavedState {
-        self.interfaces.save()
+        let (mut saved, strain) = (self.interfaces.save(), self.strain());
+        if strain != 0.0 {
+            saved.reals.push(strain);
+            saved.counts.push(1);
+        }
+        saved
     }
 
     fn load(&mut self, saved: &SavedState) {
-        self.interfaces.restore(&saved.reals, &saved.counts);
+        let (reals, counts, strain) = match (saved.reals.as_slice(), saved.counts.as_slice()) {
+            ([reals @ .., strain], [counts @ .., 1]) if !counts.is_empty() => (reals, counts, *strain),
+            (reals, counts) => (reals, counts, 0.0),
+        };
+        self.interfaces.restore(reals, counts);
+        // A strain that is no number stays away.
+        let _ = self.interfaces.flow.impose(self.imposed(), strain);
     }
 }

@@ -19,7 +19,7 @@ pub(crate) const WALL_TOLERANCE: f64 = 0.25;
 pub(crate) fn domain(grid: &Grid) -> Domain {
     let ([lx, ly], [_, bottom]) = (grid.lengths(), grid.origin());
     let walls = grid.has_walls().then_some([bottom, bottom + ly]);
-    Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls }
+    Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)].into(), walls }
 }
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating

@@ -1,5 +1,7 @@
 //! Search among many items of the plane by boxes around them, and boxes around those.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Vec2;
 
 /// Items in a box, and boxes in a box.
@@ -30,23 +32,29 @@ impl Frame {
 
     /// Square of the distance of a point from the nearest image of the box (length squared); zero inside.
     #[inline]
-    fn squared_distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
-        let away = nearest_image(point - self.centre, periods).abs() - self.half;
-        away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
+    fn squared_distance(&self, point: Vec2, periods: &Periods) -> f64 {
+        let squared = |from: Vec2| {
+            let away = from.abs() - self.half;
+            away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
+        };
+        if periods.tilt == 0.0 {
+            return squared(periods.wrap(point - self.centre));
+        }
+        periods.rows(point - self.centre).map(squared).fold(f64::INFINITY, f64::min)
     }
 
     /// True where the distance from an image of another box is at most `reach` (length).
     #[must_use]
-    pub fn is_near(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
+    pub fn is_near(&self, other: &Self, periods: impl Into<Periods>, reach: f64) -> bool {
         let grown = Self { centre: other.centre, half: self.half + other.half };
-        grown.squared_distance(self.centre, periods) <= reach * reach
+        grown.squared_distance(self.centre, &periods.into()) <= reach * reach
     }
 
     /// True where the box lies in an image of another one that is `reach` (length) larger on all sides.
     #[must_use]
-    pub fn is_inside(&self, other: &Self, periods: [Option<f64>; 2], reach: f64) -> bool {
-        let between = nearest_image(self.centre - other.centre, periods).abs();
-        (0..2).all(|k| between[k] + self.half[k] <= other.half[k] + reach)
+    pub fn is_inside(&self, other: &Self, periods: impl Into<Periods>, reach: f64) -> bool {
+        let mut images = periods.into().rows(self.centre - other.centre);
+        images.any(|between| (0..2).all(|k| between[k].abs() + self.half[k] <= other.half[k] + reach))
     }
 
     /// The longer side (length).
@@ -62,19 +70,75 @@ impl Frame {
     }
 }
 
-/// The shortest of a difference of places and its images (length), in a domain of these periods in x and y (length;
-/// `None` where there is none).
+/// Periods of a domain in x and y (length; `None` where there is none), the images above being displaced along x where
+/// the domain is sheared.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Periods {
+    /// The periods in x and y (length).
+    pub lengths: [Option<f64>; 2],
+    /// Displacement along x of the image above (length), at most half the period in x in size.
+    pub tilt: f64,
+}
+
+impl From<[Option<f64>; 2]> for Periods {
+    fn from(lengths: [Option<f64>; 2]) -> Self {
+        Self { lengths, tilt: 0.0 }
+    }
+}
+
+impl std::ops::Deref for Periods {
+    type Target = [Option<f64>; 2];
+
+    fn deref(&self) -> &[Option<f64>; 2] {
+        &self.lengths
+    }
+}
+
+impl Periods {
+    /// A difference of places (length) less the whole periods in it: the shortest of its images where these are not
+    /// displaced, close to the shortest where they are.
+    #[inline]
+    #[must_use]
+    pub fn wrap(&self, mut difference: Vec2) -> Vec2 {
+        for axis in [1, 0] {
+            if let Some(period) = self.lengths[axis]
+                && difference[axis].abs() > 0.5 * period
+            {
+                let count = (difference[axis] / period).round();
+                difference[axis] -= period * count;
+                if axis == 1 {
+                    difference.x -= self.tilt * count;
+                }
+            }
+        }
+        difference
+    }
+
+    /// The wrapped difference and, in a sheared domain, those to the images below and above.
+    #[inline]
+    pub(crate) fn rows(&self, difference: Vec2) -> impl Iterator<Item = Vec2> + use<> {
+        let nearest = self.wrap(difference);
+        let height = if self.tilt == 0.0 { None } else { self.lengths[1] };
+        let beside = height.map(|height| {
+            let step = Vec2::new(self.tilt, height);
+            let along = Self { lengths: [self.lengths[0], None], tilt: 0.0 };
+            [step, -step].map(|step| along.wrap(nearest + step))
+        });
+        std::iter::once(nearest).chain(beside.into_iter().flatten())
+    }
+}
+
+/// The shortest of a difference of places and its images (length), in a domain of these periods.
 #[inline]
 #[must_use]
-pub fn nearest_image(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
-    for (axis, period) in periods.into_iter().enumerate() {
-        if let Some(period) = period
-            && difference[axis].abs() > 0.5 * period
-        {
-            difference[axis] -= period * (difference[axis] / period).round();
-        }
+pub fn nearest_image(difference: Vec2, periods: impl Into<Periods>) -> Vec2 {
+    let periods = periods.into();
+    let nearest = periods.wrap(difference);
+    if periods.tilt == 0.0 {
+        return nearest;
     }
-    difference
+    let shorter = |a: Vec2, b: Vec2| if b.length_squared() < a.length_squared() { b } else { a };
+    periods.rows(difference).fold(nearest, shorter)
 }
 
 /// A tree of boxes around numbered items of the plane: eight items in a box, eight boxes in a box, up to one around
@@ -161,7 +225,8 @@ impl BoxTree {
     /// Calls `look` with the items near a point, those in the nearest boxes first, over all images where there are
     /// `periods` (length, in x and y). It is told, and returns, the square of the distance beyond which items do not
     /// matter (length squared).
-    pub fn search(&self, point: Vec2, periods: [Option<f64>; 2], squared: f64, look: &mut impl FnMut(usize) -> f64) {
+    pub fn search(&self, point: Vec2, periods: impl Into<Periods>, squared: f64, look: &mut impl FnMut(usize) -> f64) {
+        let periods = &periods.into();
         if self.frame().is_some_and(|all| all.squared_distance(point, periods) <= squared) {
             self.search_in(self.levels.len() - 1, 0, (point, periods), squared, look);
         }
@@ -171,7 +236,7 @@ impl BoxTree {
         &self,
         level: usize,
         frame: usize,
-        (point, periods): (Vec2, [Option<f64>; 2]),
+        (point, periods): (Vec2, &Periods),
         mut squared: f64,
         look: &mut impl FnMut(usize) -> f64,
     ) -> f64 {
@@ -198,7 +263,8 @@ impl BoxTree {
 
     /// Calls `visit` with all items whose boxes come within `reach` (length) of an image of `frame`, and with some
     /// that do not, in no particular order.
-    pub fn each_near(&self, frame: &Frame, periods: [Option<f64>; 2], reach: f64, visit: &mut impl FnMut(usize)) {
+    pub fn each_near(&self, frame: &Frame, periods: impl Into<Periods>, reach: f64, visit: &mut impl FnMut(usize)) {
+        let periods = &periods.into();
         if let Some(level) = self.levels.len().checked_sub(1) {
             self.near_in(level, 0..self.levels[level].len(), (frame, periods, reach), visit);
         }
@@ -208,13 +274,13 @@ impl BoxTree {
         &self,
         level: usize,
         range: std::ops::Range<usize>,
-        (frame, periods, reach): (&Frame, [Option<f64>; 2], f64),
+        (frame, periods, reach): (&Frame, &Periods, f64),
         visit: &mut impl FnMut(usize),
     ) {
         for index in range {
             let around = &self.levels[level][index];
             let slack = ROUND_OFF * (around.size() + frame.size() + (around.centre - frame.centre).length());
-            if !around.is_near(frame, periods, reach + slack) {
+            if !around.is_near(frame, *periods, reach + slack) {
                 continue;
             }
             match level.checked_sub(1) {

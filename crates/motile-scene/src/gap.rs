@@ -19,7 +19,7 @@ use crate::{Body, Domain, FluidView, MarkerKind, Markers};
 use boundary::{shifts, smallest};
 use motile_base::{
     Vec2,
-    boxes::{BoxTree, Frame},
+    boxes::{BoxTree, Frame, Periods},
 };
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
@@ -113,7 +113,7 @@ impl Surfaces {
 
     /// Calls `visit` with the bodies whose boxes come within `reach` (length) of an image of `frame`, and with some
     /// others, in no particular order.
-    fn each_near(&self, frame: &Frame, periods: [Option<f64>; 2], reach: f64, visit: &mut impl FnMut(usize)) {
+    fn each_near(&self, frame: &Frame, periods: Periods, reach: f64, visit: &mut impl FnMut(usize)) {
         self.tree.each_near(frame, periods, reach, &mut |place| visit(self.numbers[place]));
     }
 
@@ -160,7 +160,7 @@ impl Surfaces {
 
     /// The smallest signed distance of a corner of an interface from solids (length), the interface, the number of the
     /// corner in it, and where that is (length).
-    pub(crate) fn nearest_solid(&self, periods: [Option<f64>; 2]) -> Option<(f64, usize, usize, Vec2)> {
+    pub(crate) fn nearest_solid(&self, periods: Periods) -> Option<(f64, usize, usize, Vec2)> {
         let of_kind = |closed: bool| {
             let bodies = self.boundaries.iter().zip(&self.kinds).enumerate();
             bodies.filter_map(move |(body, (surface, kind))| (kind.is_curve() == closed).then_some((body, surface)))
@@ -177,7 +177,7 @@ impl Surfaces {
     }
 
     /// True where a body lies inside an interface, or inside one of its images.
-    fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
+    fn lies_in(&self, inner: usize, outer: usize, periods: Periods) -> bool {
         if inner == outer || !self.kinds[outer].holds_fluid() {
             return false;
         }
@@ -214,7 +214,7 @@ impl Surfaces {
         let [from, boundary] = [body, other].map(|index| &self.boundaries[index]);
         let [Some(frame), Some(large)] = [from, boundary].map(Boundary::frame) else { return };
         let own = other == body;
-        let mut look = |shift: Vec2, periods: [Option<f64>; 2], sign: &dyn Fn() -> f64| {
+        let mut look = |shift: Vec2, periods: Periods, sign: &dyn Fn() -> f64| {
             if !frame.moved(shift).is_near(&large, periods, reach) {
                 return;
             }
@@ -228,11 +228,11 @@ impl Surfaces {
         };
         if self.kinds[other].advance().is_some() {
             for (shift, sign) in self.images_across(body, other, domain.periods) {
-                look(shift, [domain.periods[0], None], &|| sign);
+                look(shift, [domain.periods[0], None].into(), &|| sign);
             }
             return;
         }
-        let periods = if own { [None; 2] } else { domain.periods };
+        let periods = if own { Periods::default() } else { domain.periods };
         let sign = || if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
         shifts(domain.periods, own).into_iter().flatten().for_each(|shift| look(shift, periods, &sign));
     }
@@ -241,7 +241,8 @@ impl Surfaces {
 impl Boundary {
     /// The boundary of a body where it is now, sorted, in a domain of these periods (length, in x and y).
     #[must_use]
-    pub fn of(body: &dyn Body, periods: [Option<f64>; 2]) -> Self {
+    pub fn of(body: &dyn Body, periods: impl Into<Periods>) -> Self {
+        let periods = periods.into();
         let mut markers = vec![Vec2::ZERO; body.marker_count()];
         body.write_markers(&mut markers);
         let mut boundary = Self::default();
@@ -261,7 +262,7 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    pub(crate) fn of(body: &dyn Body, periods: [Option<f64>; 2]) -> Self {
+    pub(crate) fn of(body: &dyn Body, periods: Periods) -> Self {
         let boundary = Boundary::of(body, periods);
         let mut points: Vec<Vec2> = boundary.corners().collect();
         if boundary.is_empty() {
@@ -273,7 +274,7 @@ impl Outline {
 
     /// The smallest signed distance of the points of another body from the boundary (length), positive for most of
     /// those inside an interface: what lies in it is measured from within.
-    fn smallest(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
+    fn smallest(&self, other: &Self, periods: Periods) -> Option<f64> {
         let distances = || other.points.iter().map(|&point| self.boundary.distance(point, periods));
         if let (Some(_), Some(_)) = (self.kind.advance(), periods[1]) {
             // The nearest image may be above or below.
@@ -285,7 +286,7 @@ impl Outline {
     }
 
     /// The gap to another body; see [`crate::System::gap`].
-    pub(crate) fn gap(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
+    pub(crate) fn gap(&self, other: &Self, periods: Periods) -> Option<f64> {
         [self.smallest(other, periods), other.smallest(self, periods)].into_iter().flatten().reduce(f64::min)
     }
 }

@@ -15,7 +15,7 @@ pub use substrate::Substrate;
 
 use std::borrow::Cow;
 
-use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, boxes::Periods};
 use serde::{Deserialize, Serialize};
 
 use crate::{FlowError, Warning, gap::Boundary, saved_state::SavedState};
@@ -26,7 +26,7 @@ pub struct Domain {
     /// Lower left corner (length).
     pub origin: [f64; 2],
     /// Periods in x and y (length); `None` where the fluid is unbounded or ends at a wall.
-    pub periods: [Option<f64>; 2],
+    pub periods: Periods,
     /// Heights of the no-slip walls below and above (length).
     pub walls: Option<[f64; 2]>,
 }
@@ -37,7 +37,7 @@ impl From<Region> for Domain {
         let [_, height] = region.lengths();
         let walls = region.drive().map(|_| [-0.5 * height, 0.5 * height]);
         let origin = region.lengths().map(|length| if length.is_finite() { -0.5 * length } else { 0.0 });
-        Self { origin, periods: region.periods(), walls }
+        Self { origin, periods: region.periods().into(), walls }
     }
 }
 

@@ -16,7 +16,7 @@ struct Wind {
 impl Hydrodynamics for Wind {
     fn fluid_view(&self) -> FluidView {
         FluidView {
-            domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: self.walls },
+            domain: Domain { origin: [0.0, 0.0], periods: [None, None].into(), walls: self.walls },
             viscosity: 1.0,
             spacing: None,
             shape_modes: None,

@@ -8,7 +8,6 @@ use motile_base::{
 };
 use num_complex::Complex64;
 
-use crate::images::Images;
 use crate::{
     LayerError, Settings,
     calculus::MOST_POINTS,
@@ -208,7 +207,7 @@ impl Curve {
         if !(least..=most).contains(&found) {
             return Err(LayerError::Count { kind: "curve", curve, what: "points", found, least, most });
         }
-        let expected = Images::of(region).periods[0].unwrap_or(0.0);
+        let expected = region.periods()[0].unwrap_or(0.0);
         if period != Vec2::ZERO && (period.y != 0.0 || expected == 0.0 || period.x.abs() != expected) {
             return Err(LayerError::Period { curve, x: period.x, y: period.y, expected });
         }

@@ -7,7 +7,6 @@ mod rigid;
 
 use motile_base::{Vec2, finite, positive, same_length, within};
 
-use crate::images::Images;
 use crate::{
     LayerError, Settings, Symmetry,
     curve::{Curve, LayerCurve},
@@ -21,7 +20,7 @@ use crate::{
 use equation::Equation;
 use inside::InsideFlow;
 pub use interface::{Inside, Interface};
-use motile_base::{Drive, FlowSample, ImposedFlow, Region};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, boxes::Periods};
 use num_complex::Complex64;
 use rigid::RigidWalls;
 
@@ -141,7 +140,8 @@ impl InterfaceFlow {
     }
 
     /// Imposes a flow in place of the one that there was: in the plane any one, in a channel that of walls that slide
-    /// ([`ImposedFlow::couette`]), a prescribed flux then being that of all.
+    /// ([`ImposedFlow::couette`]), a prescribed flux then being that of all, in a box a shear, after a strain (no
+    /// dimension) by which the images above are displaced along x. The strain counts modulo whole periods.
     ///
     /// # Errors
     /// Numbers that are not finite or a flow that does not keep areas; [`LayerError::NoSuchFlow`] for a flow that the
@@ -155,7 +155,13 @@ impl InterfaceFlow {
             _ if flow.is_none() => {}
             Region::Plane => {}
             Region::Space | Region::Tube { .. } => return Err(LayerError::InThreeDimensions),
-            Region::Box { .. } => return refuse("a flow imposed on a box", "use the plane"),
+            Region::Box { .. } if flow != ImposedFlow::shear(flow.shear_rate()) => {
+                return refuse(
+                    "a flow other than a shear along x, imposed on a box,",
+                    "impose a shear, whose images are displaced, or use the plane",
+                );
+            }
+            Region::Box { .. } => {}
             Region::Channel { .. } if flow != along => {
                 return refuse(
                     "a flow that is not that of sliding walls, imposed on a channel",
@@ -168,13 +174,20 @@ impl InterfaceFlow {
             Region::Channel { .. } => {}
         }
         self.layers.imposed = flow;
+        self.layers.set_strain(strain);
         Ok(())
     }
 
     /// Strain by which the images of a box are displaced (no dimension).
     #[must_use]
     pub fn strain(&self) -> f64 {
-        0.0
+        self.layers.strain
+    }
+
+    /// Periods of the region, and the displacement of images that are sheared.
+    #[must_use]
+    pub fn periods(&self) -> Periods {
+        self.layers.images.periods
     }
 
     /// The imposed flow, without what the drive of a channel drives.
@@ -486,12 +499,21 @@ impl InterfaceFlow {
         finite_vectors("the position", 0, points)?;
         within("the number of an interface", interface as f64, 0.0, self.len() as f64 - 1.0)?;
         self.check_solved()?;
-        let (range, images) = (self.values(interface), Images::of(&self.region));
+        let (range, images) = (self.values(interface), self.layers.images);
         let Self { layers, inside, velocities, settings, .. } = self;
         let curve = &layers.curves[interface];
         let transforms = &mut layers.plans[curve.plan].transforms;
         inside.prepare(curve, transforms, &velocities[range], settings)?;
-        inside.write(points, |point| images.wrap(Complex64::new(point.x, point.y) - curve.centre), out);
+        let home = |point: &Vec2| images.wrap(Complex64::new(point.x, point.y) - curve.centre);
+        inside.write(points, |point| home(&point), out);
+        // In a sheared box an image moves along with the imposed flow there.
+        let imposed = layers.imposed;
+        if images.periods[1].is_some() && !imposed.is_none() {
+            for (point, velocity) in points.iter().zip(out) {
+                let home = curve.centre + home(point);
+                *velocity += imposed.velocity_at(*point) - imposed.velocity_at(Vec2::new(home.re, home.im));
+            }
+        }
         Ok(())
     }
 
@@ -515,7 +537,7 @@ fn check_places(layers: &Layers) -> Result<(), LayerError> {
     for (curve, interface) in interfaces.iter().enumerate() {
         for z in &interface.nodes.position {
             let place = z + interface.centre;
-            let left = |wall: &Curve| wall.winds_around(Images::of(&layers.region).wrap(place - wall.centre));
+            let left = |wall: &Curve| wall.winds_around(layers.images.wrap(place - wall.centre));
             if let Some(wall) = walls.iter().position(|wall| left(wall) != wall.is_open()) {
                 return Err(LayerError::CrossesWall { curve, x: place.re, y: place.im, wall });
             }

@@ -37,6 +37,9 @@ use walls::Walls;
 #[derive(Debug, Clone)]
 pub(crate) struct Layers {
     pub(crate) region: Region,
+    pub(crate) images: Images,
+    /// Strain of the images of a box (no dimension).
+    pub(crate) strain: f64,
     pub(crate) greens: GreensFunction,
     pub(crate) plans: Vec<Plan>,
     pub(crate) curves: Vec<Curve>,
@@ -71,9 +74,12 @@ impl Layers {
         } else {
             None
         };
+        let images = Images::of(&region, 0.0);
         Ok(Self {
             region,
-            greens: GreensFunction::new(&region, tolerance),
+            images,
+            strain: 0.0,
+            greens: GreensFunction::new(&region, images.tilt(), tolerance),
             plans: Vec::new(),
             curves: Vec::new(),
             starts: vec![0],
@@ -87,6 +93,17 @@ impl Layers {
             flow: Vec::new(),
             fine: Vec::new(),
         })
+    }
+
+    /// Displaces the images of a box by a strain (no dimension).
+    pub(crate) fn set_strain(&mut self, strain: f64) {
+        self.strain = strain;
+        let images = Images::of(&self.region, strain);
+        if images != self.images {
+            self.images = images;
+            self.greens = GreensFunction::new(&self.region, images.tilt(), self.multipoles.tolerance());
+            self.multipoles.set_images(images);
+        }
     }
 
     /// Keeps the present curves, behind those that are loaded from now on.
@@ -164,7 +181,7 @@ impl Layers {
     /// later. With `double`, prepares for [`Layers::double_layer`].
     pub(crate) fn single_layer(&mut self, double: bool) {
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, .. } = self;
+        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, images, .. } = self;
         let stored = *stored;
         let wave = match self.region {
             Region::Channel { length, .. } => Some(TAU / length),
@@ -173,7 +190,7 @@ impl Layers {
         };
         direct.load(curves, stored, wave);
         multipoles.divide(curves, stored, &mut direct.pairs);
-        close.find(curves, plans, &Images::of(&self.region), stored);
+        close.find(curves, plans, images, stored);
 
         direct.add_forces(plans, stored, flow);
         multipoles.add_forces(curves, 0..stored.first, flow);

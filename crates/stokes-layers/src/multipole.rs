@@ -41,6 +41,7 @@ struct Link {
 #[derive(Debug, Clone)]
 pub(crate) struct Multipoles {
     region: Region,
+    images: Images,
     tolerance: f64,
     finder: SeriesFinder,
     /// Series between a curve and its own images in a box, the same for all curves, with its unit of length.
@@ -62,20 +63,16 @@ pub(crate) struct Multipoles {
 
 impl Multipoles {
     pub(crate) fn new(region: Region, tolerance: f64) -> Result<Self, InputError> {
-        let mut finder = SeriesFinder::new(&region, tolerance)?;
-        let own = if let Region::Box { lengths: [lx, ly] } = region {
-            let unit = lx.min(ly);
-            let mut series = Series::new();
-            let extent = Extent { reach: LARGEST_RATIO * unit, unit, degree: MOST_DEGREES };
-            finder.find(Complex64::default(), &[Complex64::default()], extent, &mut series);
-            Some((series, unit))
-        } else {
-            None
+        let images = Images::of(&region, 0.0);
+        let own = match region {
+            Region::Box { lengths: [lx, ly] } => Some((Series::new(), lx.min(ly))),
+            _ => None,
         };
-        Ok(Self {
+        let mut multipoles = Self {
             region,
+            images,
             tolerance,
-            finder,
+            finder: SeriesFinder::new(&region, tolerance)?,
             own,
             expansion: Expansion::default(),
             moments: Vec::new(),
@@ -86,7 +83,29 @@ impl Multipoles {
             products: Vec::new(),
             fluxes: Vec::new(),
             direct: Vec::new(),
-        })
+        };
+        multipoles.find_own();
+        Ok(multipoles)
+    }
+
+    /// Relative accuracy of everything that is truncated.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Takes over displaced images.
+    pub(crate) fn set_images(&mut self, images: Images) {
+        self.images = images;
+        self.finder.set_images(&self.region, images);
+        self.find_own();
+    }
+
+    /// Finds the series between a curve and its own images.
+    fn find_own(&mut self) {
+        if let Some((series, unit)) = &mut self.own {
+            let extent = Extent { reach: LARGEST_RATIO * *unit, unit: *unit, degree: MOST_DEGREES };
+            self.finder.find(Complex64::default(), &[Complex64::default()], extent, series);
+        }
     }
 
     /// Divides the Green's function between all curves into sums over nodes, which are added to `pairs`, and series.
@@ -120,12 +139,14 @@ impl Multipoles {
         let own = target == source;
         let swap = curves[target].len() > curves[source].len();
         let [target, source] = if swap { [source, target] } else { [target, source] };
-        let offset = Images::of(&self.region).wrap(curves[source].centre - curves[target].centre);
+        let offset = self.images.wrap(curves[source].centre - curves[target].centre);
         let offset = [offset.re, offset.im];
         let kernel = match self.region {
             Region::Plane | Region::Space | Region::Tube { .. } => AnyPair::Free(FreePair { offset }),
             Region::Channel { length, .. } => AnyPair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
-            Region::Box { lengths } => AnyPair::Lattice(LatticePair::new(lengths, offset, self.tolerance)),
+            Region::Box { lengths } => {
+                AnyPair::Lattice(LatticePair::new(lengths, self.images.tilt(), offset, self.tolerance))
+            }
         };
         CurvePair { target, source, own, kernel }
     }
@@ -135,7 +156,7 @@ impl Multipoles {
         let own = target == source;
         let reach = curves[target].radius + curves[source].radius;
         let too_close = |distance: Complex64| reach > LARGEST_RATIO * distance.norm();
-        let distance = Images::of(&self.region).wrap(curves[target].centre - curves[source].centre);
+        let distance = self.images.wrap(curves[target].centre - curves[source].centre);
         self.direct.clear();
         let mut nearest = distance.norm();
         if let Region::Box { lengths: [lx, ly] } = self.region {
@@ -144,7 +165,8 @@ impl Multipoles {
             let ends = if swap { [source, target] } else { [target, source] };
             nearest = f64::INFINITY;
             for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))) {
-                let e = distance + Complex64::new(f64::from(i) * lx, f64::from(j) * ly);
+                let e =
+                    distance + Complex64::new(f64::from(i) * lx + f64::from(j) * self.images.tilt(), f64::from(j) * ly);
                 let itself = own && (i, j) == (0, 0);
                 if !itself && !too_close(e) {
                     nearest = nearest.min(e.norm());
@@ -250,7 +272,7 @@ impl Multipoles {
                 any = true;
             }
             if any {
-                self.expansion.add_flow(&curve.nodes.position, self.unit, Images::of(&self.region).area(), out);
+                self.expansion.add_flow(&curve.nodes.position, self.unit, self.images.area(), out);
             }
         }
     }

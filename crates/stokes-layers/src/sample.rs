@@ -5,7 +5,6 @@ use std::f64::consts::{PI, TAU};
 use motile_base::{FlowSample, Vec2};
 use num_complex::Complex64;
 
-use crate::images::Images;
 use crate::{
     close_weights::{CloseWeights, reach},
     density::Density,
@@ -28,6 +27,8 @@ pub(crate) struct Sampler {
     close: Vec<Complex64>,
     /// Mean of the double layer in a box.
     mean: Complex64,
+    /// The image of the last point in a curve itself, not in an image of the curve (length).
+    home: Vec2,
 }
 
 /// Place of a point among curves.
@@ -48,7 +49,7 @@ pub(crate) enum Place {
 
 impl Sampler {
     pub(crate) fn new(tolerance: f64) -> Self {
-        Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default() }
+        Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default(), home: Vec2::ZERO }
     }
 
     /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a curve,
@@ -76,21 +77,25 @@ impl Sampler {
         let pressure_slope = exterior * layers.imposed.bend;
         for (index, (point, out)) in points.zip(out).enumerate() {
             let (flow, inside) = self.flow_at(layers, index, point, density);
+            let place = Vec2::new(point.re, point.im);
+            // In a sheared box an image moves along with the imposed flow there: the velocity is that at home, in the
+            // curve itself, and the difference of the imposed flow.
+            let home = if let Place::Exterior = inside { place } else { self.home };
+            let beyond = forced.velocity_at(place) - forced.velocity_at(home);
             if let Place::Inside(curve) = inside
                 && let Some(motion) = motion(curve)
             {
-                let arm = Images::of(&layers.region).wrap(point - Complex64::new(motion.centre.x, motion.centre.y));
-                let velocity = motion.at(motion.centre + Vec2::new(arm.re, arm.im));
+                let velocity = motion.at(home) + beyond;
                 *out = FlowSample { velocity, pressure: 0.0, gradient: [[0.0, -motion.spin], [motion.spin, 0.0]] };
                 continue;
             }
             let viscosity = viscosity(inside);
             let scale = 1.0 / (4.0 * PI * viscosity);
-            let place = Vec2::new(point.re, point.im);
             let share = exterior / viscosity;
             *out = FlowSample {
                 velocity: Vec2::new(flow.velocity.re * scale, flow.velocity.im * scale)
-                    + forced.velocity_at(place) * share,
+                    + forced.velocity_at(home) * share
+                    + beyond,
                 pressure: flow.pressure / (4.0 * PI) + pressure_slope * place.x,
                 gradient: flow.gradient().map(|row| row.map(|slope| slope * scale)),
             };
@@ -106,14 +111,14 @@ impl Sampler {
         let mut flow = Flow::default();
         let mut inside = Place::Exterior;
         let mut nearest = f64::INFINITY;
-        let images = Images::of(&layers.region);
+        let images = layers.images;
         for number in 0..layers.curves.len() {
             let curve = &layers.curves[number];
             let (apart, distance) = (images.wrap(point - curve.centre), self.reach * curve.spacing());
             let open = curve.is_open();
             self.close.clear();
             // An open curve has its own images along x.
-            for shift in images.shifts().filter(|shift| !open || shift.re == 0.0) {
+            for shift in images.shifts(open) {
                 let point = apart + shift;
                 let curve = &layers.curves[number];
                 if !open && point.norm() > curve.radius + distance {
@@ -138,6 +143,7 @@ impl Sampler {
                     continue;
                 }
                 let left = || side.unwrap_or_else(|| curve.winds_around(point));
+                let before = inside;
                 // Of open curves the nearest tells, of closed ones, which lie between them, the innermost.
                 inside = match inside {
                     Place::Exterior | Place::Beside { .. } if open && away < nearest => {
@@ -150,6 +156,10 @@ impl Sampler {
                     Place::Exterior | Place::Beside { .. } if !open && left() => Place::Inside(number),
                     place => place,
                 };
+                if inside != before {
+                    let home = curve.centre + point;
+                    self.home = Vec2::new(home.re, home.im);
+                }
             }
             self.add_nodes(layers, number, apart, density, &mut flow);
         }
@@ -217,7 +227,7 @@ impl Sampler {
         if curve.is_open() && !self.close.is_empty() && matches!(layers.greens, GreensFunction::Row { .. }) {
             return;
         }
-        let images = Images::of(&layers.region);
+        let images = layers.images;
         for (i, z) in curve.nodes.position.iter().enumerate() {
             let nearest = images.wrap(z - apart);
             let mut add = |k: &Kernels, sign: f64| {

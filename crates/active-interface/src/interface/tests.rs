@@ -16,7 +16,7 @@ struct Layers;
 impl Hydrodynamics for Converging {
     fn fluid_view(&self) -> FluidView {
         FluidView {
-            domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: None },
+            domain: Domain { origin: [0.0, 0.0], periods: [None, None].into(), walls: None },
             viscosity: 1.0,
             spacing: (!self.smooth).then_some(0.1),
             second_order: true,

@@ -10,7 +10,7 @@ fn body() -> RigidBody {
 }
 
 fn view() -> FluidView {
-    let domain = motile_scene::Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+    let domain = motile_scene::Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None };
     FluidView { domain, viscosity: 1.0, spacing: None, second_order: true, shape_modes: None, interface_stiffness: 1.0 }
 }
 

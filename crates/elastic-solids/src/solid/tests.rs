@@ -13,7 +13,7 @@ use crate::mesh::{equilateral_block, equilateral_strip};
 use crate::{Mesher, NeoHookean};
 
 pub(crate) fn fluid_view() -> FluidView {
-    let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
+    let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None].into(), walls: Some([-2.0, 2.0]) };
     FluidView {
         domain,
         viscosity: 10.0,
@@ -114,7 +114,7 @@ fn tethers_pull_back_to_their_anchors() {
     let elastic = 1.0 + 0.015 * 2.0;
     assert!((limit(&solid, &fluid_view()) - 20.0 / (held + elastic)).abs() < 1e-12);
     // A column in a box of height 1.6: as long as it is high, 30/(1.6 + 0.2) 1.6/12 of its nine rows and a spacing.
-    let domain = Domain { origin: [0.0; 2], periods: [Some(1.6); 2], walls: None };
+    let domain = Domain { origin: [0.0; 2], periods: [Some(1.6); 2].into(), walls: None };
     let count = 1.0 / block().points().iter().filter(|s| s.x < -0.79).count() as f64;
     let column = Solid::springs(block(), 1.0).unwrap().tethered(30.0 * count, |s| s.x < -0.79).unwrap();
     let height = block().points().iter().map(|s| s.y + 1.0).fold(0.0, f64::max) + column.spacing;

@@ -2,7 +2,7 @@
 
 use motile_base::{
     Vec2,
-    boxes::{BoxTree, Frame, nearest_image},
+    boxes::{BoxTree, Frame, Periods, nearest_image},
 };
 
 /// The boundary of a body: straight sides in any order, each with the inside of the body to its left.
@@ -49,13 +49,22 @@ pub(super) struct Nearest {
 impl Nearest {
     /// Looks at a side, and where it is so long that another image of it may be nearer, at that too.
     #[inline]
-    fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
+    fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: Periods) {
         let along = side[1] - side[0];
         let from_middle = nearest_image(point - 0.5 * (side[0] + side[1]), periods);
         let other = |k: usize| {
             let period = periods[k]?;
             (from_middle[k].abs() + 0.5 * along[k].abs() > 0.5 * period).then(|| -period.copysign(from_middle[k]))
         };
+        if periods.tilt != 0.0 {
+            let row = |k: f64| Vec2::new(k * periods.tilt, k * periods[1].unwrap_or(0.0));
+            for shift in [row(0.0), row(1.0), row(-1.0)] {
+                let from = Periods { lengths: [periods[0], None], tilt: 0.0 }.wrap(from_middle + shift);
+                let step = periods[0].unwrap_or(0.0);
+                [0.0, step, -step].into_iter().for_each(|x| self.look_at(number, along, from + Vec2::new(x, 0.0)));
+            }
+            return;
+        }
         let [x, y] = [other(0), other(1)];
         for dx in [Some(0.0), x].into_iter().flatten() {
             for dy in [Some(0.0), y].into_iter().flatten() {
@@ -141,17 +150,18 @@ impl Boundary {
     /// The signed distance of `point` from the boundary (length), over all images where there are `periods` (length, in
     /// x and y): negative inside the body, infinite without sides, not a number for a point that is not finite.
     #[must_use]
-    pub fn distance(&self, point: Vec2, periods: [Option<f64>; 2]) -> f64 {
-        self.distance_if_within(point, periods, f64::INFINITY).unwrap_or(f64::INFINITY)
+    pub fn distance(&self, point: Vec2, periods: impl Into<Periods>) -> f64 {
+        self.distance_if_within(point, periods.into(), f64::INFINITY).unwrap_or(f64::INFINITY)
     }
 
     /// The signed distance if its magnitude is below `reach` (length); see [`Boundary::distance`].
-    pub(crate) fn distance_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+    pub(crate) fn distance_within(&self, point: Vec2, periods: impl Into<Periods>, reach: f64) -> Option<f64> {
         self.nearest_within(point, periods, reach).map(|found| found.distance())
     }
 
     /// The nearest place to `point` below `reach` (length).
-    pub(super) fn nearest_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<Nearest> {
+    pub(super) fn nearest_within(&self, point: Vec2, periods: impl Into<Periods>, reach: f64) -> Option<Nearest> {
+        let periods = periods.into();
         let mut found = Nearest { squared: reach * reach, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
         self.tree.search(point, periods, found.squared, &mut |side| {
             found.look(side, &self.sides[side], point, periods);
@@ -164,13 +174,14 @@ impl Boundary {
     /// The smallest signed distance of points, such as the markers of an interface, and the number of that point;
     /// `None` without points or sides.
     #[must_use]
-    pub fn smallest(&self, points: &[Vec2], periods: [Option<f64>; 2]) -> Option<(f64, usize)> {
+    pub fn smallest(&self, points: &[Vec2], periods: impl Into<Periods>) -> Option<(f64, usize)> {
+        let periods = periods.into();
         let within = |point, reach| self.distance_if_within(point, periods, reach);
         smallest(points.iter().copied(), within).filter(|_| !self.is_empty())
     }
 
     /// As [`Boundary::distance_within`], not a number for a point that is not finite.
-    pub(super) fn distance_if_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+    pub(super) fn distance_if_within(&self, point: Vec2, periods: Periods, reach: f64) -> Option<f64> {
         let finite = point.x.is_finite() && point.y.is_finite();
         if finite { self.distance_within(point, periods, reach) } else { Some(f64::NAN) }
     }
@@ -205,16 +216,17 @@ pub(super) fn smallest(
 
 /// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that
 /// body's nearest image is looked for), for its own those of its images.
-pub(super) fn shifts([x, y]: [Option<f64>; 2], own: bool) -> [Option<Vec2>; 4] {
+pub(super) fn shifts(periods: Periods, own: bool) -> [Option<Vec2>; 4] {
     if !own {
         return [Some(Vec2::ZERO), None, None, None];
     }
+    let Periods { lengths: [x, y], tilt } = periods;
     let both = x.zip(y);
     [
         x.map(|x| Vec2::new(x, 0.0)),
-        y.map(|y| Vec2::new(0.0, y)),
-        both.map(|(x, y)| Vec2::new(x, y)),
-        both.map(|(x, y)| Vec2::new(x, -y)),
+        y.map(|y| Vec2::new(tilt, y)),
+        both.map(|(x, y)| Vec2::new(x + tilt, y)),
+        both.map(|(x, y)| Vec2::new(x - tilt, -y)),
     ]
 }
 

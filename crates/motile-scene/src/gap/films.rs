@@ -3,7 +3,7 @@
 use super::boundary::{Boundary, Nearest, shifts};
 use super::{Repulsion, Surfaces};
 use crate::Domain;
-use motile_base::Vec2;
+use motile_base::{Vec2, boxes::Periods};
 
 /// A corner of a surface close to a side of another one.
 #[derive(Debug, Clone, Copy)]
@@ -80,7 +80,7 @@ impl Films {
         let [from, to] = [body, other].map(|index| &surfaces.boundaries[index]);
         let [Some(frame), Some(large)] = [from, to].map(Boundary::frame) else { return };
         if surfaces.kinds[other].advance().is_some() {
-            let periods = [domain.periods[0], None];
+            let periods = [domain.periods[0], None].into();
             for (shift, sign) in surfaces.images_across(body, other, domain.periods) {
                 if frame.moved(shift).is_near(&large, periods, reach) {
                     self.add_contacts(surfaces, [body, other], (shift, periods, sign), reach);
@@ -88,7 +88,7 @@ impl Films {
             }
             return;
         }
-        let periods = if other == body { [None; 2] } else { domain.periods };
+        let periods = if other == body { Periods::default() } else { domain.periods };
         let mut outer = std::iter::successors(around.get(body).copied().flatten(), |&outer| around[outer]);
         let sign = if outer.any(|outer| outer == other) { -1.0 } else { 1.0 };
         for shift in shifts(domain.periods, other == body).into_iter().flatten().flat_map(|shift| [shift, -shift]) {
@@ -108,7 +108,7 @@ impl Films {
         &mut self,
         surfaces: &Surfaces,
         [body, other]: [usize; 2],
-        (shift, periods, sign): (Vec2, [Option<f64>; 2], f64),
+        (shift, periods, sign): (Vec2, Periods, f64),
         reach: f64,
     ) {
         let to = &surfaces.boundaries[other];

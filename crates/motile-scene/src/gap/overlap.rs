@@ -2,7 +2,10 @@
 
 use super::{Boundary, Surfaces};
 use crate::FluidView;
-use motile_base::{Vec2, boxes::Frame};
+use motile_base::{
+    Vec2,
+    boxes::{Frame, Periods},
+};
 
 /// Depth to which an interface may be inside another one, in units of [`Surfaces::contact_scale`]: sides of length s
 /// leave a curve of radius R by s/(8R) of their length, which is this at R = 6 s.
@@ -41,7 +44,7 @@ impl Surfaces {
     ///     square.push_loop(&[(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| Vec2::new(x, y)));
     ///     (square, MarkerKind::Points)
     /// };
-    /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None], walls: None };
+    /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None].into(), walls: None };
     /// let view = FluidView {
     ///     domain, viscosity: 1.0, spacing: Some(0.1), second_order: true, shape_modes: None, interface_stiffness: 1.0,
     /// };
@@ -86,7 +89,7 @@ impl Surfaces {
     }
 
     /// The innermost interface that each body lies in.
-    pub(crate) fn surroundings(&self, periods: [Option<f64>; 2], around: &mut Vec<Option<usize>>) {
+    pub(crate) fn surroundings(&self, periods: Periods, around: &mut Vec<Option<usize>>) {
         around.clear();
         around.extend(self.boundaries.iter().enumerate().map(|(inner, boundary)| {
             let (frame, mut innermost) = (boundary.frame()?, None);
@@ -106,7 +109,7 @@ impl Surfaces {
 
     /// The deepest place that two bodies have in common, and how deep it is in both (length); for what lies inside an
     /// interface, the place where it reaches out furthest.
-    fn overlap(&self, a: usize, b: usize, periods: [Option<f64>; 2], film: f64) -> Option<(Vec2, f64)> {
+    fn overlap(&self, a: usize, b: usize, periods: Periods, film: f64) -> Option<(Vec2, f64)> {
         let [first, second] = [&self.boundaries[a], &self.boundaries[b]];
         if !first.frame()?.is_near(&second.frame()?, periods, 0.0) {
             return None;
@@ -134,7 +137,7 @@ impl Surfaces {
 impl Boundary {
     /// True where the body lies inside another one, or inside one of its images: most of its corners do, some of them
     /// deeper than `film` (length).
-    pub(super) fn lies_in(&self, outer: &Self, periods: [Option<f64>; 2], film: f64) -> bool {
+    pub(super) fn lies_in(&self, outer: &Self, periods: Periods, film: f64) -> bool {
         let [Some(small), Some(large)] = [self, outer].map(Self::frame) else { return false };
         // A part of the inner one may have crossed.
         if !small.is_inside(&large, periods, 0.5 * small.size()) {

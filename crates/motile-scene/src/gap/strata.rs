@@ -4,7 +4,7 @@
 //! them, or of both, or of neither; then it is the exterior fluid.
 
 use super::{Boundary, Surfaces};
-use motile_base::Vec2;
+use motile_base::{Vec2, boxes::Periods};
 
 impl Surfaces {
     /// Sorts the interfaces that are periodic along x by their heights.
@@ -26,14 +26,14 @@ impl Surfaces {
         &self,
         body: usize,
         interface: usize,
-        [x, y]: [Option<f64>; 2],
+        Periods { lengths: [x, y], tilt }: Periods,
     ) -> impl Iterator<Item = (Vec2, f64)> {
         let [from, to] = [body, interface].map(|index| &self.boundaries[index]);
         let nearest = y.map_or(0.0, |y| -y * ((from.height() - to.height()) / y).round());
         let images: &[f64] = if y.is_some() { &[-1.0, 0.0, 1.0] } else { &[0.0] };
         let heights = images.iter().map(move |image| nearest + image * y.unwrap_or(0.0));
         heights.filter(move |height| body != interface || *height != 0.0).map(move |height| {
-            let shift = Vec2::new(0.0, height);
+            let shift = Vec2::new(y.map_or(0.0, |y| tilt * (height / y).round()), height);
             let [inside, all] = from.some_sides().fold([0, 0], |[inside, all], [start, _]| {
                 [inside + usize::from(to.distance(start + shift, [x, None]) < 0.0), all + 1]
             });
@@ -43,12 +43,7 @@ impl Surfaces {
 
     /// How near the images of an interface that is periodic along x are to a body (length), each with its sign as in
     /// [`Surfaces::images_across`].
-    fn distances_across(
-        &self,
-        body: usize,
-        interface: usize,
-        periods: [Option<f64>; 2],
-    ) -> impl Iterator<Item = (f64, f64)> {
+    fn distances_across(&self, body: usize, interface: usize, periods: Periods) -> impl Iterator<Item = (f64, f64)> {
         let [from, to] = [body, interface].map(|index| &self.boundaries[index]);
         self.images_across(body, interface, periods).map(move |(shift, sign)| {
             let distance = |[start, _]: [Vec2; 2]| to.distance(start + shift, [periods[0], None]).abs();
@@ -57,13 +52,13 @@ impl Surfaces {
     }
 
     /// True where a body is on the inner side of the nearest image of an interface that is periodic along x.
-    pub(super) fn is_on_inner_side(&self, body: usize, interface: usize, periods: [Option<f64>; 2]) -> bool {
+    pub(super) fn is_on_inner_side(&self, body: usize, interface: usize, periods: Periods) -> bool {
         let nearest = self.distances_across(body, interface, periods).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.is_some_and(|(_, sign)| sign < 0.0)
     }
 
     /// The interface that a body lies inside of among those that are periodic along x.
-    pub(super) fn stratum(&self, body: usize, periods: [Option<f64>; 2]) -> Option<usize> {
+    pub(super) fn stratum(&self, body: usize, periods: Periods) -> Option<usize> {
         if let Some(place) = self.strata.iter().position(|&interface| interface == body) {
             return self.owner(place, !self.opens_up(body), periods[1].is_some());
         }
@@ -101,7 +96,7 @@ impl Surfaces {
     /// Two neighbours, or one and its image, that give the fluid between them two viscosities, and these (stress times
     /// time), in exterior fluid of the given one.
     #[must_use]
-    pub fn conflict(&self, periods: [Option<f64>; 2], exterior: f64) -> Option<(usize, usize, [f64; 2])> {
+    pub fn conflict(&self, periods: Periods, exterior: f64) -> Option<(usize, usize, [f64; 2])> {
         let periodic = periods[1].is_some();
         let inside = |body: usize| {
             let mut around = Some(body);
@@ -132,7 +127,7 @@ impl Surfaces {
 
     /// The place at which a body and an interface that is periodic along x, or two of these, have crossed furthest, and
     /// how far (length; negative where they are apart).
-    pub(super) fn crossing(&self, a: usize, b: usize, periods: [Option<f64>; 2]) -> Option<(Vec2, f64)> {
+    pub(super) fn crossing(&self, a: usize, b: usize, periods: Periods) -> Option<(Vec2, f64)> {
         let depths = [[a, b], [b, a]].into_iter().flat_map(|[body, other]| {
             let [from, to] = [body, other].map(|index| &self.boundaries[index]);
             let open = self.kinds[other].advance().is_some();

@@ -1,6 +1,9 @@
 //! The flow at the markers of one body, and the forces of the bodies inside it.
 
-use motile_base::{Vec2, boxes::nearest_image};
+use motile_base::{
+    Vec2,
+    boxes::{Periods, nearest_image},
+};
 
 use super::{MarkerGroup, MarkerKind, Markers};
 use crate::gap::Boundary;
@@ -25,7 +28,7 @@ pub(crate) struct Everything<'a> {
     pub(crate) markers: &'a Markers,
     pub(crate) enclosing: &'a [Option<usize>],
     pub(crate) viscosity: f64,
-    pub(crate) periods: [Option<f64>; 2],
+    pub(crate) periods: Periods,
 }
 
 /// A body inside another one: its markers, lists of one length, and what they do to the fluid.

@@ -23,7 +23,7 @@ impl DragBox {
 impl Hydrodynamics for DragBox {
     fn fluid_view(&self) -> FluidView {
         FluidView {
-            domain: Domain { origin: [0.0; 2], periods: [Some(self.side); 2], walls: None },
+            domain: Domain { origin: [0.0; 2], periods: [Some(self.side); 2].into(), walls: None },
             viscosity: self.viscosity,
             spacing: Some(self.spacing),
             shape_modes: None,

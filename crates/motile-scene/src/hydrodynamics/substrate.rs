@@ -29,7 +29,7 @@ impl Hydrodynamics for Substrate {
     /// The viscosity is zeta/(4 pi), at which a marker of a fluid moves about as easily. Markers at the spacing ds of a
     /// curve of tension gamma relax at most at the rate 4 gamma/(zeta ds): the stiffness is that of ds = 0.05.
     fn fluid_view(&self) -> FluidView {
-        let domain = Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+        let domain = Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None };
         let (viscosity, interface_stiffness) = (self.friction / (4.0 * PI), 1.0 / (PI * 0.05));
         FluidView { domain, viscosity, spacing: None, second_order: true, shape_modes: None, interface_stiffness }
     }

@@ -113,7 +113,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Those of [`System::evaluate`]; [`crate::FlowError::Unsupported`] where the region is no box.
     pub fn stress(&mut self) -> Result<Stress, SceneError> {
         let view = self.hydrodynamics().fluid_view();
-        let [Some(lx), Some(ly)] = view.domain.periods else {
+        let [Some(lx), Some(ly)] = *view.domain.periods else {
             let (what, remedy) = ("the mean stress of a region without an area", "use a periodic box, or `stresslets`");
             return Err(SceneError::Flow { time: self.time(), source: crate::FlowError::Unsupported { what, remedy } });
         };

@@ -312,7 +312,7 @@ impl<H: Hydrodynamics> System<H> {
     fn lay_out(&mut self) {
         self.place_markers();
         if self.known < Known::Surfaces {
-            self.contacts.lay_out(&self.bodies, self.hydrodynamics.fluid_view().domain.periods);
+            self.contacts.lay_out(&self.bodies, *self.hydrodynamics.fluid_view().domain.periods);
             self.known = Known::Surfaces;
         }
     }

@@ -171,27 +171,33 @@ pub(crate) struct LatticePair {
     across: f64,
     rows: usize,
     decay: f64,
+    /// Cosine and sine of the phase by which the next row above is displaced.
+    turn: [f64; 2],
 }
 
 impl LatticePair {
     /// The kernel for a source whose centre lies `offset` (length) from that of the target, with as many rows of images
-    /// as bring the rest below `tolerance`.
-    pub(crate) fn new([lx, ly]: [f64; 2], offset: [f64; 2], tolerance: f64) -> Self {
+    /// as bring the rest below `tolerance`; each is displaced by `tilt` along x (length) from the one below.
+    pub(crate) fn new([lx, ly]: [f64; 2], tilt: f64, offset: [f64; 2], tolerance: f64) -> Self {
         let k = std::f64::consts::TAU / lx;
         let rows = (1.0 - tolerance.ln() / (k * ly)).ceil() as usize;
-        Self { row: RowPair::new(k, offset), across: ly, rows, decay: (-k * ly).exp() }
+        let (sin, cos) = (k * tilt).sin_cos();
+        Self { row: RowPair::new(k, offset), across: ly, rows, decay: (-k * ly).exp(), turn: [cos, sin] }
     }
 
-    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), the distance y and the sign of its side.
+    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), cosine and sine of k x, the distance y and
+    /// the sign of its side.
     #[inline(always)]
-    fn beside(&self, terms: &RowTerms, mut take: impl FnMut(f64, f64, f64)) {
+    fn beside(&self, terms: &RowTerms, mut take: impl FnMut(f64, [f64; 2], f64, f64)) {
         let (up, down) = (terms.ch + terms.sh, terms.ch - terms.sh);
-        let mut shrink = 1.0;
+        let (sin, cos) = (2.0 * terms.s * terms.c, 1.0 - 2.0 * terms.s * terms.s);
+        let (mut shrink, [mut c, mut s]) = (1.0, [1.0, 0.0]);
         for m in 1..=self.rows {
             shrink *= self.decay;
+            [c, s] = [c * self.turn[0] - s * self.turn[1], s * self.turn[0] + c * self.turn[1]];
             let height = self.across * m as f64;
-            take(down * down * shrink, terms.dy + height, 1.0);
-            take(up * up * shrink, terms.dy - height, -1.0);
+            take(down * down * shrink, [cos * c - sin * s, sin * c + cos * s], terms.dy + height, 1.0);
+            take(up * up * shrink, [cos * c + sin * s, sin * c - cos * s], terms.dy - height, -1.0);
         }
     }
 
@@ -207,8 +213,7 @@ impl PairKernel for LatticePair {
         let k = self.row.k;
         let terms = self.row.terms(t, s, i);
         let Stokeslet { mut q, mut xx, mut xy, mut yy } = self.row.stokeslet(t, s, i);
-        let (sin, cos) = (2.0 * terms.s * terms.c, 1.0 - 2.0 * terms.s * terms.s);
-        self.beside(&terms, |b, y, side| {
+        self.beside(&terms, |b, [cos, sin], y, side| {
             let e = 1.0 - 2.0 * b * cos + b * b;
             let factor = k * y * b / e;
             let bend = side * factor * (cos - b);
@@ -225,8 +230,7 @@ impl PairKernel for LatticePair {
         let k = self.row.k;
         let terms = self.row.terms(t, s, i);
         let [mut xxx, mut xxy, mut xyy, mut yyy] = self.row.stress(t, s, i);
-        let (sin, cos) = (2.0 * terms.s * terms.c, 1.0 - 2.0 * terms.s * terms.s);
-        self.beside(&terms, |b, y, side| {
+        self.beside(&terms, |b, [cos, sin], y, side| {
             let inverse = 1.0 / (1.0 - 2.0 * b * cos + b * b);
             let factor = k * b * inverse;
             let square = 2.0 * y * k * factor * inverse;
@@ -243,10 +247,17 @@ impl PairKernel for LatticePair {
     }
 
     fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
-        let [mut xx, xy, mut yy] = self.row.diagonal(tx, ty);
+        let [mut xx, mut xy, mut yy] = self.row.diagonal(tx, ty);
         let terms = RowTerms { s: 0.0, c: 1.0, sh: 0.0, ch: 1.0, dy: 0.0 };
-        self.beside(&terms, |b, y, side| {
-            let (log, bend) = ((1.0 - b).ln(), side * self.row.k * y * b / (1.0 - b));
+        self.beside(&terms, |b, [cos, sin], y, side| {
+            let (log, bend) = if cos == 1.0 {
+                ((1.0 - b).ln(), side * self.row.k * y * b / (1.0 - b))
+            } else {
+                let e = 1.0 - 2.0 * b * cos + b * b;
+                let factor = self.row.k * y * b / e;
+                xy += factor * sin;
+                (0.5 * e.ln(), side * factor * (cos - b))
+            };
             xx -= log + bend;
             yy -= log - bend;
         });

@@ -88,23 +88,24 @@ pub(crate) enum GreensFunction {
     Free,
     /// A row of images along x with wave number k = 2 pi/period.
     Row { k: f64 },
-    /// All images of a periodic box, in rows along the shorter period.
-    Lattice { k: f64, across: f64, rows: usize, transposed: bool },
+    /// All images of a periodic box, in rows along the shorter period, or along x where they are displaced: the next
+    /// row by a phase whose exponential is `turn`.
+    Lattice { k: f64, across: f64, rows: usize, transposed: bool, turn: Complex64 },
 }
 
 impl GreensFunction {
-    /// The Green's function of a region without its walls, with as many rows of images as bring the rest below
-    /// `tolerance`.
-    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
+    /// The Green's function of a region without its walls, images above being displaced by `tilt` along x (length),
+    /// with as many rows of images as bring the rest below `tolerance`.
+    pub(crate) fn new(region: &Region, tilt: f64, tolerance: f64) -> Self {
         match *region {
             Region::Plane | Region::Space | Region::Tube { .. } => Self::Free,
             Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
             Region::Box { lengths } => {
-                let transposed = lengths[1] < lengths[0];
+                let transposed = lengths[1] < lengths[0] && tilt == 0.0;
                 let [along, across] = if transposed { [lengths[1], lengths[0]] } else { lengths };
                 let k = 2.0 * PI / along;
                 let rows = ((-tolerance.ln() / k + 0.5 * along) / across + 0.5).ceil() as usize;
-                Self::Lattice { k, across, rows, transposed }
+                Self::Lattice { k, across, rows, transposed, turn: Complex64::cis(k * tilt) }
             }
         }
     }
@@ -158,13 +159,14 @@ impl GreensFunction {
     /// Kernels of rows along x, the first N functions of each family.
     #[inline(always)]
     fn lattice<const N: usize>(&self, d: Complex64, regular: bool) -> Kernels {
-        let Self::Lattice { k, across, rows, .. } = *self else { return free(d) };
+        let Self::Lattice { k, across, rows, turn: along, .. } = *self else { return free(d) };
         let half = HalfAngle::new(d * (0.5 * k));
         let (mut log, mut c) = singular_row(d, k, &half, regular);
         let mut moments = c.map(|c| c * d.im);
         let [turn, back] = half.turns();
         let decay = (-k * across).exp();
-        let (mut product, mut shrink, mut height) = (1.0, 1.0, 0.0);
+        let (mut product, mut shrink, mut height) = (1.0, Complex64::ONE, 0.0);
+        let decay = along * decay;
         for _ in 0..rows {
             shrink *= decay;
             height += across;

@@ -134,7 +134,7 @@ impl CloseCorrection {
                 }
                 let apart = images.wrap(other.centre - curve.centre);
                 // An open curve has its own images along x.
-                for shift in images.shifts().filter(|shift| !curve.is_open() || shift.re == 0.0) {
+                for shift in images.shifts(curve.is_open()) {
                     let own = target == source && shift == Complex64::default();
                     let offset = apart + shift;
                     let far = |d: Complex64, radii: f64| !curve.is_open() && d.norm_sqr() >= (radii + reach).powi(2);

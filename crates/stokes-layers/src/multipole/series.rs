@@ -111,6 +111,7 @@ pub(crate) struct SeriesFinder {
     greens: GreensFunction,
     images: Images,
     area: f64,
+    tolerance: f64,
 }
 
 /// Points on a circle and the values there.
@@ -126,9 +127,17 @@ struct Circle {
 
 impl SeriesFinder {
     pub(crate) fn new(region: &Region, tolerance: f64) -> Result<Self, InputError> {
-        let greens = GreensFunction::new(region, tolerance.min(1e-12));
+        let images = Images::of(region, 0.0);
+        let tolerance = tolerance.min(1e-12);
+        let greens = GreensFunction::new(region, images.tilt(), tolerance);
         let circles = [Circle::new(64)?, Circle::new(128)?];
-        Ok(Self { circles, greens, images: Images::of(region), area: Images::of(region).area() })
+        Ok(Self { circles, greens, images, area: images.area(), tolerance })
+    }
+
+    /// Takes over displaced images of the region.
+    pub(crate) fn set_images(&mut self, region: &Region, images: Images) {
+        self.images = images;
+        self.greens = GreensFunction::new(region, images.tilt(), self.tolerance);
     }
 
     /// Writes the series around `distance` (length, target minus source), without the free-space flow of the images at

@@ -4,7 +4,7 @@ use motile_scene::{Body, Domain};
 
 fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
     let view = FluidView {
-        domain: Domain { origin: [0.0; 2], periods: [None; 2], walls: None },
+        domain: Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None },
         viscosity: 3.0,
         spacing: Some(0.1),
         shape_modes: None,

@@ -30,7 +30,7 @@ impl Profile {
 impl Hydrodynamics for Profile {
     fn fluid_view(&self) -> FluidView {
         let walls = self.walls.then_some([-1.0, 2.0]);
-        let domain = Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls };
+        let domain = Domain { origin: [0.0, -1.0], periods: [Some(10.0), None].into(), walls };
         FluidView {
             domain,
             viscosity: 1.0,

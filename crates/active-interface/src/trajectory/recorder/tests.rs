@@ -20,8 +20,11 @@ impl Wind {
 
 impl Hydrodynamics for Wind {
     fn fluid_view(&self) -> FluidView {
-        let domain =
-            Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
+        let domain = Domain {
+            origin: [0.0, -1.0],
+            periods: [Some(10.0), None].into(),
+            walls: self.walls.then_some([-1.0, 3.0]),
+        };
         FluidView {
             domain,
             viscosity: 1.0,

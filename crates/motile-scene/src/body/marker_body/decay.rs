@@ -30,7 +30,7 @@ impl<'a> Mobility<'a> {
         let count = positions.len() as f64;
         let centre = positions.iter().sum::<Vec2>() / count;
         let gyration = (positions.iter().map(|p| (p - centre).length_squared()).sum::<f64>() / count).sqrt();
-        let [x, y] = view.domain.periods;
+        let [x, y] = *view.domain.periods;
         let height = view.domain.walls.map(|[below, above]| above - below);
         let width = [x, y, height].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let width = if width.is_finite() { width } else { gyration };

@@ -121,7 +121,7 @@ proptest! {
             let images = |k: usize| if periods[k].is_some() { -4..=4 } else { 0..=0 };
             for (i, j) in images(0).flat_map(|i| images(1).map(move |j| (i, j))) {
                 let image = point + Vec2::new(f64::from(i) * periods[0].unwrap_or(0.0), f64::from(j) * 4.0);
-                star.sides.iter().enumerate().for_each(|(k, side)| all.look(k, side, image, PLANE));
+                star.sides.iter().enumerate().for_each(|(k, side)| all.look(k, side, image, PLANE.into()));
             }
             let found = star.distance(point, periods);
             let nearest = star.nearest_within(point, periods, 100.0).unwrap();

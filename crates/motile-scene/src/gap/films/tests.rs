@@ -6,7 +6,7 @@ use crate::{
     gap::{SurfaceCurve, SurfacePoint},
 };
 
-const PLANE: Domain = Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+const PLANE: Domain = Domain { origin: [0.0; 2], periods: Periods { lengths: [None; 2], tilt: 0.0 }, walls: None };
 
 fn circle(markers: &mut Markers, centre: Vec2, radius: f64) {
     let (start, count) = (markers.len(), 48);
@@ -75,7 +75,7 @@ fn pinned() -> Scene {
 }
 
 fn scenes() -> [(&'static str, Scene, bool); 7] {
-    let channel = Domain { origin: [-2.0, -1.05], periods: [Some(4.0), None], walls: Some([-1.05, 1.2]) };
+    let channel = Domain { origin: [-2.0, -1.05], periods: [Some(4.0), None].into(), walls: Some([-1.05, 1.2]) };
     let mut pair = Scene::new(PLANE);
     circle(&mut pair.markers, Vec2::ZERO, 1.0);
     circle(&mut pair.markers, Vec2::new(1.6, 0.35), 0.6);
@@ -83,9 +83,9 @@ fn scenes() -> [(&'static str, Scene, bool); 7] {
     circle(&mut nested.markers, Vec2::ZERO, 1.0);
     circle(&mut nested.markers, Vec2::new(0.3, 0.1), 0.6);
     nested.around[1] = Some(0);
-    let mut images = Scene::new(Domain { periods: [Some(2.1), Some(2.15)], ..PLANE });
+    let mut images = Scene::new(Domain { periods: [Some(2.1), Some(2.15)].into(), ..PLANE });
     circle(&mut images.markers, Vec2::ZERO, 1.0);
-    let mut solid = Scene::new(Domain { periods: [Some(4.0), None], ..PLANE });
+    let mut solid = Scene::new(Domain { periods: [Some(4.0), None].into(), ..PLANE });
     circle(&mut solid.markers, Vec2::new(1.7, 0.0), 1.0);
     wall(&mut solid.markers);
     let mut straight = Scene::new(channel);
@@ -201,7 +201,7 @@ fn images_of_ones_own_are_pushed_like_others() {
     let repulsion = Repulsion::new(3.0, 0.2).unwrap();
     let forces = |count: usize| {
         let periods = [Some(2.05 * count as f64), Some(5.0)];
-        let mut scene = Scene::new(Domain { periods, ..PLANE });
+        let mut scene = Scene::new(Domain { periods: periods.into(), ..PLANE });
         (0..count).for_each(|k| circle(&mut scene.markers, Vec2::new(2.05 * k as f64, 0.0), 1.0));
         scene.forces(&repulsion)
     };

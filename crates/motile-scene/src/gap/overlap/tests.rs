@@ -7,7 +7,7 @@ const INTERFACE: MarkerKind = MarkerKind::Interface { viscosity_inside: None };
 
 /// A box of 6 x 6 with a grid spacing of 0.1 and fluid of viscosity 1.
 fn fluid_view() -> FluidView {
-    let domain = Domain { origin: [0.0; 2], periods: [Some(6.0); 2], walls: None };
+    let domain = Domain { origin: [0.0; 2], periods: [Some(6.0); 2].into(), walls: None };
     let shape_modes = None;
     FluidView { domain, viscosity: 1.0, spacing: Some(0.1), second_order: true, shape_modes, interface_stiffness: 1.0 }
 }

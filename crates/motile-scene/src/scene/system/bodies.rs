@@ -1,5 +1,7 @@
 //! The bodies of a system, their markers, and the fluids that they lie in.
 
+use motile_base::boxes::Periods;
+
 use super::forces::write_forces;
 use crate::{Body, BodyError, FluidView, Handle, Markers, SceneError, gap::Surfaces, scene::SceneId};
 
@@ -123,7 +125,7 @@ impl Bodies {
     }
 
     /// Finds the interfaces that the bodies lie in, and the viscosities there.
-    pub(super) fn find_surroundings(&mut self, surfaces: &Surfaces, periods: [Option<f64>; 2]) {
+    pub(super) fn find_surroundings(&mut self, surfaces: &Surfaces, periods: Periods) {
         std::mem::swap(&mut self.enclosing, &mut self.enclosing_before);
         surfaces.surroundings(periods, &mut self.enclosing);
         for &[host, guest] in &self.guests {
