@@ -102,6 +102,12 @@ pub struct BoxFlags {
     /// Initial position of the droplet, from the middle of the box (R0) [default: 0,0]
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     pub offset: Option<[f64; 2]>,
+    /// Shear rate of an imposed flow u = (G y, 0) (1/time), which displaces the images of a box [default: 0]
+    #[arg(long, value_parser = finite, allow_hyphen_values = true)]
+    pub shear: Option<f64>,
+    /// Extension rate of an imposed flow u = (E x, -E y) (1/time), in unbounded fluid [default: 0]
+    #[arg(long, value_parser = finite, allow_hyphen_values = true)]
+    pub extension: Option<f64>,
 }
 
 impl BoxFlags {
@@ -117,7 +123,14 @@ impl BoxFlags {
         if let (Some(offset), Some(droplet)) = (self.offset, setup.droplets.first_mut()) {
             droplet.centre = offset;
         }
+        self.impose(setup);
         Ok(())
+    }
+
+    /// Imposes the flow, which regions that do not have it refuse.
+    pub(crate) fn impose(&self, setup: &mut Setup) {
+        setup.flow.shear = self.shear.unwrap_or(setup.flow.shear);
+        setup.flow.extension = self.extension.unwrap_or(setup.flow.extension);
     }
 }
 
@@ -161,14 +174,30 @@ pub struct AlongFlags {
     /// What drives the flow
     #[arg(long, default_value = "zero-gradient", value_parser = one_of(&DRIVES))]
     pub drive: Drive,
+    /// Net flux along the channel (R0^2 per time)
+    #[arg(long, value_parser = finite, allow_hyphen_values = true, conflicts_with_all = ["drive", "gradient"])]
+    pub flux: Option<f64>,
+    /// Mean pressure gradient along the channel (stress per R0), negative to drive fluid to positive x
+    #[arg(long, value_parser = finite, allow_hyphen_values = true, conflicts_with = "drive")]
+    pub gradient: Option<f64>,
+    /// Velocities of the straight walls along x (R0 per time), the lower one first
+    #[arg(long, value_name = "LOWER,UPPER", value_parser = pair, allow_hyphen_values = true)]
+    pub wall_velocity: Option<[f64; 2]>,
 }
 
 impl AlongFlags {
+    /// What drives the flow.
+    #[must_use]
+    pub fn driven(&self) -> Drive {
+        self.flux.map(Drive::Flux).or(self.gradient.map(Drive::Gradient)).unwrap_or(self.drive)
+    }
+
     /// Puts a channel between rigid walls `width` apart (R0) into a scene, and the droplet `x` along it (R0).
     pub(crate) fn apply(&self, setup: &mut Setup, x: f64, width: f64) -> Result<()> {
         let length = self.length;
         ensure!(width.max(length) <= LONGEST, "a channel of {length} x {width} is too large: give at most {LONGEST}");
-        setup.region = Region::Channel { length, width, drive: self.drive };
+        setup.region = Region::Channel { length, width, drive: self.driven() };
+        setup.flow.wall_velocity = self.wall_velocity.or(setup.flow.wall_velocity);
         setup.droplets[0].centre = [x, self.lateral_offset];
         Ok(())
     }

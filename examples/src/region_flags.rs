@@ -51,6 +51,12 @@ impl AnyRegionFlags {
     /// A region that is unreasonably large, a channel that is narrower than the droplet, a place that is not given by
     /// `--lateral-offset` in a channel.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
+        let AlongFlags { flux, gradient, wall_velocity, .. } = self.along;
+        let driven = flux.is_some() || gradient.is_some() || wall_velocity.is_some();
+        ensure!(
+            self.region == RegionKind::Channel || !driven,
+            "--flux, --gradient and --wall-velocity are for channels: give --region channel, or --shear"
+        );
         match self.region {
             RegionKind::Box => self.periodic.apply(setup),
             RegionKind::Plane | RegionKind::Space | RegionKind::Tube => {
@@ -72,6 +78,7 @@ impl AnyRegionFlags {
                     self.periodic.offset.is_none(),
                     "--offset is for boxes and unbounded fluid: give --lateral-offset in a channel"
                 );
+                self.periodic.impose(setup);
                 self.along.apply(setup, 0.0, width)
             }
         }

@@ -340,3 +340,100 @@ fn checkpoints_of_a_sheared_box() {
     assert_eq!(scene.system().markers().positions(), again.system().markers().positions());
     assert_eq!(scene.system().hydrodynamics().strain().to_bits(), again.system().hydrodynamics().strain().to_bits());
 }
+
+/// Sliding walls of a channel: the flow of an empty one with each drive, drops in two frames, and a disc midway.
+#[test]
+fn sliding_walls() {
+    let channel = |flow: FlowSetup, drive: Drive| Setup {
+        region: Region::Channel { length: 30.0, width: 4.0, drive },
+        ..plane(flow, 48, 0.01)
+    };
+    let walls = |below: f64, above: f64| FlowSetup { wall_velocity: Some([below, above]), ..FlowSetup::default() };
+    let at = [Vec2::new(0.3, -2.0), Vec2::new(1.0, 0.5), Vec2::new(-3.0, 2.0)];
+    for drive in [Drive::ZeroGradient, Drive::ZeroFlux, Drive::Gradient(-0.3)] {
+        let mut scene = channel(walls(-1.0, 2.0), drive).build().unwrap().scene;
+        let mut samples = [FlowSample::default(); 3];
+        scene.system_mut().sample(&at, &mut samples).unwrap();
+        for (place, sample) in at.iter().zip(samples) {
+            let couette = 0.5 + 0.75 * place.y;
+            let parabola = match drive {
+                Drive::ZeroFlux => -0.75 * (1.0 - place.y * place.y / 4.0),
+                _ => -0.5 * drive.gradient() * (4.0 - place.y * place.y),
+            };
+            assert!((sample.velocity - Vec2::new(couette + parabola, 0.0)).length() < 1e-12, "{drive:?} {sample:?}");
+        }
+    }
+    // In a frame that moves with the upper wall everything is slower by its velocity.
+    let drop = |walls: FlowSetup| {
+        let drop = DropletSetup { centre: [0.0, 0.6], viscosity: Some(5.0), ..DropletSetup::passive(4.0) };
+        let Built { mut scene, droplets, .. } =
+            Setup { droplets: vec![drop], ..channel(walls, Drive::ZeroGradient) }.build().unwrap();
+        scene.run(0.5).go().unwrap();
+        (scene.system_mut().deformation(droplets[0]).unwrap(), scene.observe(droplets[0]).unwrap().velocity)
+    };
+    let [(seen, velocity), (other, slower)] = [walls(-1.0, 1.0), walls(-2.0, 0.0)].map(drop);
+    assert!((velocity - slower - Vec2::X).length() < 1e-8, "{velocity:?} {slower:?}");
+    assert!((seen.centroid - other.centroid - Vec2::new(0.5, 0.0)).length() < 1e-8);
+    assert!((seen.by_moments - other.by_moments).abs() < 1e-9 && seen.by_moments > 0.1, "{seen:?}");
+    // A disc between walls that slide oppositely turns by half the shear rate, but for the square of their nearness.
+    let spin = |width: f64| {
+        let body = RigidBodySetup { shape: DropletShape::Round { radius: 0.2 }, ..RigidBodySetup::default() };
+        let region = Region::Channel { length: 30.0, width, drive: Drive::ZeroGradient };
+        let slide = walls(-0.5 * width, 0.5 * width);
+        let built = Setup { region, rigid_bodies: vec![body], ..plane(slide, 48, 0.01) }.build().unwrap();
+        let (mut scene, body) = (built.scene, built.rigid_bodies[0]);
+        (scene.observe(body).unwrap().spin + 0.5).abs()
+    };
+    let [narrow, wide] = [spin(2.0), spin(4.0)];
+    assert!(wide < 1e-2 && wide < narrow / 3.0, "{narrow:e} {wide:e}");
+}
+
+/// A deformable drop off the middle of a Poiseuille flow migrates across it, in the plane, with a velocity that two
+/// resolutions agree on and that vanishes on the middle.
+#[test]
+fn drops_migrate_in_a_poiseuille_flow() {
+    let poiseuille =
+        FlowSetup { poiseuille: Some(PoiseuilleSetup { speed: 2.5, half_width: 5.0 }), ..FlowSetup::default() };
+    let drift = |ratio: f64, nodes: usize, y: f64| {
+        let drop = DropletSetup { centre: [0.0, y], viscosity: Some(ratio), ..DropletSetup::passive(5.0) };
+        let setup = Setup { droplets: vec![drop], ..plane(poiseuille, nodes, 0.01) };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        scene.run(4.0).go().unwrap();
+        scene.observe(droplets[0]).unwrap().velocity.y
+    };
+    for ratio in [0.2, 1.0, 5.0] {
+        let [coarse, fine] = [drift(ratio, 32, 2.0), drift(ratio, 48, 2.0)];
+        assert!((coarse / fine - 1.0).abs() < 1e-3 && fine.abs() > 1e-4, "{ratio} {coarse:e} {fine:e}");
+        assert!((drift(ratio, 32, -2.0) + coarse).abs() < 1e-8, "{ratio}");
+        assert!(drift(ratio, 32, 0.0).abs() < 1e-10, "{ratio}");
+        println!("{ratio} {coarse:e} {fine:e}");
+    }
+}
+
+/// What a region or a method does not have is refused before any work, with a remedy.
+#[test]
+fn flows_that_are_not_there() {
+    let (channel, square) =
+        (Region::Channel { length: 6.0, width: 4.0, drive: Drive::ZeroGradient }, Region::Box { lengths: [6.0; 2] });
+    let slide = FlowSetup { wall_velocity: Some([0.0, 1.0]), ..FlowSetup::default() };
+    let poiseuille =
+        FlowSetup { poiseuille: Some(PoiseuilleSetup { speed: 1.0, half_width: 2.0 }), ..FlowSetup::default() };
+    for (region, flow, parts) in [
+        (channel, SHEAR, ["flow.shear is 1", "wall-velocity = [-2, 2]"]),
+        (channel, EXTENSION, ["flow.extension is 1", "\"plane\""]),
+        (channel, poiseuille, ["flow.poiseuille.speed", "flux = 2.66"]),
+        (square, EXTENSION, ["flow.extension is 1", "sheared along x only"]),
+        (square, slide, ["flow.wall-velocity", "give shear"]),
+        (Region::Plane, slide, ["flow.wall-velocity", "a channel"]),
+        (Region::Plane, FlowSetup { shear: f64::NAN, ..SHEAR }, ["flow.shear is NaN", "finite"]),
+    ] {
+        let refused = Setup { region, ..plane(flow, 48, 0.1) }.check().unwrap_err().to_string();
+        assert!(parts.iter().all(|part| refused.contains(part)), "{refused}");
+    }
+    let method = Method::Grid(GridMethod::of_spacing(0.1));
+    let refused = Setup { region: square, method, ..plane(SHEAR, 48, 0.1) }.check().unwrap_err().to_string();
+    assert!(refused.contains("imposed flows") && refused.contains("integral"), "{refused}");
+    let mut grid = Setup { region: square, method, ..Setup::default() }.build().unwrap().scene;
+    let refused = grid.impose(ImposedFlow::shear(1.0)).unwrap_err().to_string();
+    assert!(refused.contains("boundary integrals"), "{refused}");
+}

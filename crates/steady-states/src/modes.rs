@@ -45,11 +45,6 @@ impl Modes {
         Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, fields, nuclei })
     }
 
-    /// True where the density of particles is part of the state.
-    pub(crate) fn carries(&self) -> bool {
-        self.fields == 2
-    }
-
     /// Number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.series.len()

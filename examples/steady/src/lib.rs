@@ -31,6 +31,12 @@ pub struct SteadyFlags {
     /// Where the nucleus starts, from the droplet's centre (R0): aside, the droplet may go round in circles
     #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     core_offset: Vec<f64>,
+    /// Shear rate of an imposed flow u = (G y, 0) in unbounded fluid (1/time)
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    shear: f64,
+    /// Extension rate of an imposed flow u = (E x, -E y) in unbounded fluid (1/time)
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    extension: f64,
     /// Nodes of shape and concentration
     #[arg(long, default_value_t = 96)]
     nodes: usize,
@@ -42,7 +48,8 @@ impl SteadyFlags {
     /// # Errors
     /// Flags that do not fit together, a scene that cannot be.
     pub fn setup(&self) -> Result<Setup> {
-        let Self { side, width, tube_radius, nodes, along: AlongFlags { length, lateral_offset, drive }, .. } = *self;
+        let Self { side, width, tube_radius, nodes, along: AlongFlags { length, lateral_offset, .. }, .. } = *self;
+        let drive = self.along.driven();
         let kind = self.region.unwrap_or(match (width, tube_radius) {
             (Some(_), _) => RegionKind::Channel,
             (_, Some(_)) => RegionKind::Tube,
@@ -63,6 +70,8 @@ impl SteadyFlags {
         let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
         let mut setup = Setup { region, method, ..Setup::default() };
         self.droplet.apply(&mut setup)?;
+        setup.flow.wall_velocity = self.along.wall_velocity;
+        (setup.flow.shear, setup.flow.extension) = (self.shear, self.extension);
         setup.droplets[0].centre[1] = lateral_offset;
         let offset = match self.core_offset.as_slice() {
             [] => [0.0; 2],
