@@ -294,7 +294,7 @@ fn sheared_box() {
 #[test]
 fn dilute_emulsions() {
     let viscosity = |side: f64, ratio: f64, capillary: f64| {
-        let dt = 0.1 * (1.0 + ratio) * capillary;
+        let dt = 0.08 * (1.0 + ratio) * capillary;
         let drop = drop_in(SHEAR, ratio, capillary, 24, dt);
         let setup = Setup { region: Region::Box { lengths: [side; 2] }, ..drop };
         let Built { mut scene, .. } = setup.build().unwrap();
@@ -374,7 +374,7 @@ fn sliding_walls() {
     let [(seen, velocity), (other, slower)] = [walls(-1.0, 1.0), walls(-2.0, 0.0)].map(drop);
     assert!((velocity - slower - Vec2::X).length() < 1e-8, "{velocity:?} {slower:?}");
     assert!((seen.centroid - other.centroid - Vec2::new(0.5, 0.0)).length() < 1e-8);
-    assert!((seen.by_moments - other.by_moments).abs() < 1e-9 && seen.by_moments > 0.1, "{seen:?}");
+    assert!((seen.by_moments - other.by_moments).abs() < 1e-9 && seen.by_moments > 0.05, "{seen:?}");
     // A disc between walls that slide oppositely turns by half the shear rate, but for the square of their nearness.
     let spin = |width: f64| {
         let body = RigidBodySetup { shape: DropletShape::Round { radius: 0.2 }, ..RigidBodySetup::default() };
@@ -388,8 +388,8 @@ fn sliding_walls() {
     assert!(wide < 1e-2 && wide < narrow / 3.0, "{narrow:e} {wide:e}");
 }
 
-/// A deformable drop off the middle of a Poiseuille flow migrates across it, in the plane, with a velocity that two
-/// resolutions agree on and that vanishes on the middle.
+/// A deformable drop off the middle of a Poiseuille flow migrates across it, in the plane, at a speed that two
+/// resolutions agree on and that vanishes on the middle: towards it at these ratios.
 #[test]
 fn drops_migrate_in_a_poiseuille_flow() {
     let poiseuille =
@@ -398,15 +398,18 @@ fn drops_migrate_in_a_poiseuille_flow() {
         let drop = DropletSetup { centre: [0.0, y], viscosity: Some(ratio), ..DropletSetup::passive(5.0) };
         let setup = Setup { droplets: vec![drop], ..plane(poiseuille, nodes, 0.01) };
         let Built { mut scene, droplets, .. } = setup.build().unwrap();
-        scene.run(4.0).go().unwrap();
-        scene.observe(droplets[0]).unwrap().velocity.y
+        let mut height = |until: f64| {
+            scene.run(until).go().unwrap();
+            scene.system_mut().deformation(droplets[0]).unwrap().centroid.y
+        };
+        let before = height(3.0);
+        height(4.0) - before
     };
     for ratio in [0.2, 1.0, 5.0] {
         let [coarse, fine] = [drift(ratio, 32, 2.0), drift(ratio, 48, 2.0)];
-        assert!((coarse / fine - 1.0).abs() < 1e-3 && fine.abs() > 1e-4, "{ratio} {coarse:e} {fine:e}");
+        assert!((coarse / fine - 1.0).abs() < 1e-3 && fine.abs() > 1e-4, "migration {ratio} {coarse:e} {fine:e}");
         assert!((drift(ratio, 32, -2.0) + coarse).abs() < 1e-8, "{ratio}");
         assert!(drift(ratio, 32, 0.0).abs() < 1e-10, "{ratio}");
-        println!("{ratio} {coarse:e} {fine:e}");
     }
 }
 
@@ -419,13 +422,13 @@ fn flows_that_are_not_there() {
     let poiseuille =
         FlowSetup { poiseuille: Some(PoiseuilleSetup { speed: 1.0, half_width: 2.0 }), ..FlowSetup::default() };
     for (region, flow, parts) in [
-        (channel, SHEAR, ["flow.shear is 1", "wall-velocity = [-2, 2]"]),
-        (channel, EXTENSION, ["flow.extension is 1", "\"plane\""]),
+        (channel, SHEAR, ["flow.shear = 1", "wall-velocity = [-2, 2]"]),
+        (channel, EXTENSION, ["flow.extension = 1", "\"plane\""]),
         (channel, poiseuille, ["flow.poiseuille.speed", "flux = 2.66"]),
-        (square, EXTENSION, ["flow.extension is 1", "sheared along x only"]),
+        (square, EXTENSION, ["flow.extension = 1", "sheared along x only"]),
         (square, slide, ["flow.wall-velocity", "give shear"]),
         (Region::Plane, slide, ["flow.wall-velocity", "a channel"]),
-        (Region::Plane, FlowSetup { shear: f64::NAN, ..SHEAR }, ["flow.shear is NaN", "finite"]),
+        (Region::Plane, FlowSetup { shear: f64::NAN, ..SHEAR }, ["flow.shear = NaN", "finite"]),
     ] {
         let refused = Setup { region, ..plane(flow, 48, 0.1) }.check().unwrap_err().to_string();
         assert!(parts.iter().all(|part| refused.contains(part)), "{refused}");

@@ -21,6 +21,8 @@ pub struct Raster {
     pub(crate) size: [f64; 2],
     pub(crate) cells: [usize; 2],
     pub(crate) periodic: [bool; 2],
+    /// Displacement along x of images above (length), where a shear moves them: fields are then not periodic in y.
+    pub(crate) tilt: Option<f64>,
 }
 
 impl Raster {
@@ -36,7 +38,7 @@ impl Raster {
         }
         let finite = origin.iter().all(|v| v.is_finite()) && size.iter().all(|v| v.is_finite() && *v > 0.0);
         if finite {
-            Ok(Self { origin, size, cells, periodic })
+            Ok(Self { origin, size, cells, periodic, tilt: None })
         } else {
             Err(OutputError::Rectangle { corner: origin, size })
         }
@@ -57,7 +59,11 @@ impl Raster {
         let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
         let coarsening = (width.max(height) / spacing / MOST_OF_SCENE).max(1.0);
         let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
-        Self::new(origin, [width, height], cells, domain.periods.map(|period| period.is_some()))
+        let hydrodynamics = system.hydrodynamics();
+        let moves = !hydrodynamics.imposed().is_none() || hydrodynamics.strain() != 0.0;
+        let tilt = domain.periods[1].filter(|_| moves).map(|_| domain.periods.tilt);
+        let periodic = [domain.periods[0].is_some(), domain.periods[1].is_some() && tilt.is_none()];
+        Ok(Self { tilt, ..Self::new(origin, [width, height], cells, periodic)? })
     }
 
     /// Raster over the same rectangle with at most `most` cells in a direction.

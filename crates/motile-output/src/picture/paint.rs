@@ -170,7 +170,7 @@ impl Painter<'_> {
         // Half a type size more, for the width of lines.
         let margin = 0.5 * self.layout.em / self.layout.scale();
         let axis = |k: usize, low: f64, high: f64| {
-            if !raster.periodic[k] {
+            if !raster.periodic[k] && (k == 0 || raster.tilt.is_none()) {
                 return vec![0.0];
             }
             let values = points.clone().map(|p| p[k]).filter(|v| v.is_finite());
@@ -180,8 +180,12 @@ impl Painter<'_> {
             let to = ((high + margin - first) / period).floor() as i64;
             (from..=to).take(100).map(|m| m as f64 * period).collect()
         };
-        let (xs, ys) = (axis(0, frame.x.low, frame.x.high), axis(1, frame.y.low, frame.y.high));
-        ys.into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
+        let row = |y: f64| {
+            let tilt = raster.tilt.map_or(0.0, |tilt| tilt * (y / raster.size[1]).round());
+            let xs = axis(0, frame.x.low - tilt, frame.x.high - tilt);
+            xs.into_iter().map(move |x| Vec2::new(x + tilt, y))
+        };
+        axis(1, frame.y.low, frame.y.high).into_iter().flat_map(row).collect()
     }
 
     /// Draws the pressure, with a sharp edge along interfaces of fluid, at which it jumps.
