@@ -133,7 +133,7 @@ impl Surfaces {
             let open = self.kinds[other].advance().is_some();
             let closed = (!open).then_some((Vec2::ZERO, 1.0));
             let images = open.then(|| self.images_across(body, other, periods)).into_iter().flatten();
-            let across = if open { [periods[0], None] } else { periods };
+            let across = if open { [periods[0], None].into() } else { periods };
             images.chain(closed).flat_map(move |(shift, sign)| {
                 from.corners().map(move |corner| (corner, -sign * to.distance(corner + shift, across)))
             })
