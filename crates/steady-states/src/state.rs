@@ -1,6 +1,6 @@
 //! Steady states and their measured properties.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
 use motile::active_interface::observables::{Convention, InterfaceState, Observables, observe};
@@ -281,7 +281,8 @@ impl SteadyState {
         let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_of_revolution() {
             let VolumeMoments { centroid, aspect_ratio, surface } = VolumeMoments::of(&self.profile)?;
             let centroid = Vec2::new(centroid, 0.0);
-            (centroid, aspect_ratio, surface, self.axial_dipole(&system, centroid, &tangents))
+            let [along, across] = self.axial_dipoles(&system, centroid, &tangents);
+            (centroid, aspect_ratio, surface, 2.0 / 3.0 * (along - across))
         } else {
             let moments = self.profile.moments()?;
             let [xx, xy] = self.force_dipole(&system, moments.centroid, &tangents);
@@ -305,16 +306,18 @@ impl SteadyState {
         })
     }
 
-    /// Component xx of the stresslet of a body of revolution: the traceless part of the dipole of the forces, and
-    /// `2 (eta_out - eta_in) INT u_x n_x dS`.
-    fn axial_dipole(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> f64 {
+    /// Moments along the axis and along a direction across it of the forces of a body of revolution about its centre,
+    /// with `2 (eta_out - eta_in) INT u n dS`, from which the stresslet is two thirds of their difference.
+    fn axial_dipoles(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
         let (model, rings) = (&system.model, Rings::new(tangents.len()));
         let contrast = model.viscosities[1] - model.viscosities[0];
         let node = |(k, x): (usize, &Vec2)| {
             let (r, f, n) = (*x - centre, rings.of_forces(k) * model.forces[k], -tangents[k].perp());
-            2.0 / 3.0 * f.x * r.x - f.y * r.y / 3.0 + 2.0 * contrast * model.velocities[k].x * n.x * model.weight(k)
+            let (u, weight) = (model.velocities[k], 2.0 * contrast * model.weight(k));
+            [f.x * r.x + weight * u.x * n.x, 0.5 * (f.y * r.y + weight * u.y * n.y)]
         };
-        self.profile.positions.iter().enumerate().map(node).sum()
+        let nodes = self.profile.positions.iter().enumerate().map(node);
+        nodes.fold([0.0; 2], |[along, across], [a, b]| [along + a, across + b])
     }
 
     /// Components xx and xy of the stresslet about a centre: [`motile::active_interface::observables::ForceMoments`] as
@@ -407,9 +410,15 @@ impl SteadyState {
         let (curve, velocity, force) = (curve?, velocity?, force?);
         let parameter = |k: f64| TAU * k / fine as f64;
         let at = |sampler: &Sampler, k: usize| sampler.at(parameter(k as f64)).position;
-        let numbers: Vec<f64> =
-            (0..fine).map(|k| curve.at(parameter(k as f64 + 0.5)).density * TAU / fine as f64).collect();
-        Ok(observe(
+        let of_revolution = model.is_of_revolution();
+        // Segments are halves of rings in three dimensions.
+        let width = |y: f64| if of_revolution { PI * y.abs() } else { 1.0 };
+        let number = |k: usize| {
+            let middle = curve.at(parameter(k as f64 + 0.5));
+            middle.density * width(middle.position.y) * TAU / fine as f64
+        };
+        let numbers: Vec<f64> = (0..fine).map(number).collect();
+        let mut seen = observe(
             &InterfaceState {
                 markers: &(0..fine).map(|k| at(&curve, k)).collect::<Vec<_>>(),
                 forces: &(0..fine).map(|k| at(&force, k) * scaled).collect::<Vec<_>>(),
@@ -417,13 +426,19 @@ impl SteadyState {
                 numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
                 inside: None,
-                of_revolution: false,
+                of_revolution,
                 enclosed: model
                     .rigid_dipoles()
                     .map(|dipole| Enclosed { rigid_dipole: Some(dipole), ..Enclosed::default() })
                     .collect(),
             },
             Convention::FarField,
-        )?)
+        )?;
+        if of_revolution {
+            // Sums over rings are of low order at the axis.
+            let dipoles = self.axial_dipoles(&system, seen.centroid, &self.profile.tangents()?);
+            (seen.moments.dipole[0][0], seen.moments.dipole[1][1]) = (dipoles[0], dipoles[1]);
+        }
+        Ok(seen)
     }
 }
