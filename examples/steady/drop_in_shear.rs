@@ -1,14 +1,15 @@
 //! A drop without particles in a flow that is imposed from outside: shear, extension or Poiseuille flow.
 //!
-//! `cargo run --release --example drop_in_shear` deforms a drop at a capillary number of 0.2 in unbounded fluid, or with
+//! `cargo run --release --example drop_in_shear` deforms a drop at a capillary number of 0.2 in unbounded fluid, or
+//! with
 //! `--box` in a sheared periodic one, prints its deformation, angle, speeds and stresslet, and writes to
 //! `out/drop_in_shear/`:
 //!
 //! * `final.png`, a picture of the final state;
 //! * `trajectory.csv`, all of these over time, and `summary.json`, the results.
 //!
-//! With `--steady` the steady shape is found by Newton's method, without a run, and whether it is stable. Lengths are in
-//! radii of the drop, viscosities in that of the fluid around it, times in units of the inverse rate of the flow.
+//! With `--steady` the steady shape is found by Newton's method, without a run, and whether it is stable. Lengths are
+//! in radii of the drop, viscosities in that of the fluid around it, times in units of the inverse rate of the flow.
 //! `--help` lists the flags.
 
 use std::f64::consts::PI;

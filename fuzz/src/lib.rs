@@ -1,5 +1,5 @@
-//! Targets of fuzzing: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and
-//! must neither panic nor run out of memory or time.
+//! Targets of fuzzing: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes
+//! and must neither panic nor run out of memory or time.
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;

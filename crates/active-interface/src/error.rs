@@ -39,8 +39,8 @@ pub enum InterfaceError {
     /// A curve that does not meet its next image.
     #[error(
         "the curve does not close across the period: from its last point to the image of its first, {advance} further \
-         along x, are {gap:.3e}, and at most {spacing:.3e} between neighbours; give the points of one period, the image \
-         of the first left out"
+         along x, are {gap:.3e}, and at most {spacing:.3e} between neighbours; give the points of one period, the \
+         image of the first left out"
     )]
     NotPeriodic {
         /// Distance of the last point from the image of the first (length).

@@ -237,8 +237,8 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and those
-    /// of elasticity and bending where there are any.
+    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and
+    /// those of elasticity and bending where there are any.
     ///
     /// # Errors
     /// Those of [`ActiveInterface::fit`].

@@ -27,8 +27,8 @@
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
-//! curve ([`PeriodicSeries`]), and the forces of energies of such curves ([`CurveForces`]). Every length is correct, odd
-//! and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
+//! curve ([`PeriodicSeries`]), and the forces of energies of such curves ([`CurveForces`]). Every length is correct,
+//! odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
 //!
 //! # Input
 //!

@@ -63,7 +63,8 @@ impl Region {
         matches!(self, Self::Space | Self::Tube { .. })
     }
 
-    /// Lengths in x and y (length), a channel's width and a tube's diameter in y; infinite where the fluid is unbounded.
+    /// Lengths in x and y (length), a channel's width and a tube's diameter in y; infinite where the fluid is
+    /// unbounded.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         match *self {

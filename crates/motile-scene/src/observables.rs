@@ -1,4 +1,4 @@
-//! What can be measured on bodies of any kind: deformations and stresses.
+//! Observables of bodies of any kind: deformations and stresses.
 
 mod deformation;
 mod stress;

@@ -45,8 +45,8 @@
 //! solved for among such states, and its eigenvalues come sorted by symmetry.
 //!
 //! In an imposed flow (`Setup::flow`) a droplet may be without particles: its state is the shape alone, and a drop that
-//! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are looked
-//! for among all.
+//! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are
+//! looked for among all.
 //!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second

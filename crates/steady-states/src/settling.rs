@@ -30,10 +30,10 @@ const LARGEST_GROWTH: f64 = 3.0;
 const MOST_STEPS: usize = 80;
 
 impl SteadyState {
-    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from the start that the description gives,
-    /// on few nodes, then Newton's method at the nodes asked for. A start that is its own mirror image at the x axis
-    /// leads to a state that is, too. Where this fails it is done at half the activity, and the activity then raised
-    /// in steps.
+    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from
+    /// the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A start that is
+    /// its own mirror image at the x axis leads to a state that is, too. Where this fails it is done at half the
+    /// activity, and the activity then raised in steps.
     ///
     /// # Errors
     /// A description of anything but one round droplet (with rigid discs inside, if any) by the method of

@@ -57,7 +57,8 @@ pub struct Measured {
     /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
     /// [`Observables::aspect_ratio_moments`]; along x at rest.
     pub aspect_ratio: f64,
-    /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension); zero without particles.
+    /// Largest and smallest concentration over the mean c0 on the circle at rest (no dimension); zero without
+    /// particles.
     pub concentration: [f64; 2],
     /// Perimeter of the interface (length); in three dimensions its area (length squared).
     pub perimeter: f64,

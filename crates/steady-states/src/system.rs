@@ -188,8 +188,8 @@ impl System {
     /// but for channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
         let (plane, channel) = (self.model.in_plane(), self.model.in_channel());
-        // An imposed flow has no turns, and a curved profile no shifts across it; the shifts of a linear flow change the
-        // velocity of the frame alone, so that the droplet stays where it is.
+        // An imposed flow has no turns, and a curved profile no shifts across it; the shifts of a linear flow change
+        // the velocity of the frame alone, so that the droplet stays where it is.
         let imposed = self.model.imposed();
         let across = !channel && imposed.bend == 0.0 && !self.model.is_of_revolution();
         let turns = plane && imposed.is_none();
@@ -218,8 +218,8 @@ impl System {
         Ok((motions, generators))
     }
 
-    /// Derivatives of area or volume and of the number of particles, over those of the droplet, by the coefficients of a
-    /// part of the loaded state.
+    /// Derivatives of area or volume and of the number of particles, over those of the droplet, by the coefficients of
+    /// a part of the loaded state.
     pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<Vec<DVector<f64>>, SteadyError> {
         let range = self.modes.part(part);
         let [radius, density] = self.modes.scales();

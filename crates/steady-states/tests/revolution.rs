@@ -19,8 +19,8 @@ fn swimmer(region: Region, activity: f64, viscosities: [f64; 2], strength: f64, 
     setup
 }
 
-/// Activity -1 in viscosities of 100 (`axisymmetric.csv`): speed, aspect ratio of the moments, largest concentration and
-/// stresslet.
+/// Activity -1 in viscosities of 100 (`axisymmetric.csv`): speed, aspect ratio of the moments, largest concentration
+/// and stresslet.
 #[test]
 fn swimmers_in_space_are_those_of_the_reference() {
     let state = SteadyState::find(&swimmer(Region::Space, -1.0, [100.0, 100.0], 2.0, 96)).unwrap();

@@ -179,7 +179,8 @@ impl DirectSums {
                     |shift, near, far| stress.apply(shift, dipoles, near, far),
                 );
             } else {
-                with_kernel!(&kernel, kernel => sums.visit(own, [target, source], out, #[inline(always)] |shift, near, far| {
+                let pair = [target, source];
+                with_kernel!(&kernel, kernel => sums.visit(own, pair, out, #[inline(always)] |shift, near, far| {
                     double_layer(kernel, shift, both, near, far);
                 }));
             }

@@ -26,8 +26,9 @@ const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.m
                      --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
                      chapter, `--quick` each with fewer and shorter runs. A figure that was not computed says so; a \
                      verdict whose numbers came out otherwise than it needs is shown as open, with the number. Every \
-                     verdict but 'cannot tell' and 'no claim' rests on ranges, stated before the numbers are found, that \
-                     the number of the contrary statement is outside of; a test refuses one without.";
+                     verdict but 'cannot tell' and 'no claim' rests on ranges that the number of the contrary \
+                     statement is outside of; a test refuses one without. Where older numbers were known when a range \
+                     was stated, as in chapter 4 and parts of chapter 3, it was chosen from the claim.";
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")

@@ -82,7 +82,8 @@ impl Drawing {
         }
         let _ = writeln!(
             self.body,
-            "<text x=\"{x:.1}\" y=\"{:.1}\" fill=\"{colour}\" font-size=\"{size}\" text-anchor=\"middle\">{words}</text>",
+            "<text x=\"{x:.1}\" y=\"{:.1}\" fill=\"{colour}\" font-size=\"{size}\" text-anchor=\"middle\">\
+             {words}</text>",
             y + 0.35 * size
         );
     }

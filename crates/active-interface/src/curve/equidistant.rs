@@ -4,8 +4,9 @@ use motile_base::{Vec2, all_points_finite};
 
 use crate::InterfaceError;
 
-/// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them, from `point(0)` on, with equal
-/// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).
+/// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them,
+/// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates, if that is
+/// more).
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.

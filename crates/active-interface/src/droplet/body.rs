@@ -159,7 +159,7 @@ impl Body for ActiveDroplet {
         Body::warnings(&self.interface, view).into_iter().chain(own).collect()
     }
 
-    /// What is saved of the interface, the number inside after its state.
+    /// Saved state of the interface, the number inside after its state.
     fn save(&self) -> SavedState {
         let mut saved = self.interface.save();
         if let Some(pool) = &self.pool {

@@ -78,8 +78,8 @@ impl Body for ActiveInterface {
         self.write_rate(velocities, rate);
     }
 
-    /// There is none where markers are inserted and removed, which is done in their order, and none of an interface that
-    /// is periodic along x, whose inside would change its side.
+    /// There is none where markers are inserted and removed, which is done in their order, and none of an interface
+    /// that is periodic along x, whose inside would change its side.
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         let (positions, numbers) = state.split_at(2 * markers.len());
         let (positions_of_image, numbers_of_image) = image.split_at_mut(positions.len());

@@ -158,8 +158,8 @@ impl ActiveInterface {
         self
     }
 
-    /// Makes an elastic membrane of an interface that is periodic along x, at rest in its present shape, with the moduli
-    /// of stretching E_s (force) and bending B (force times length squared): its energy is
+    /// Makes an elastic membrane of an interface that is periodic along x, at rest in its present shape, with the
+    /// moduli of stretching E_s (force) and bending B (force times length squared): its energy is
     /// `INT E_s/2 (lambda - 1)^2 + B/2 (kappa - kappa0)^2 dS` over its reference length, lambda the stretch and kappa
     /// the curvature, and its forces, besides those of the tension, are minus the gradient of that by the markers. Its
     /// points are the markers, which move with the fluid ([`Motion::WithFluid`]), and carry the particles along.
@@ -201,9 +201,9 @@ impl ActiveInterface {
         Ok(self)
     }
 
-    /// Makes the interface one of a body of revolution about the x axis in three dimensions, of which the markers, whose
-    /// first one is on the axis, are the meridian with its mirror image. Concentrations stay and become numbers per
-    /// area; the area that is kept becomes the volume, and tensions are per length.
+    /// Makes the interface one of a body of revolution about the x axis in three dimensions, of which the markers,
+    /// whose first one is on the axis, are the meridian with its mirror image. Concentrations stay and become numbers
+    /// per area; the area that is kept becomes the volume, and tensions are per length.
     ///
     /// # Errors
     /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the

@@ -124,8 +124,8 @@ pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
     square.sqrt() * std::f64::consts::TAU / geometry.perimeter
 }
 
-/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the weights, so that the area
-/// or volume enclosed stays.
+/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the weights, so that the
+/// area or volume enclosed stays.
 pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], motion: &mut [Vec2]) {
     let (mut flux, mut total) = (0.0, 0.0);
     for (k, (u, tau)) in velocities.iter().zip(&geometry.tangents).enumerate() {

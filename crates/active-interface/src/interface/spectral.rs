@@ -1,4 +1,5 @@
-//! Geometry, forces and marker motion of a smooth curve, closed or periodic along x, by Fourier series in the marker number.
+//! Geometry, forces and marker motion of a smooth curve, closed or periodic along x, by Fourier series in the marker
+//! number.
 
 use std::f64::consts::{PI, TAU};
 

@@ -35,8 +35,8 @@ impl FourierModes {
         }
     }
 
-    /// Coefficients of samples (unit vector at the polar angle, weight in integrals over it, value): the waves are powers
-    /// of the unit vector as a complex number.
+    /// Coefficients of samples (unit vector at the polar angle, weight in integrals over it, value): the waves are
+    /// powers of the unit vector as a complex number.
     pub(super) fn sum(count: usize, samples: impl Iterator<Item = (Vec2, f64, f64)>) -> Self {
         let mut modes = Self { mean: 0.0, cosines: vec![0.0; count], sines: vec![0.0; count] };
         for (Vec2 { x, y }, weight, value) in samples {

@@ -21,8 +21,8 @@ pub enum MarkerKind {
         /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,
     },
-    /// A fluid interface that is periodic along x, the inside to its left: markers at equally spaced parameters over one
-    /// period.
+    /// A fluid interface that is periodic along x, the inside to its left: markers at equally spaced parameters over
+    /// one period.
     OpenInterface {
         /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,

@@ -165,7 +165,7 @@ impl Half {
     }
 }
 
-/// What all surfaces of one number of nodes share: nodes `t_j = pi (j + 1/2)/N`, their waves, quadrature weights.
+/// Plan shared by all surfaces of one number of nodes: nodes `t_j = pi (j + 1/2)/N`, their waves, quadrature weights.
 #[derive(Debug, Clone)]
 pub(super) struct Grid {
     /// N, the number of nodes.
@@ -389,7 +389,7 @@ impl Meridian {
         inside
     }
 
-    /// The same of a spot, to the accuracy of the series close to the curve.
+    /// True for a spot inside the surface, to the accuracy of the series close to the curve.
     pub(super) fn holds_spot(&self, spot: &Spot, panels: &mut Panels) -> bool {
         if spot.gap > self.spacing || spot.gap == 0.0 {
             return self.holds(spot.place);

@@ -221,8 +221,8 @@ fn two_spheres_fall_at_their_exact_speed_however_close() {
     }
 }
 
-/// Drag factors in a tube without flux (Haberman and Sayre, David Taylor Model Basin Report 1143, 1958, to the digits of
-/// their table; more digits from `axisymmetric.csv`).
+/// Drag factors in a tube without flux (Haberman and Sayre, David Taylor Model Basin Report 1143, 1958, to the digits
+/// of their table; more digits from `axisymmetric.csv`).
 #[test]
 fn drag_of_a_sphere_in_a_tube_is_that_of_the_literature() {
     let count = 48;
@@ -309,8 +309,8 @@ fn points_that_are_no_meridian_are_refused() {
     assert!(error.to_string().contains("beyond"), "{error}");
 }
 
-/// Lubrication in the annulus: with the gap e = 1 - radius/tube radius the drag factor is `(3 pi sqrt(2)/8) e^(-5/2)` to
-/// leading order, with corrections of the order of e.
+/// Lubrication in the annulus: with the gap e = 1 - radius/tube radius the drag factor is `(3 pi sqrt(2)/8) e^(-5/2)`
+/// to leading order, with corrections of the order of e.
 #[test]
 fn drag_in_a_tight_tube_is_that_of_lubrication() {
     let count = 128;
