@@ -89,8 +89,9 @@ fn droplets_in_channels_swing_as_the_reference_has_it() {
 fn what_is_no_steady_state_of_one_droplet_is_refused() {
     let two = Setup { droplets: vec![DropletSetup::active(-1.0), DropletSetup::active(-1.0)], ..Setup::default() };
     let grid = Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() };
-    let passive = Setup { droplets: vec![DropletSetup::passive(1.0)], ..Setup::default() };
-    for setup in [two, grid, passive] {
+    let droplets = vec![DropletSetup::passive(1.0)];
+    let sheared = Setup { droplets, flow: FlowSetup { shear: 1.0, ..FlowSetup::default() }, ..Setup::default() };
+    for setup in [two, grid, sheared] {
         assert!(matches!(SteadyState::find(&setup), Err(steady_states::SteadyError::Unsupported { .. })));
     }
 }

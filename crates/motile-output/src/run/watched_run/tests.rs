@@ -52,7 +52,7 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
     let setup = Setup {
         region: Region::Box { lengths: [4.0, 4.0] },
         method: Method::Grid(GridMethod::of_spacing(0.1)),
-        step: StepSize::Fixed(0.14),
+        step: StepSize::Fixed(0.13),
         ..Setup::default()
     };
     let mut run = watch(&setup, 100.0, &output(&directory, true)).unwrap();
