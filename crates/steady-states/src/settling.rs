@@ -80,6 +80,8 @@ impl SteadyState {
                     }
                     failure = found.outcome().failure();
                 }
+                // A state that runs away, to no numbers in the end.
+                Err(SteadyError::Flow(_) | SteadyError::Input(_)) => failure = settling.failure(MOST_STEPS),
                 Err(error) => failure = error,
             }
         }

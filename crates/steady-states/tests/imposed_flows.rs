@@ -161,3 +161,10 @@ fn flows_that_no_state_is_steady_in() {
     let refused = Parameter::ShearRate.with(&Setup::default(), 1.0).unwrap_err().to_string();
     assert!(refused.contains("no parameter shear"), "{refused}");
 }
+
+/// Beyond the turning point a drop is drawn out without an end.
+#[test]
+fn a_drop_beyond_the_turning_point_does_not_converge() {
+    let error = SteadyState::find(&drop_in(EXTENSION, 1.0, 0.2, 32)).unwrap_err();
+    assert!(matches!(error, steady_states::SteadyError::NoConvergence { .. }), "{error}");
+}
