@@ -2,6 +2,10 @@
 
 use std::collections::HashMap;
 
+use motile_base::{Vec2, dot};
+
+use crate::{InteriorError, factor::Factor};
+
 /// Iterations before the conjugate gradients end; they take the root of the condition number, below a hundred.
 const MOST_ITERATIONS: usize = 3000;
 
@@ -39,18 +43,77 @@ pub(crate) struct Laplacian {
     held: usize,
     /// Residual of linear equations, relative to the right-hand side.
     tolerance: f64,
-    diagonal: Vec<f64>,
+    preconditioner: Preconditioner,
     residual: Vec<f64>,
+    scaled: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
+}
+
+/// Approximate inverse for the conjugate gradients.
+#[derive(Debug, Clone)]
+enum Preconditioner {
+    /// Division by the diagonal.
+    Diagonal(Vec<f64>),
+    /// Exact inverse for other weights and masses, those given, and a strength near the one asked for, of so many
+    /// quarters of an octave. It takes the iterations to a handful, and does not depend on what has been solved before.
+    Factor { factor: Box<Factor>, weights: Vec<f64>, masses: Vec<f64>, quarters: Option<i32> },
+}
+
+impl Preconditioner {
+    /// Makes ready for `masses + strength weights`.
+    fn set(&mut self, edges: &[[usize; 2]], held: usize, (strength, weights, masses): (f64, &[f64], &[f64])) {
+        match self {
+            Self::Diagonal(diagonal) => {
+                diagonal.copy_from_slice(&masses[held..]);
+                for (edge, weight) in edges.iter().zip(weights) {
+                    for node in edge.iter().filter_map(|node| node.checked_sub(held)) {
+                        diagonal[node] += strength * weight;
+                    }
+                }
+            }
+            Self::Factor { factor, weights, masses, quarters } => {
+                let wanted = (4.0 * strength.log2()).round();
+                if *quarters != Some(wanted as i32) {
+                    factor.set(masses, (0.25 * wanted).exp2(), weights);
+                    *quarters = Some(wanted as i32);
+                }
+            }
+        }
+    }
+
+    fn apply(&mut self, residual: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Diagonal(diagonal) => {
+                out.iter_mut().zip(residual).zip(diagonal).for_each(|((out, r), d)| *out = r / *d);
+            }
+            Self::Factor { factor, .. } => factor.solve(residual, out),
+        }
+    }
 }
 
 impl Laplacian {
     /// Operator with weights and masses of zero.
     pub(crate) fn new(edges: Vec<[usize; 2]>, nodes: usize, held: usize, tolerance: f64) -> Self {
-        let [diagonal, residual, direction, image] = [(); 4].map(|()| vec![0.0; nodes - held]);
+        let [diagonal, residual, scaled, direction, image] = [(); 5].map(|()| vec![0.0; nodes - held]);
         let (weights, masses) = (vec![0.0; edges.len()], vec![0.0; nodes]);
-        Self { edges, weights, masses, held, tolerance, diagonal, residual, direction, image }
+        let preconditioner = Preconditioner::Diagonal(diagonal);
+        Self { edges, weights, masses, held, tolerance, preconditioner, residual, scaled, direction, image }
+    }
+
+    /// The operator with weights and masses for nodes at positions (length), solved with the help of a factor for
+    /// them: for a mesh without periods that stays near these positions.
+    pub(crate) fn with_factor(
+        mut self,
+        nodes: &[Vec2],
+        weights: &[f64],
+        masses: &[f64],
+    ) -> Result<Self, InteriorError> {
+        self.set(weights, masses);
+        let factor = Box::new(Factor::new(&self.edges, nodes, self.held)?);
+        let (weights, masses) = (weights.to_vec(), masses.to_vec());
+        self.preconditioner = Preconditioner::Factor { factor, weights, masses, quarters: None };
+        Ok(self)
     }
 
     /// Takes over weights and masses.
@@ -83,46 +146,40 @@ impl Laplacian {
         (&self.image, &self.masses[self.held..])
     }
 
-    /// Replaces values c by the solution y of `y - strength lap y = c`, by conjugate gradients from c, scaled by the
-    /// diagonal.
+    /// Replaces values c by the solution y of `y - strength lap y = c`, by preconditioned conjugate gradients from c.
     pub(crate) fn solve(&mut self, strength: f64, values: &mut [f64]) {
         if strength == 0.0 {
             return;
         }
-        let [mut diagonal, mut residual, mut direction, mut image] =
-            [&mut self.diagonal, &mut self.residual, &mut self.direction, &mut self.image].map(std::mem::take);
+        let [mut residual, mut scaled, mut direction, mut image] =
+            [&mut self.residual, &mut self.scaled, &mut self.direction, &mut self.image].map(std::mem::take);
+        self.preconditioner.set(&self.edges, self.held, (strength, &self.weights, &self.masses));
         let masses = &self.masses[self.held..];
-        diagonal.copy_from_slice(masses);
-        for (edge, weight) in self.edges.iter().zip(&self.weights) {
-            for node in edge.iter().filter_map(|node| node.checked_sub(self.held)) {
-                diagonal[node] += strength * weight;
-            }
-        }
-        let scaled = |r: &[f64]| r.iter().zip(&diagonal).map(|(r, d)| r * r / d).sum::<f64>();
-        let right = values.iter().zip(masses).zip(&diagonal).map(|((c, m), d)| (m * c) * (m * c) / d).sum::<f64>();
-        let goal = self.tolerance * self.tolerance * right;
+        residual.iter_mut().zip(masses).zip(&*values).for_each(|((r, mass), c)| *r = mass * c);
+        self.preconditioner.apply(&residual, &mut scaled);
+        let goal = self.tolerance * self.tolerance * dot(&residual, &scaled);
         // From c itself the residual is that of the second term alone.
         self.multiply(values, &mut image);
         residual.iter_mut().zip(&image).for_each(|(r, image)| *r = -strength * image);
-        direction.iter_mut().zip(&residual).zip(&diagonal).for_each(|((p, r), d)| *p = r / d);
-        let mut norm = scaled(&residual);
+        self.preconditioner.apply(&residual, &mut scaled);
+        direction.copy_from_slice(&scaled);
+        let mut norm = dot(&residual, &scaled);
         for _ in 0..MOST_ITERATIONS {
             if norm <= goal {
                 break;
             }
             self.multiply(&direction, &mut image);
-            let mut power = 0.0;
             for ((image, p), mass) in image.iter_mut().zip(&direction).zip(masses) {
                 *image = mass * p + strength * *image;
-                power += *image * p;
             }
-            let (length, before) = (norm / power, norm);
+            let (length, before) = (norm / dot(&image, &direction), norm);
             values.iter_mut().zip(&direction).for_each(|(c, p)| *c += length * p);
             residual.iter_mut().zip(&image).for_each(|(r, image)| *r -= length * image);
-            norm = scaled(&residual);
+            self.preconditioner.apply(&residual, &mut scaled);
+            norm = dot(&residual, &scaled);
             let kept = norm / before;
-            direction.iter_mut().zip(&residual).zip(&diagonal).for_each(|((p, r), d)| *p = r / d + kept * *p);
+            direction.iter_mut().zip(&scaled).for_each(|(p, z)| *p = z + kept * *p);
         }
-        (self.diagonal, self.residual, self.direction, self.image) = (diagonal, residual, direction, image);
+        (self.residual, self.scaled, self.direction, self.image) = (residual, scaled, direction, image);
     }
 }

@@ -44,6 +44,7 @@
 //! migration", PhD thesis, University of Sheffield.
 
 mod error;
+mod factor;
 mod filling;
 mod gel;
 mod laplacian;

@@ -115,8 +115,8 @@ impl ParticlesInDroplet {
             not_negative("a density of particles inside", density)?;
             numbers.push(density * area);
         }
-        let mut laplacian = Laplacian::new(cells.edges.clone(), count, 0, TOLERANCE);
-        laplacian.set(&cells.weights, &cells.areas);
+        let laplacian = Laplacian::new(cells.edges.clone(), count, 0, TOLERANCE);
+        let laplacian = laplacian.with_factor(nodes, &cells.weights, &cells.areas)?;
         let on = droplet.particle_numbers().to_vec();
         Ok(Self {
             name: format!("inside of {}", droplet.name()),

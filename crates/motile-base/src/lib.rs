@@ -73,7 +73,7 @@ pub use input::{
 pub use real::RealTransform;
 pub use region::Region;
 pub use series::PeriodicSeries;
-pub use sums::{dot, sum};
+pub use sums::{dot, sum, widely};
 pub use vec2::Vec2;
 
 /// Most numbers of a transform: a plan for as many takes some gigabytes.

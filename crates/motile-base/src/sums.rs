@@ -1,11 +1,28 @@
-//! Sums of many numbers in vector registers.
+//! Loops in vector registers, and sums of many numbers.
 
 /// Partial sums that a loop adds to at a time: two registers of AVX, so that the additions of one need not wait for
 /// those of the other.
 const LANES: usize = 8;
 
+/// Does work whose loops are compiled once for AVX2 and once for the plain instructions, with the widest that the
+/// machine has. No product is fused with a sum, so that all machines get the same bits. What the work calls has to be
+/// inlined to be part of it.
+///
+/// ```
+/// use motile_base::{dot, widely};
+///
+/// let rows = vec![vec![0.5; 11]; 3];
+/// let products = widely(#[inline(always)] || rows.iter().map(|row| dot(row, &[1.0; 11])).sum::<f64>());
+/// assert_eq!(products, 16.5);
+/// ```
+#[inline(always)]
+pub fn widely<R>(work: impl FnOnce() -> R) -> R {
+    pulp::Arch::new().dispatch(work)
+}
+
 /// Sum in eight partial sums, which the compiler keeps in vector registers.
 #[must_use]
+#[inline(always)]
 pub fn sum(values: &[f64]) -> f64 {
     let (chunks, rest) = values.as_chunks::<LANES>();
     let mut lanes = [0.0; LANES];
@@ -24,6 +41,7 @@ pub fn sum(values: &[f64]) -> f64 {
 /// assert_eq!(motile_base::dot(&[1.0; 11], &[0.5; 11]), 5.5);
 /// ```
 #[must_use]
+#[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let len = a.len().min(b.len());
     let (a_chunks, a_rest) = a[..len].as_chunks::<LANES>();

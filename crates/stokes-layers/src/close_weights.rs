@@ -17,9 +17,11 @@ use num_complex::Complex64;
 mod kernels;
 mod place;
 
+use motile_base::widely;
+
 use crate::{
     curve::Curve,
-    greens::{GreensFunction, Vectors, widely},
+    greens::{GreensFunction, Vectors},
     transforms::REFINEMENT,
 };
 pub(crate) use kernels::KernelArrays;

@@ -12,10 +12,10 @@ use crate::{
     LayerError, Settings,
     calculus::MOST_POINTS,
     error::finite_vectors,
-    greens::{GreensFunction, Vectors, half_turns, widely},
+    greens::{GreensFunction, Vectors, half_turns},
     transforms::{Transform, Transforms},
 };
-use motile_base::Region;
+use motile_base::{Region, widely};
 
 /// Shape and force of a curve at equally spaced parameters, as complex numbers x + i y.
 #[derive(Debug, Clone, Default)]

@@ -4,10 +4,12 @@ mod arrays;
 mod stored;
 mod sums;
 
+use motile_base::widely;
+
 use crate::{
     curve::Curve,
     density::StoredLayers,
-    greens::{AnyPair, PairKernel, Vectors, widely},
+    greens::{AnyPair, PairKernel, Vectors},
     plan::Plan,
 };
 pub(crate) use arrays::Dipoles;

@@ -11,10 +11,3 @@ pub(crate) mod walls;
 pub(crate) use nodes::{Nodes, Vectors, Window};
 pub(crate) use pair::{AnyPair, FreePair, LatticePair, PairKernel, RowPair, Stokeslet};
 pub(crate) use point::{Flow, GreensFunction, Kernels, half_turns, ln};
-
-/// Does work whose loops are compiled once for AVX2 and once for the plain instructions, with the widest that the
-/// machine has. No product is fused with a sum, so that all machines get the same bits.
-#[inline(always)]
-pub(crate) fn widely<R>(work: impl FnOnce() -> R) -> R {
-    pulp::Arch::new().dispatch(work)
-}

@@ -4,7 +4,9 @@
 //! Both directions of a pair share one evaluation of the kernel, and the loop over i has no sums across i, so it runs
 //! in vector registers.
 
-use crate::greens::{PairKernel, Stokeslet, Vectors, ln, widely};
+use motile_base::widely;
+
+use crate::greens::{PairKernel, Stokeslet, Vectors, ln};
 
 use super::arrays::{Dipoles, NodeArrays};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-use motile_base::{Vec2, spectrum::differentiate};
+use motile_base::{Vec2, spectrum::differentiate, widely};
 use num_complex::Complex64;
 
 use crate::{
@@ -142,7 +142,10 @@ impl InsideFlow {
                 let z = place(points[lane.min(points.len() - 1)]);
                 (*x, y[lane]) = (z.re, z.im);
             }
-            let sums = self.sums(&x, &y);
+            let sums = widely(
+                #[inline(always)]
+                || self.sums(&x, &y),
+            );
             for (lane, out) in out.iter_mut().enumerate() {
                 let sum = |k: usize| Complex64::new(sums[2 * k][lane], sums[2 * k + 1][lane]);
                 let z = Complex64::new(x[lane], y[lane]);
@@ -158,6 +161,7 @@ impl InsideFlow {
     }
 
     /// Sums of the weights over the distances from points, without and with the values: real and imaginary parts.
+    #[inline(always)]
     fn sums(&self, x: &[f64; LANES], y: &[f64; LANES]) -> [[f64; LANES]; 8] {
         let mut sums = [[0.0; LANES]; 8];
         for &Pole { position, weight, values: [phi, slope, psi] } in &self.poles {

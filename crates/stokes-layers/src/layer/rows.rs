@@ -2,10 +2,9 @@
 
 use num_complex::Complex64;
 
-use crate::{
-    close_weights::KernelArrays,
-    greens::{Vectors, widely},
-};
+use motile_base::widely;
+
+use crate::{close_weights::KernelArrays, greens::Vectors};
 
 /// Factors c of v and d of conj v, v a force or a velocity, at fine nodes and at nodes of a source: arrays of c, Re d
 /// and Im d.
