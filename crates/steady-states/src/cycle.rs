@@ -380,7 +380,7 @@ impl LimitCycle {
         let size = count * n;
         let mut matrix = DMatrix::zeros(size + 5, size + 5);
         let (derivative, points, (_, own), tau) = (self.derivative(), self.points()?, self.residual()?, self.tau);
-        let mut lacks = [0.0; 2];
+        let (mut lacks, mut kept) = ([0.0; 2], 0);
         for (j, (point, own)) in points.into_iter().zip(&own).enumerate() {
             let jacobian = self.system.jacobian(&point, Part::Full)?;
             matrix.view_mut((j * n, j * n), (n, n)).copy_from(&(-tau * jacobian));
@@ -391,6 +391,7 @@ impl LimitCycle {
             let (h, m) = self.system.model.rigid_rates(&point.base, [1.0, 0.0, 0.0])?;
             let along = self.system.modes.analyse(h, m)?;
             let conserved = self.system.conserved_gradients(&point.base, Part::Full)?;
+            kept = conserved.len();
             lacks.iter_mut().zip(self.system.model.lacks()).for_each(|(sum, lack)| *sum += lack);
             // Columns: speed, period over 2 pi, uniform sources of area and particles, which vanish in a solution.
             // Rows: shifts along the channel and in time, area, number of particles.
@@ -403,7 +404,10 @@ impl LimitCycle {
                 matrix.view_mut((size + 2 + k, j * n), (1, n)).copy_from(&gradient.transpose());
             }
         }
-        matrix[(size + 4, size + 4)] = 1.0;
+        // Nothing takes the place of a number that is not conserved.
+        for unused in size + 2 + kept..size + 5 {
+            matrix[(unused, unused)] = 1.0;
+        }
         Ok((matrix, lacks))
     }
 

@@ -78,6 +78,11 @@ impl Flow {
         if let Self::Plane { flow, .. } = self { flow.rigid_dipole(interface) } else { None }
     }
 
+    /// Velocities inside the first interface, which there are in the plane alone.
+    pub(crate) fn velocities_inside(&mut self, points: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
+        if let Self::Plane { flow, .. } = self { flow.velocities_inside(0, points, out) } else { Ok(()) }
+    }
+
     pub(crate) fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         match self {
             Self::Plane { flow, .. } => flow.sample(points, out),

@@ -48,6 +48,10 @@
 //! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are
 //! looked for among all.
 //!
+//! Particles that are exchanged with the inside count with those there: in a well-mixed inside are those that the
+//! interface lacks. A field inside that diffuses and is carried along is the steady one of the same flow, so that states
+//! are exact but their growth rates are not known.
+//!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
 //! parameter; [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
@@ -61,6 +65,7 @@ mod elimination;
 mod error;
 mod floquet;
 mod flow;
+mod inside;
 mod iteration;
 mod model;
 mod modes;

@@ -9,6 +9,7 @@ use motile_base::{PeriodicSeries, Vec2};
 use stokes_layers::{Interface, Settings, TensionPlacement};
 
 use crate::flow::Flow;
+use crate::inside::{Inside, Wall};
 use crate::profile::analyse;
 use crate::revolution::Rings;
 use crate::{Profile, SteadyError};
@@ -88,8 +89,12 @@ struct Nucleus {
 /// dm/dt = -d(q c - D dc/ds)/da - (y_a (q c - D dc/ds) + m dy/dt)/y
 /// ```
 ///
-/// The centres of rigid discs inside move with the fluid; their
-/// coordinates x stand after the offsets and y after the densities, and so do the rates of these.
+/// Where particles are exchanged with the inside, dm/dt gains `(k_on b - k_off c) |x_a|`, b the density inside beside
+/// the interface: uniform, of the particles that the interface lacks, or the field that is steady with the flow and c
+/// ([`Inside`]).
+///
+/// The centres of rigid discs inside move with the fluid; their coordinates x stand after the offsets and y after the
+/// densities, and so do the rates of these.
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) setup: Setup,
@@ -101,6 +106,7 @@ pub(crate) struct Model {
     /// at which the tension restores the circle or the imposed flow deforms it, whichever is faster.
     rate: f64,
     law: ContractileTension,
+    inside: Option<Inside>,
     flow: Flow,
     /// Quadrature over rings, in three dimensions.
     rings: Option<Rings>,
@@ -159,16 +165,19 @@ impl Model {
                 "leave it out, or give a region of the plane",
             );
         }
-        if particles.is_some_and(|particles| particles.exchange.is_some()) {
-            return refuse("the particles are exchanged with the inside", "leave the exchange out");
+        let exchange = particles.and_then(|particles| particles.exchange);
+        if exchange.is_some_and(|exchange| exchange.diffusion_inside.is_some()) && !discs.is_empty() {
+            return refuse("particles diffuse around a rigid body inside", "leave out one of them");
         }
         let viscosities = [viscosity.unwrap_or(setup.viscosity), setup.viscosity];
         let imposed = setup.flow.imposed(&setup.region)?;
+        let inside = particles.map_or(Ok(None), |particles| Inside::new(&particles, radius, nodes))?;
         let (law, [diffusion, concentration, rate]) = match particles {
             Some(particles) => {
                 let &Particles { diffusion, concentration, .. } = particles;
                 motile_base::positive("the diffusion constant", diffusion)?;
-                (particles.law(*tension)?, [diffusion, concentration, diffusion / (radius * radius)])
+                let at_rest = inside.as_ref().map_or(concentration, |inside| inside.at_rest);
+                (particles.law(*tension)?, [diffusion, at_rest, diffusion / (radius * radius)])
             }
             None => {
                 let relaxation = tension / ((viscosities[0] + viscosities[1]) * radius);
@@ -189,6 +198,7 @@ impl Model {
             diffusion,
             rate,
             law,
+            inside,
             flow,
             rings: setup.region.is_of_revolution().then(|| Rings::new(nodes)),
             series: PeriodicSeries::new(nodes)?,
@@ -242,20 +252,54 @@ impl Model {
     /// Area or volume and number of particles that the loaded state lacks, over those of the droplet at rest.
     pub(crate) fn lacks(&self) -> [f64; 2] {
         let dimensions = if self.rings.is_some() { 3.0 } else { 2.0 };
-        let (mut size, mut number) = (0.0, 0.0);
-        for (k, ((x, t), c)) in self.positions.iter().zip(&self.tangents).zip(&self.concentrations).enumerate() {
-            let weight = self.weight(k);
-            size += x.perp_dot(*t) / dimensions * weight;
-            number += c * t.length() * weight;
-        }
+        let curve = self.positions.iter().zip(&self.tangents).enumerate();
+        let size: f64 = curve.map(|(k, (x, t))| x.perp_dot(*t) / dimensions * self.weight(k)).sum();
         let [size_at_rest, number_at_rest] = self.conserved();
-        let particles = if self.carries() { 1.0 - number / number_at_rest } else { 0.0 };
+        let all = self.inside.as_ref().map_or(number_at_rest, |inside| inside.total);
+        let lacking = || (all - self.number()) / number_at_rest - self.diffusing();
+        let particles = if self.keeps_number() { lacking() } else { 0.0 };
         [1.0 - size / size_at_rest, particles]
     }
 
     /// Unit of rates: D/R^2 with particles (1/time).
     pub(crate) fn rate_unit(&self) -> f64 {
         self.rate
+    }
+
+    /// True where the number of particles is an equation of its own: that on the interface, or that of all where those
+    /// inside diffuse. In a well-mixed inside are those that the interface lacks.
+    pub(crate) fn keeps_number(&self) -> bool {
+        self.carries() && self.inside.as_ref().is_none_or(|inside| inside.field.is_some())
+    }
+
+    /// True where particles diffuse inside.
+    pub(crate) fn has_field(&self) -> bool {
+        self.inside.as_ref().is_some_and(|inside| inside.field.is_some())
+    }
+
+    /// Number of particles inside the state of the last rates and the rate at which they bind less that at which they
+    /// unbind (1/time); `None` without an exchange.
+    pub(crate) fn inside(&self) -> Option<(f64, f64)> {
+        let (inside, on) = (self.inside.as_ref()?, self.number());
+        let gains = (0..self.nodes()).map(|k| self.gain(inside, on, k) * self.weight(k));
+        Some((inside.number(on), gains.sum()))
+    }
+
+    /// Number of particles inside over that on the interface of the circle at rest, where they diffuse; else zero.
+    pub(crate) fn diffusing(&self) -> f64 {
+        let field = self.inside.as_ref().and_then(|inside| inside.field.as_ref());
+        field.map_or(0.0, |field| field.number / self.conserved()[1])
+    }
+
+    /// Number of particles on the loaded interface.
+    fn number(&self) -> f64 {
+        (0..self.nodes()).map(|k| self.concentrations[k] * self.tangents[k].length() * self.weight(k)).sum()
+    }
+
+    /// Rate at which the density m of a node grows by exchange (1/time), with so many particles on the interface.
+    fn gain(&self, inside: &Inside, on: f64, node: usize) -> f64 {
+        let bound = inside.exchange.binding() * inside.density(on, node);
+        (bound - inside.exchange.unbinding() * self.concentrations[node]) * self.tangents[node].length()
     }
 
     /// True with particles on the interface.
@@ -356,7 +400,22 @@ impl Model {
         for ((flux, slope), tangent) in self.flux.iter_mut().zip(self.series.values()).zip(&self.tangents) {
             *flux -= self.diffusion * slope.re / tangent.length();
         }
-        self.divergence(base)
+        self.divergence(base)?;
+        self.exchange(frame)?;
+        Ok((&self.offset_rates, &self.density_rates))
+    }
+
+    /// Adds the exchange with the inside to dm/dt.
+    fn exchange(&mut self, frame: FrameMotion) -> Result<(), SteadyError> {
+        let on = self.number();
+        let Self { inside, flow, positions, tangents, concentrations, .. } = self;
+        if let Some(field) = inside.as_mut().and_then(|inside| inside.field.as_mut()) {
+            field.solve(Wall { positions, tangents, concentrations }, flow, |x| frame_velocity(frame, x))?;
+        }
+        let Some(inside) = &self.inside else { return Ok(()) };
+        let gains: Vec<f64> = (0..self.nodes()).map(|node| self.gain(inside, on, node)).collect();
+        self.density_rates.iter_mut().zip(gains).for_each(|(rate, gain)| *rate += gain);
+        Ok(())
     }
 
     /// dh/dt and dm/dt that a rigid motion alone causes.

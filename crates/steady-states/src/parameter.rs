@@ -15,6 +15,10 @@ pub enum Parameter {
     ExcludedVolume,
     /// Diffusion constant of the particles (length squared per time).
     Diffusion,
+    /// Rate at which particles bind to the interface from the inside (length per time).
+    Binding,
+    /// Rate at which they unbind into the inside (1/time).
+    Unbinding,
     /// Tension gamma0 of the interface without particles (force).
     Tension,
     /// Viscosity of the droplet (stress times time).
@@ -39,10 +43,12 @@ pub enum Parameter {
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 13] = [
+    pub const NAMES: [(&str, Self); 15] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
+        ("binding", Self::Binding),
+        ("unbinding", Self::Unbinding),
         ("tension", Self::Tension),
         ("viscosity-in", Self::ViscosityInside),
         ("viscosity-out", Self::ViscosityOutside),
@@ -73,6 +79,8 @@ impl Parameter {
                 _ => None,
             },
             Self::Diffusion => droplet.particles.map(|particles| particles.diffusion),
+            Self::Binding => droplet.particles?.exchange.map(|exchange| exchange.binding),
+            Self::Unbinding => droplet.particles?.exchange.map(|exchange| exchange.unbinding),
             Self::Tension => Some(droplet.tension),
             Self::ViscosityInside => Some(inside),
             Self::ViscosityOutside => Some(setup.viscosity),
@@ -124,6 +132,12 @@ impl Parameter {
                 droplet.particles.iter_mut().for_each(|particles| particles.excluded_volume = Exclusion::Step(value));
             }
             Self::Diffusion => droplet.particles.iter_mut().for_each(|particles| particles.diffusion = value),
+            Self::Binding | Self::Unbinding => {
+                let exchange = droplet.particles.as_mut().and_then(|particles| particles.exchange.as_mut());
+                exchange.into_iter().for_each(|exchange| {
+                    *(if self == Self::Binding { &mut exchange.binding } else { &mut exchange.unbinding }) = value;
+                });
+            }
             Self::Tension => droplet.tension = value,
             Self::ViscosityInside => droplet.viscosity = Some(value),
             Self::ViscosityOutside => (setup.viscosity, droplet.viscosity) = (value, Some(inside)),

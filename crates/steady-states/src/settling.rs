@@ -33,7 +33,8 @@ impl SteadyState {
     /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from
     /// the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A start that is
     /// its own mirror image at the x axis leads to a state that is, too. Where this fails it is done at half the
-    /// activity, and the activity then raised in steps.
+    /// activity, and the activity then raised in steps. Where particles diffuse inside, it starts from the state with a
+    /// well-mixed inside, and where that is not near, from the description.
     ///
     /// # Errors
     /// A description of anything but one round droplet (with rigid discs inside, if any) by the method of
@@ -62,6 +63,17 @@ impl SteadyState {
         let mirror = is_mirror(&start) && System::new(setup)?.model.is_mirror_symmetric();
         let part = if mirror { Part::Even } else { Part::Full };
         check_axis(setup, part)?;
+        // A field inside costs a hundred times a well-mixed inside, whose state is near.
+        if let Some(mixed) = well_mixed(setup) {
+            let near = Self::settled(&mixed).and_then(|mixed| {
+                let found = Self::from_profile(setup, mixed.profile(), mixed.point().frame, part)?;
+                let change = found.velocity().distance(mixed.velocity());
+                Ok((change < SAME_VELOCITY * mixed.velocity().length(), found))
+            });
+            if let Ok((true, found)) = near {
+                return Ok(found);
+            }
+        }
         let mut failure = Outcome::default().failure();
         for (most_nodes, steady) in ATTEMPTS {
             let mut settling = Settling::new(setup, &start, part, most_nodes)?;
@@ -187,6 +199,13 @@ impl Settling {
 /// Description at another number of nodes.
 fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
     Setup { method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }), ..setup.clone() }
+}
+
+/// Description with particles that are well mixed inside, where they diffuse in this one.
+fn well_mixed(setup: &Setup) -> Option<Setup> {
+    let mut setup = setup.clone();
+    setup.droplets.first_mut()?.particles.as_mut()?.exchange.as_mut()?.diffusion_inside.take()?;
+    Some(setup)
 }
 
 /// Droplet from which a run of a description starts, with its discs.

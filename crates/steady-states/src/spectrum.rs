@@ -139,6 +139,12 @@ pub(crate) fn complement(vectors: &[DVector<f64>], n: usize) -> DMatrix<f64> {
 impl System {
     /// Linearised equations about a steady state.
     pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
+        if self.model.has_field() {
+            return Err(SteadyError::Unsupported {
+                what: "growth rates where particles diffuse inside".to_owned(),
+                remedy: "leave out their diffusion constant, or take them from a run",
+            });
+        }
         let jacobian = self.jacobian(point, part)?;
         self.load(point)?;
         let (motions_of, generators) = self.generators(&point.base, part)?;

@@ -398,7 +398,7 @@ impl SteadyState {
     /// A flow that cannot be solved for.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
         let mut system = System::new(&self.setup)?;
-        system.load(&self.point)?;
+        system.residual(&self.point)?;
         let nodes = self.profile.nodes();
         let fine = REFINEMENT * nodes;
         let model = &system.model;
@@ -426,7 +426,7 @@ impl SteadyState {
                 velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
                 numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
-                inside: None,
+                inside: model.inside(),
                 of_revolution,
                 enclosed: model
                     .rigid_dipoles()

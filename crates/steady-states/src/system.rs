@@ -67,6 +67,9 @@ pub(crate) struct Equations {
 pub(crate) struct System {
     pub(crate) model: Model,
     pub(crate) modes: Modes,
+    /// Derivatives of the number of particles that diffuse inside, over that on the circle at rest, by the coefficients
+    /// of the part that the last Jacobian is of.
+    by_diffusing: DVector<f64>,
 }
 
 impl System {
@@ -74,7 +77,7 @@ impl System {
         let model = Model::new(setup)?;
         let scales = [model.radius, model.radius * model.concentration];
         let modes = Modes::new(model.nodes(), scales, model.nuclei())?;
-        Ok(Self { model, modes })
+        Ok(Self { model, modes, by_diffusing: DVector::zeros(0) })
     }
 
     /// System at another value of a parameter.
@@ -166,6 +169,8 @@ impl System {
         let range = self.modes.part(part);
         let (offsets, density) = self.modes.synthesise(&point.state);
         let mut jacobian = DMatrix::zeros(range.len(), range.len());
+        self.by_diffusing = DVector::zeros(range.len());
+        let inside = self.model.diffusing();
         for (column, index) in range.clone().enumerate() {
             let step = step / (1.0 + 0.1 * self.modes.wave(index) as f64);
             let mut side = |amount: f64| {
@@ -173,12 +178,14 @@ impl System {
                 self.modes.perturb(index, amount, &mut h, &mut m);
                 self.model.load(&point.base, &h, &m)?;
                 let (h, m) = self.model.rates(&point.base, point.frame)?;
-                self.modes.analyse(h, m)
+                Ok::<_, SteadyError>((self.modes.analyse(h, m)?, self.model.diffusing()))
             };
-            let difference = match rates {
-                Some(rates) => (side(step)? - rates) / step,
-                None => (side(step)? - side(-step)?) / (2.0 * step),
+            let ((above, more), (below, less), step) = match rates {
+                Some(rates) => (side(step)?, (rates.clone(), inside), step),
+                None => (side(step)?, side(-step)?, 2.0 * step),
             };
+            let difference = (above - below) / step;
+            self.by_diffusing[column] = (more - less) / step;
             jacobian.column_mut(column).copy_from(&difference.rows(range.start, range.len()));
         }
         Ok(jacobian)
@@ -239,8 +246,12 @@ impl System {
         };
         let [size, number] = self.model.conserved_gradients(base);
         let mut gradients = vec![of(size)?];
-        if self.model.carries() {
-            gradients.push(of(number)?);
+        if self.model.keeps_number() {
+            let mut number = of(number)?;
+            if self.model.has_field() {
+                number += &self.by_diffusing;
+            }
+            gradients.push(number);
         }
         Ok(gradients)
     }
@@ -250,6 +261,19 @@ impl System {
         let step = DIFFERENCE * parameter.scale(&self.model.setup);
         let [above, below] = [step, -step].map(|by| self.moved(parameter, by)?.residual(point));
         Ok((above? - below?) / (2.0 * step))
+    }
+
+    /// Derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse inside by a
+    /// motion of the frame.
+    fn frame_derivative(&mut self, point: &Point, motion: FrameMotion) -> Result<(DVector<f64>, f64), SteadyError> {
+        let step = DIFFERENCE * self.model.rate_unit();
+        let mut side = |amount: f64| {
+            let frame = std::array::from_fn(|k| point.frame[k] + amount * motion[k]);
+            let (h, m) = self.model.rates(&point.base, frame)?;
+            Ok::<_, SteadyError>((self.modes.analyse(h, m)?, self.model.diffusing()))
+        };
+        let ((above, more), (below, less)) = (side(step)?, side(-step)?);
+        Ok(((above - below) / (2.0 * step), (more - less) / (2.0 * step)))
     }
 
     /// Linear equations for a correction at a point.
@@ -290,6 +314,15 @@ impl System {
         for (k, generator) in generators.iter().enumerate() {
             matrix.view_mut((0, n + k), (n, 1)).copy_from(&-generator);
             matrix.view_mut((n + k, 0), (1, n)).copy_from(&generator.transpose());
+        }
+        if self.model.has_field() {
+            // What is carried along inside depends on the frame's velocity too.
+            for (k, motion) in motions.iter().enumerate() {
+                let (by_motion, diffusing) = self.frame_derivative(point, *motion)?;
+                matrix.view_mut((0, n + k), (n, 1)).copy_from(&by_motion.rows(range.start, n));
+                matrix[(n + frames + 1, n + k)] = diffusing;
+            }
+            self.model.rates(&point.base, point.frame)?;
         }
         // Uniform sources of area and particles, which vanish in a solution since both are conserved.
         for (k, gradient) in conserved.iter().enumerate() {

@@ -3,7 +3,7 @@
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use motile::motile_base::Region;
-use motile::setup::{IntegralMethod, Method, RigidBodySetup, Setup};
+use motile::setup::{ExchangeSetup, IntegralMethod, Method, RigidBodySetup, Setup};
 use motile_examples::{AlongFlags, DropletFlags, RegionKind, positive};
 
 /// A scene of one droplet without a grid.
@@ -31,6 +31,12 @@ pub struct SteadyFlags {
     /// Where the nucleus starts, from the droplet's centre (R0): aside, the droplet may go round in circles
     #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     core_offset: Vec<f64>,
+    /// Rate of binding to the interface from a well-mixed inside (R0 per time); needs --k-off [default: no exchange]
+    #[arg(long, requires = "k_off", value_parser = positive, allow_hyphen_values = true)]
+    k_on: Option<f64>,
+    /// Rate of unbinding into the inside (1/time)
+    #[arg(long, requires = "k_on", value_parser = positive, allow_hyphen_values = true)]
+    k_off: Option<f64>,
     /// Shear rate of an imposed flow u = (G y, 0) in unbounded fluid (1/time)
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     shear: f64,
@@ -73,6 +79,11 @@ impl SteadyFlags {
         setup.flow.wall_velocity = self.along.wall_velocity;
         (setup.flow.shear, setup.flow.extension) = (self.shear, self.extension);
         setup.droplets[0].centre[1] = lateral_offset;
+        if let (Some(particles), (Some(k_on), Some(k_off))) =
+            (&mut setup.droplets[0].particles, (self.k_on, self.k_off))
+        {
+            particles.exchange = Some(ExchangeSetup::new(k_on, k_off));
+        }
         let offset = match self.core_offset.as_slice() {
             [] => [0.0; 2],
             &[x, y] if self.core_radius.is_some() => [x, y],
