@@ -3,7 +3,8 @@
 //! `cargo run --release -p studies -- figure 3.9` makes the figure from what `studies/book/3.9.toml` says: its data
 //! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
 //! again), the curves and the numbers that its verdict rests on, as expressions of the columns. It prints them and
-//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer and shorter runs. `figures --chapter 3` makes those of a
+//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser runs, which the ranges of verdicts are
+//! not for: it shows that a figure can be made, and decides and keeps nothing. `figures --chapter 3` makes those of a
 //! chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew. Checks of `points` are found
 //! from the points in `docs/book/figures`, whenever the pages are written (`studies -- pages`).
 
@@ -49,11 +50,11 @@ pub(crate) struct FiguresFlags {
 
 #[derive(Debug, Args)]
 struct Common {
-    /// Fewer, shorter and coarser runs
+    /// Fewer, shorter and coarser runs, which decide nothing
     #[arg(long)]
     quick: bool,
     /// Keep numbers and picture in docs/book and write its pages anew
-    #[arg(long)]
+    #[arg(long, conflicts_with = "quick")]
     write: bool,
     /// Runs at a time; without it as many as there are processors
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -84,7 +85,6 @@ impl Making {
 /// What is kept of a figure that was made, in `docs/book/figures`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
-    quick: bool,
     commit: String,
     runs: usize,
     left_out: usize,
@@ -221,7 +221,6 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
     }
     let own = || figure.data.iter().filter_map(|name| made.get(name));
     let kept = Kept {
-        quick: making.quick,
         commit: String::new(),
         runs: own().map(|data| data.wanted).sum(),
         left_out: own().map(|data| data.wanted.saturating_sub(data.rows.len())).sum(),
@@ -245,7 +244,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
             fs::write(folder.join(format!("{number}.svg")), picture.svg()?)?;
             fs::write(folder.join(format!("{number}.csv")), points)?;
         }
-        fs::write(pages::kept_file(number, making.quick), serde_json::to_string_pretty(&kept)? + "\n")?;
+        fs::write(pages::kept_file(number), serde_json::to_string_pretty(&kept)? + "\n")?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
+mod animations;
 mod book;
 mod elastic_step;
 mod exchange;
@@ -14,6 +15,7 @@ mod instructions;
 mod nucleus;
 mod pictures;
 mod scaling;
+mod shared_benchmark;
 mod site;
 mod steady_states;
 mod step_cost;
@@ -60,6 +62,8 @@ enum Study {
     Pages(tables::PagesFlags),
     Site(site::Flags),
     Pictures(pictures::Flags),
+    Animations(animations::Flags),
+    SharedBenchmark(shared_benchmark::Flags),
 }
 
 fn main() -> ExitCode {
@@ -84,5 +88,7 @@ fn main() -> ExitCode {
         Study::Pages(flags) => tables::pages(flags),
         Study::Site(flags) => site::run(flags),
         Study::Pictures(flags) => pictures::run(flags),
+        Study::Animations(flags) => animations::run(flags),
+        Study::SharedBenchmark(flags) => shared_benchmark::run(flags),
     })
 }

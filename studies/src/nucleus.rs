@@ -1,15 +1,19 @@
-//! Droplets with a rigid nucleus: whether they swim in circles.
+//! Droplets with a nucleus: whether they swim in circles.
 //!
 //! `cargo run --release -p studies -- nucleus` prints two tables, which `--write` keeps as `docs/tables/nucleus.csv`:
-//! steady states that runs lead to, found by Newton's method from their ends, and the branch of those that swim in
-//! circles over the radius of the nucleus.
+//! steady states with a rigid nucleus that runs lead to, found by Newton's method from their ends, and the branch of
+//! those that swim in circles over the radius of the nucleus. With `--elastic` it prints one of runs with an elastic
+//! nucleus that nothing holds, as Cowley's, and with a rigid one in the same box (`docs/tables/nucleus-elastic.csv`).
 
 use anyhow::{Context, Result};
 use clap::Args;
 use motile::motile_base::Region;
 use motile::motile_base::Vec2;
-use motile::setup::{Built, DropletSetup, IntegralMethod, Method, RigidBodySetup, Setup};
-use motile_examples::positive;
+use motile::setup::{
+    Built, DropletSetup, Hold, IntegralMethod, LayersMethod, Material, Method, RigidBodySetup, Setup, SolidOutline,
+    SolidSetup,
+};
+use motile_examples::{positive, turning_rate};
 use motile_output::run::{explained, say};
 use motile_tests::validation::Table;
 use steady_states::{Parameter, Profile, SteadyState};
@@ -22,6 +26,9 @@ pub(crate) struct Flags {
     /// Time to which they swim before Newton's method takes over
     #[arg(long, default_value_t = 60.0, value_parser = positive)]
     time: f64,
+    /// Runs with an elastic nucleus
+    #[arg(long)]
+    elastic: bool,
     #[command(flatten)]
     keep: tables::Keep,
 }
@@ -114,7 +121,81 @@ fn push(table: &mut Table, row: Vec<String>, state: Result<SteadyState>) -> Opti
     state
 }
 
+/// Activities, shear moduli (stress), and radius of elastic nuclei, side of the box, grid spacing, end of the runs.
+const ACTIVITIES: [f64; 2] = [-1.0, -2.0];
+const SHEARS: [f64; 3] = [50.0, 200.0, 1000.0];
+const RADIUS: f64 = 0.5;
+const SIDE: f64 = 8.0;
+const SPACING: f64 = 0.1;
+const END: f64 = 160.0;
+/// Looks at a run.
+const LOOKS: u32 = 320;
+
+/// Runs with an elastic nucleus, or with a rigid one where no modulus is given: speed, turning rate, and place of the
+/// nucleus aside of the line of motion.
+fn circle(activity: f64, shear: Option<f64>) -> Result<[f64; 3]> {
+    let mut setup = setup(&(activity, 100.0, RADIUS, ASIDE), NODES[0]);
+    setup.region = Region::Box { lengths: [SIDE; 2] };
+    if let Some(shear) = shear {
+        setup.rigid_bodies.clear();
+        setup.method = Method::Layers(LayersMethod::of_spacing(SPACING));
+        let disc = SolidOutline::Disc { centre: ASIDE, radius: RADIUS };
+        let disc = SolidSetup::new(disc, Material::NeoHookean { shear, bulk: 2.0 * shear });
+        setup.solids = vec![SolidSetup { hold: Hold::Free, ..disc }];
+    }
+    let Built { mut scene, droplets, rigid_bodies, solids, .. } = setup.build()?;
+    let droplet = *droplets.first().context("no droplet")?;
+    let (mut headings, mut last) = (Vec::new(), [0.0; 3]);
+    for look in 1..=LOOKS {
+        scene.run(END * f64::from(look) / f64::from(LOOKS)).go()?;
+        let seen = scene.observe(droplet)?;
+        let centre = match (rigid_bodies.first(), solids.first()) {
+            (Some(disc), _) => scene.observe(*disc)?.centre,
+            (None, Some(disc)) => {
+                let points = scene.body(*disc)?.positions();
+                points.iter().sum::<Vec2>() / points.len() as f64
+            }
+            (None, None) => Vec2::ZERO,
+        };
+        headings.push((scene.time(), seen.velocity.y.atan2(seen.velocity.x).to_degrees()));
+        let along = seen.velocity.try_normalize().unwrap_or(Vec2::X);
+        last = [seen.speed(), 0.0, along.perp_dot(centre - seen.centroid)];
+    }
+    last[1] = turning_rate(&headings).context("too few looks")?;
+    Ok(last)
+}
+
+fn elastic(keep: tables::Keep) -> Result<()> {
+    let columns = ["activity", "shear modulus", "speed", "turning rate", "track radius", "aside"];
+    let title = format!(
+        "Droplets with a free elastic nucleus of {RADIUS} R0, box of {SIDE} x {SIDE}, h = {SPACING}: means of t = {} to \
+         {END}; place of the nucleus in the end",
+        END / 2.0
+    );
+    let mut table = Table::new(&title, &columns);
+    for activity in ACTIVITIES {
+        for shear in SHEARS.map(Some).into_iter().chain([None]) {
+            let [speed, turning, aside] = circle(activity, shear)?;
+            let row = [
+                activity.to_string(),
+                shear.map_or("rigid".to_owned(), |shear| shear.to_string()),
+                format!("{speed:.5}"),
+                format!("{turning:+.5}"),
+                format!("{:.3}", speed / turning.abs()),
+                format!("{aside:+.4}"),
+            ];
+            say(row.join(" "));
+            table.push(row);
+        }
+    }
+    let own = ["crates/elastic-solids", "studies/src/nucleus.rs"];
+    keep.tables("nucleus-elastic", "nucleus --elastic", &own, &[table])
+}
+
 pub(crate) fn run(flags: &Flags) -> Result<()> {
+    if flags.elastic {
+        return elastic(flags.keep);
+    }
     let columns: Vec<&str> = ["activity", "viscosity", "radius", "start"].into_iter().chain(VALUES).collect();
     let mut table = Table::new("Steady droplets with a rigid nucleus, and the mode that grows fastest", &columns);
     let mut first = None;

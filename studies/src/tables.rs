@@ -8,8 +8,14 @@
 //! <!-- end of table -->
 //! ```
 //!
-//! (the first of which may go over several lines), which `studies -- pages` fills and `studies -- pages --check` and a
-//! test compare. `studies -- stale` lists the files whose code has changed since they were made, and the tables that
+//! (the first of which may go over several lines), or the animation and the text of a scene in `examples/scenes` after
+//!
+//! ```text
+//! <!-- scene NAME -->
+//! <!-- end of scene -->
+//! ```
+//!
+//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the files whose code has changed since they were made, and the tables that
 //! still stand in their page, marked by
 //!
 //! ```text
@@ -43,6 +49,8 @@ const COMMAND: &str = "# ";
 /// What stands in pages.
 const BEGIN: &str = "<!-- table ";
 const END: &str = "<!-- end of table -->";
+const SCENE: &str = "<!-- scene ";
+const END_OF_SCENE: &str = "<!-- end of scene -->";
 const MEASURED: &str = "<!-- measured at ";
 
 /// Fills the tables of the pages from docs/tables, writes the pages of the book, checks links and formulas.
@@ -190,6 +198,7 @@ pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
     for path in pages_of()? {
         let text = fs::read_to_string(&path)?;
         let filled = filled(&text, &|name| Ok(fs::read_to_string(file(name, 0))?))
+            .and_then(|text| with_scenes(&text, &|name| crate::animations::text(name)))
             .with_context(|| path.display().to_string())?;
         if filled == text {
             continue;
@@ -251,6 +260,19 @@ fn filled(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
         out.push('\n');
     }
     Ok(out)
+}
+
+/// A page with its scenes filled with what `read` gives by name.
+fn with_scenes(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
+    let mut out = String::new();
+    let mut rest = page;
+    while let Some((before, after)) = rest.split_once(SCENE) {
+        let (name, after) = after.split_once(" -->").with_context(|| format!("no '-->' after: {SCENE}"))?;
+        let (_, after) = after.split_once(END_OF_SCENE).with_context(|| format!("no end of the scene {name}"))?;
+        out += &format!("{before}{SCENE}{name} -->\n{}{END_OF_SCENE}", read(name)?);
+        rest = after;
+    }
+    Ok(out + rest)
 }
 
 /// A part of a file as Markdown: `NAME | columns: A, B as C | where: D = x or y; E = z`.

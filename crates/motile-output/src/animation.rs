@@ -16,6 +16,9 @@ const DELAY: u16 = 8;
 const END: u16 = 150;
 /// Largest number of cells of a frame's fields in a direction: a cell is then four pixels wide.
 const FRAME_CELLS: usize = 120;
+/// Smallest type (pixels), and fewest colours of the pressure.
+const LEAST_TYPE: f64 = 9.0;
+const LEAST_LEVELS: usize = 8;
 /// Index of the palette for pixels that stay as in the frame before.
 const UNCHANGED: u8 = 255;
 
@@ -37,6 +40,7 @@ const UNCHANGED: u8 = 255;
 pub struct Film {
     look: Look,
     raster: Raster,
+    format: Format,
     frames: Vec<Snapshot>,
 }
 
@@ -45,19 +49,31 @@ impl Film {
     /// larger ones.
     #[must_use]
     pub fn new(look: Look, raster: Raster) -> Self {
-        Self { look, raster: raster.coarsened(FRAME_CELLS), frames: Vec::new() }
+        Self { look, raster: raster.coarsened(FRAME_CELLS), format: Format::FRAME, frames: Vec::new() }
+    }
+
+    /// Frames `pixels` wide (100 to 2000) in place of 440; narrower ones have fewer colours of the pressure, and a file
+    /// grows with their area.
+    #[must_use]
+    pub fn of_width(self, pixels: f64) -> Self {
+        let (usual, factor) = (Format::FRAME, pixels / Format::FRAME.width);
+        let levels = (usual.levels as f64 * factor.min(1.0)).round() as usize;
+        let em = (usual.em * factor).max(LEAST_TYPE);
+        Self { format: Format { width: pixels, em, levels: levels.max(LEAST_LEVELS), ..usual }, ..self }
     }
 
     /// Writes the animation as a GIF that repeats for ever; between walls each frame shows the tracks up to its time.
     ///
     /// # Errors
-    /// [`OutputError::Empty`] without frames; [`OutputError::Write`]; those of drawing the frames.
+    /// [`OutputError::Empty`] without frames; [`OutputError::Size`]: a width outside of 100 to 2000 pixels;
+    /// [`OutputError::Write`]; those of drawing the frames.
     pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
+        OutputError::check_size("an animation with a width (pixels)", self.format.width, 100.0, 2000.0)?;
         let legends = self.look.legends(&self.frames);
         // One palette for all frames keeps colours from flickering, but has to know them all.
         let (mut histogram, mut frames, mut size) = (Histogram::new(), Vec::new(), [0; 2]);
         for seen in &self.frames {
-            let image = self.look.draw(seen, &legends, tracks, &Format::FRAME)?.pixels(1.0)?;
+            let image = self.look.draw(seen, &legends, tracks, &self.format)?.pixels(1.0)?;
             colours(&image).for_each(|colour| histogram.add(colour));
             frames.push(colours(&image).map(code).collect::<Vec<u16>>());
             size = [image.width(), image.height()].map(|side| side as usize);

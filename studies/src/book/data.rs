@@ -321,7 +321,7 @@ fn merge(table: &mut Table, other: &Table) {
 }
 
 /// A name of letters, digits and underscores.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let kept = text.replace(|c: char| !c.is_alphanumeric(), "_");
     kept.split('_').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
 }

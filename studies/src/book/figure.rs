@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use motile_output::plot::{AxisScale, Marker, Plot, SERIES_COLOURS, Series};
 use serde::{Deserialize, Serialize};
 
-use super::data::{Data, Source};
+use super::data::{Data, POINTS, Source};
 use super::expression::{Definitions, Expression, Row};
 use super::statistics::{Measure, mean, same, shown};
 
@@ -73,10 +73,37 @@ pub(super) struct Figure {
     /// Names of expressions.
     #[serde(default)]
     define: Definitions,
+    /// Names of numbers that other figures found.
+    #[serde(default)]
+    known: BTreeMap<String, Known>,
     #[serde(default)]
     panel: Vec<Panel>,
     #[serde(default)]
     check: Vec<Check>,
+}
+
+/// The y of the point of another figure's curve whose x is the group of a row, 0 where there is none.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Known {
+    figure: String,
+    /// Label of the curve, and its group where there are several.
+    curve: String,
+    group: Option<f64>,
+}
+
+impl Known {
+    fn expression(&self) -> Result<String> {
+        let points = Data::of_points(&format!("{POINTS}-{}", self.figure), &self.figure)?;
+        let wanted = |row: &&Row| {
+            let group = self.group.is_none_or(|group| row.get("group").is_some_and(|found| same(*found, group)));
+            group && row.contains_key(&super::data::plain(&self.curve))
+        };
+        let term = |row: &Row| Some(format!("(group == {}) * {}", row.get("x")?, row.get("y")?));
+        let terms: Vec<String> = points.rows.iter().filter(wanted).filter_map(term).collect();
+        ensure!(!terms.is_empty(), "figure {} has no points of the curve '{}'", self.figure, self.curve);
+        Ok(format!("({})", terms.join(" + ")))
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -191,7 +218,7 @@ impl Figure {
 
     /// All that is found, or a sentence about what is wrong in its file.
     pub(super) fn checks(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Checked>> {
-        let definitions = self.definitions(common);
+        let definitions = self.definitions(common)?;
         self.check.iter().map(|check| self.checked(check, &definitions, data).context(check.name.clone())).collect()
     }
 
@@ -217,7 +244,7 @@ impl Figure {
     /// What was kept of checks of runs, and checks that need none found anew: of points that are kept, of tables, of
     /// lists of numbers.
     pub(super) fn found(&self, common: &Definitions, kept: &[Checked]) -> Result<Vec<Checked>> {
-        let definitions = self.definitions(common);
+        let definitions = self.definitions(common)?;
         let mut found = Vec::new();
         let mut left: Vec<&Checked> = kept.iter().collect();
         for check in &self.check {
@@ -276,13 +303,18 @@ impl Figure {
             .then(|| "no range that the contrary of the statement is outside of".to_owned())
     }
 
-    fn definitions(&self, common: &Definitions) -> Definitions {
-        common.iter().chain(&self.define).map(|(name, text)| (name.clone(), text.clone())).collect()
+    fn definitions(&self, common: &Definitions) -> Result<Definitions> {
+        let mut all: Definitions = common.clone();
+        all.extend(self.define.clone());
+        for (name, known) in &self.known {
+            all.insert(name.clone(), known.expression().with_context(|| name.clone())?);
+        }
+        Ok(all)
     }
 
     /// Panels and, as text, the points in them.
     pub(super) fn panels(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<(Vec<Plot>, String)> {
-        let definitions = self.definitions(common);
+        let definitions = self.definitions(common)?;
         let mut table = String::from("panel,curve,group,x,y,deviation\n");
         let mut plots = Vec::new();
         for (k, panel) in self.panel.iter().enumerate() {

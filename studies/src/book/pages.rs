@@ -24,8 +24,8 @@ const CHAPTERS: [(&str, &str); 5] = [
 const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
                      what converged results say. All of it is written by `cargo run --release -p studies -- figures \
                      --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
-                     chapter, `--quick` each with fewer and shorter runs. A figure that was not computed says so; a \
-                     verdict whose numbers came out otherwise than it needs is shown as open, with the number. Every \
+                     chapter; with `--quick` runs are fewer, shorter and coarser, and decide nothing. A figure that was \
+                     not computed says so; a verdict whose numbers came out otherwise than it needs is shown as open, with the number. Every \
                      verdict but 'cannot tell' and 'no claim' rests on ranges that the number of the contrary \
                      statement is outside of; a test refuses one without. Where older numbers were known when a range \
                      was stated, as in chapter 4 and parts of chapter 3, it was chosen from the claim.";
@@ -34,21 +34,16 @@ pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")
 }
 
-pub(super) fn kept_file(number: &str, quick: bool) -> PathBuf {
-    let kind = if quick { "quick" } else { "full" };
-    folder().join(format!("figures/{number}-{kind}.json"))
+pub(super) fn kept_file(number: &str) -> PathBuf {
+    folder().join(format!("figures/{number}.json"))
 }
 
-/// What was kept, of the full figure before the quick one.
-fn kept(number: &str) -> Result<[Option<Kept>; 2]> {
-    let read = |quick| -> Result<Option<Kept>> {
-        let path = kept_file(number, quick);
-        if !path.exists() {
-            return Ok(None);
-        }
-        serde_json::from_str(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())
-    };
-    Ok([read(false)?, read(true)?])
+fn kept(number: &str) -> Result<Option<Kept>> {
+    let path = kept_file(number);
+    if !path.exists() {
+        return Ok(None);
+    }
+    serde_json::from_str(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())
 }
 
 /// Writes all pages.
@@ -73,14 +68,14 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
         let mut page = format!(
             "# Chapter {chapter}: {title}\n\nWritten by `studies -- figures --write`: [the book](README.md).\n"
         );
+        page += &told(numbers.iter().filter(|number| chapter_of(number) == chapter))?;
         for number in numbers.iter().filter(|number| chapter_of(number) == chapter) {
             let figure = read(number)?;
             if let Some(lack) = figure.lacks() {
                 bail!("figure {number}: {lack}");
             }
-            let [full, quick] = kept(number)?;
-            let found = full.as_ref().or(quick.as_ref());
-            let checks = figure.found(&definitions, found.map_or(&[], |kept| &kept.checks))?;
+            let kept = kept(number)?;
+            let checks = figure.found(&definitions, kept.as_ref().map_or(&[], |kept| &kept.checks))?;
             let judged = figure.judged(&checks);
             let verdict = verdict(&figure, Some(&judged));
             let decisive = judged.iter().find(|check| !check.range().is_empty()).or(judged.first());
@@ -101,7 +96,7 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
                 Some((_, count)) => *count += 1,
                 None => counts.push((kind.to_owned(), 1)),
             }
-            page += &section(number, &figure, &verdict, &judged, [&full, &quick])?;
+            page += &section(number, &figure, &verdict, &judged, kept.as_ref())?;
         }
         pages.push((name, page));
     }
@@ -114,21 +109,30 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     Ok(pages)
 }
 
-fn section(
-    number: &str,
-    figure: &Figure,
-    verdict: &str,
-    judged: &[Judged],
-    [full, quick]: [&Option<Kept>; 2],
-) -> Result<String> {
+/// What the data of a chapter's figures are, once for all of them.
+fn told<'a>(numbers: impl Iterator<Item = &'a String>) -> Result<String> {
+    let mut names: Vec<String> = Vec::new();
+    for number in numbers {
+        for name in read(number)?.data {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    let mut text = String::from("\n## Data\n\n");
+    for name in &names {
+        text += &wrapped(&format!("* **{name}**: {}", Source::read(name)?.told()));
+    }
+    Ok(if names.is_empty() { String::new() } else { text })
+}
+
+fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept: Option<&Kept>) -> Result<String> {
     let mut text = format!("\n## Figure {number}\n\n{}", wrapped(&figure.title));
     text += "\n";
     text += &wrapped(&format!("**Cowley:** {}", figure.says));
-    if let Some(kept) = full.as_ref().or(quick.as_ref()) {
+    if let Some(kept) = kept {
         text += "\n";
-        let kind = if kept.quick { " (quick)" } else { "" };
-        let data = figure.data.iter().map(|name| Ok(Source::read(name)?.told())).collect::<Result<Vec<_>>>()?;
-        text += &wrapped(&format!("**Found{kind}**, at {}: {}", kept.commit, data.join("; ")));
+        text += &wrapped(&format!("**Found** from the data {}, at {}:", figure.data.join(", "), kept.commit));
         if !judged.is_empty() {
             text += "\n";
         }
@@ -137,7 +141,7 @@ fn section(
             text += &wrapped(&format!("* {}: {found}{}", check.name, check.range()));
         }
         if kept.left_out > 0 {
-            let _ = writeln!(text, "\n{} of {} runs failed and are left out.", kept.left_out, kept.runs);
+            let _ = writeln!(text, "\nRuns that failed and are left out: {} of {}.", kept.left_out, kept.runs);
         }
     }
     text += "\n";
@@ -150,11 +154,9 @@ fn section(
     }
     let own = format!("figure {number}");
     let command = figure.command.clone().unwrap_or_else(|| format!("cargo run --release -p studies -- {own}"));
-    let seconds =
-        |kept: &Option<Kept>| kept.as_ref().map_or("not made".to_owned(), |kept| format!("{:.0} s", kept.seconds));
     let mut last = format!("`{command}`");
-    if figure.number_of_data() > 0 {
-        last += &format!(" (computation: full {}, quick {})", seconds(full), seconds(quick));
+    if let Some(seconds) = kept.map(|kept| kept.seconds).filter(|seconds| *seconds > 1.0) {
+        last += &format!(" ({seconds:.0} s of computation)");
     }
     for page in &figure.see {
         last += &format!(", [{page}](../{page})");

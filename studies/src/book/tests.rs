@@ -1,5 +1,8 @@
 use std::collections::BTreeMap;
 
+use motile::setup::Method;
+use motile_output::sweep::Trial;
+
 use super::*;
 
 fn making(quick: bool, name: &str) -> Making {
@@ -33,6 +36,28 @@ fn every_figure_has_its_file_and_every_plan_its_scenes() {
                 trial.setup.build().map(|_| ()).expect(&trial.label);
             }
         }
+    }
+}
+
+/// Trials, each by its time and the square of its nodes, or the cells of its grid times the steps that they ask for.
+fn size(trials: &[Trial]) -> f64 {
+    let cost = |trial: &Trial| match (&trial.setup.method, trial.setup.method.spacing()) {
+        (Method::Integral(method), _) => (method.nodes as f64).powi(2),
+        (_, spacing) => spacing.expect("a grid").powi(-3),
+    };
+    trials.iter().map(|trial| trial.time * cost(trial)).sum()
+}
+
+#[test]
+fn quick_is_faster_than_full() {
+    let mut names: Vec<String> =
+        numbers().expect("figures").iter().flat_map(|number| read(number).expect(number).data).collect();
+    names.sort();
+    names.dedup();
+    for name in names {
+        let source = Source::read(&name).expect(&name);
+        let [full, quick] = [false, true].map(|quick| source.trials(&name, &making(quick, "size")).expect(&name));
+        assert!(full.is_empty() || size(&quick) < 0.6 * size(&full), "{name}: {} of {}", size(&quick), size(&full));
     }
 }
 

@@ -34,3 +34,14 @@ fn requests_that_show_nothing_are_refused() {
 fn the_pages_show_what_the_files_have() {
     pages(&PagesFlags { check: true }).unwrap();
 }
+
+#[test]
+fn a_page_shows_scenes() {
+    let read = |name: &str| Ok(format!("text of {name}\n"));
+    let page = "A\n<!-- scene one -->\nold\n<!-- end of scene -->\nB <!-- scene two -->\n<!-- end of scene -->";
+    let expected = "A\n<!-- scene one -->\ntext of one\n<!-- end of scene -->\nB <!-- scene two -->\ntext of two\n\
+                    <!-- end of scene -->";
+    assert_eq!(with_scenes(page, &read).unwrap(), expected);
+    assert_eq!(with_scenes(expected, &read).unwrap(), expected);
+    assert!(with_scenes("<!-- scene one -->\n", &read).is_err() && with_scenes("<!-- scene one\n", &read).is_err());
+}

@@ -40,3 +40,20 @@ fn an_animation_without_frames_is_refused() {
     let film = Film::new(Look::default(), raster);
     assert!(matches!(film.write(&[], "/nowhere/none.gif"), Err(OutputError::Empty(_))));
 }
+
+#[test]
+fn frames_have_the_width_that_is_asked_for() {
+    use motile::prelude::{Built, Setup};
+    let Built { mut scene, .. } = Setup::default().build().unwrap();
+    let path = std::env::temp_dir().join(format!("motile-width-{}.gif", std::process::id()));
+    let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap()).of_width(150.0);
+    film.observe(scene.system_mut()).unwrap();
+    film.write(&[], &path).unwrap();
+    let decoder = gif::DecodeOptions::new().read_info(File::open(&path).unwrap()).unwrap();
+    assert_eq!(decoder.width(), 150);
+    std::fs::remove_file(&path).unwrap();
+    for pixels in [99.0, 2001.0, f64::NAN] {
+        let refused = film.clone().of_width(pixels).write(&[], &path).unwrap_err();
+        assert!(matches!(refused, OutputError::Size { .. }), "{refused}");
+    }
+}
