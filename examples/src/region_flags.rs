@@ -64,7 +64,7 @@ impl AnyRegionFlags {
                 setup.region = match self.region {
                     RegionKind::Plane => Region::Plane,
                     RegionKind::Space => Region::Space,
-                    _ => Region::Tube { radius: self.tube_radius },
+                    _ => Region::tube(self.tube_radius),
                 };
                 Ok(())
             }

@@ -4,9 +4,12 @@ use std::f64::consts::TAU;
 
 use motile_base::{FlowSample, Region, SolveReport, Vec2, all_points_finite};
 use motile_scene::{
-    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, Markers, checkpoint::SavedState,
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, Markers, checkpoint::SavedState, gap::Boundary,
 };
 use stokes_layers::{LayerError, Settings, axisymmetric::AxisymmetricFlow};
+
+/// Sides of the polygon of a wall.
+const SIDES: usize = 600;
 
 /// Stokes flow in three dimensions of bodies of revolution about the x axis, in unbounded fluid or in a straight tube:
 /// [`AxisymmetricFlow`], which has the equations, for the markers of bodies.
@@ -19,6 +22,8 @@ pub struct RevolutionIntegral {
     region: Region,
     work: FlowWork,
     stiffness: f64,
+    /// Sides of a tube that is not straight, in the meridian plane.
+    walls: Boundary,
 }
 
 impl RevolutionIntegral {
@@ -28,14 +33,18 @@ impl RevolutionIntegral {
     /// # Errors
     /// A region of the plane; a viscosity that is not positive and finite; settings out of their range.
     pub fn new(region: Region, viscosity: f64, settings: Settings, perimeter: f64) -> Result<Self, LayerError> {
-        let flow = AxisymmetricFlow::new(viscosity, settings)?;
-        let flow = match region {
-            Region::Space => flow,
-            Region::Tube { radius } => flow.with_tube(radius)?,
-            _ => return Err(LayerError::InTwoDimensions),
-        };
+        let flow = AxisymmetricFlow::in_region(region, viscosity, settings)?;
         let stiffness = stiffness(settings.nodes, perimeter);
-        Ok(Self { flow, region, work: FlowWork::default(), stiffness })
+        let mut walls = Boundary::default();
+        if let (Region::Tube { radius, shape, .. }, Some(half)) = (region, region.half_length()) {
+            let x = |k: usize| half * (2.0 * k as f64 / SIDES as f64 - 1.0);
+            let place = |k: usize, side: f64| Vec2::new(x(k), side * shape.radius(radius, half, x(k)));
+            // The rigid side is on the left.
+            (0..SIDES).for_each(|k| walls.push(place(k, 1.0), place(k + 1, 1.0)));
+            (0..SIDES).rev().for_each(|k| walls.push(place(k + 1, -1.0), place(k, -1.0)));
+            walls.sort();
+        }
+        Ok(Self { flow, region, work: FlowWork::default(), stiffness, walls })
     }
 
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
@@ -75,6 +84,10 @@ impl Hydrodynamics for RevolutionIntegral {
             shape_modes: Some(self.flow.settings().nodes),
             interface_stiffness: self.stiffness,
         }
+    }
+
+    fn walls(&self) -> Option<&Boundary> {
+        self.region.half_length().map(|_| &self.walls)
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -71,7 +71,7 @@ pub use input::{
     InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,
 };
 pub use real::RealTransform;
-pub use region::Region;
+pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;
 pub use sums::{dot, sum, widely};
 pub use vec2::Vec2;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Drive, InputError, positive};
+use crate::{Drive, InputError, positive, within};
 
 /// Region that the fluid fills, centred on the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,12 +28,106 @@ pub enum Region {
     /// Unbounded fluid in three dimensions, at rest far away, around bodies of revolution about the x axis: curves are
     /// their meridians with the mirror images, y the distance from the axis.
     Space,
-    /// A straight, infinitely long tube in three dimensions with a rigid no-slip wall at the distance `radius` from the
-    /// x axis, without flux, around bodies of revolution as in [`Region::Space`].
+    /// A tube in three dimensions with a rigid no-slip wall around the x axis, around bodies of revolution as in
+    /// [`Region::Space`].
     Tube {
-        /// Radius of the tube (length).
+        /// Radius of the tube (length), where it is not straight that of its ends.
         radius: f64,
+        /// Shape of the wall.
+        #[serde(default)]
+        shape: TubeShape,
+        /// Flux, or mean pressure gradient over the length, that is prescribed along the tube.
+        #[serde(default = "no_flux")]
+        drive: Drive,
+        /// Length of the tube (length): between closed ends where it is not straight, 16 radii without; of a straight
+        /// one, which goes on beyond, that over which the pressure falls by the prescribed gradient times it, as in a
+        /// tube with a droplet in every such length, infinite without.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        length: Option<f64>,
     },
+}
+
+/// Shape of the wall of a tube.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum TubeShape {
+    /// Straight.
+    #[default]
+    Straight,
+    /// A narrow passage around x = 0.
+    Constriction {
+        /// Radius of the throat (length).
+        throat: f64,
+        /// Length of the throat (length).
+        throat_length: f64,
+        /// Length of the ramp at either end of it (length).
+        ramp: f64,
+    },
+    /// The radius `radius + amplitude cos(2 pi x/period)`, but within two radii of the ends.
+    Sinusoidal {
+        /// Amplitude (length).
+        amplitude: f64,
+        /// Period (length).
+        period: f64,
+    },
+}
+
+fn no_flux() -> Drive {
+    Drive::ZeroFlux
+}
+
+/// Length of a tube that is not straight over its radius, where none is given.
+const USUAL_LENGTH: f64 = 16.0;
+
+impl TubeShape {
+    /// Radius of the wall at a place x (length) of a tube whose ends have the radius `end` (length) and are at the
+    /// distance `half_length` from the middle (length). Ramps are hyperbolic tangents of x.
+    #[must_use]
+    pub fn radius(self, end: f64, half_length: f64, x: f64) -> f64 {
+        // From 0 to 1 over a length around the place 0.
+        let step = |x: f64, length: f64| 0.5 * (1.0 + (4.0 * x / length).tanh());
+        match self {
+            Self::Straight => end,
+            Self::Constriction { throat, throat_length, ramp } => {
+                let half = 0.5 * (throat_length + ramp);
+                end - (end - throat) * step(x + half, ramp) * step(half - x, ramp)
+            }
+            Self::Sinusoidal { amplitude, period } => {
+                let place = half_length - 2.0 * end;
+                let within = step(x + place, end) * step(place - x, end);
+                end + amplitude * within * (std::f64::consts::TAU * x / period).cos()
+            }
+        }
+    }
+
+    /// Least radius of the wall (length), of a tube whose ends have the radius `end` (length).
+    #[must_use]
+    pub fn least_radius(self, end: f64) -> f64 {
+        match self {
+            Self::Straight => end,
+            Self::Constriction { throat, .. } => throat.min(end),
+            Self::Sinusoidal { amplitude, .. } => end - amplitude.abs(),
+        }
+    }
+
+    /// Refuses lengths that are not positive and finite, and walls that touch the axis.
+    fn check(self, end: f64, length: f64) -> Result<(), InputError> {
+        match self {
+            Self::Straight => Ok(()),
+            Self::Constriction { throat, throat_length, ramp } => {
+                positive("the radius of the throat", throat)?;
+                positive("the length of the throat", throat_length)?;
+                positive("the length of the ramps", ramp)?;
+                let most = length - 4.0 * end;
+                within("the length of throat and ramps in the tube", throat_length + 2.0 * ramp, 0.0, most).map(drop)
+            }
+            Self::Sinusoidal { amplitude, period } => {
+                positive("the period of the wall", period)?;
+                within("the amplitude of the wall over the radius", amplitude / end, -0.95, 0.95)?;
+                within("the period of the wall in the tube", period, 0.0, length - 4.0 * end).map(drop)
+            }
+        }
+    }
 }
 
 impl Region {
@@ -44,7 +138,12 @@ impl Region {
     pub fn check(&self) -> Result<(), InputError> {
         match *self {
             Self::Plane | Self::Space => Ok(()),
-            Self::Tube { radius } => positive("the radius of the tube", radius).map(drop),
+            Self::Tube { radius, shape, drive, length } => {
+                positive("the radius of the tube", radius)?;
+                length.map_or(Ok(0.0), |length| positive("the length of the tube", length))?;
+                shape.check(radius, length.unwrap_or(USUAL_LENGTH * radius))?;
+                drive.check()
+            }
             Self::Box { lengths: [lx, ly] } => {
                 positive("the period in x", lx)?;
                 positive("the period in y", ly).map(drop)
@@ -57,19 +156,40 @@ impl Region {
         }
     }
 
+    /// A straight, infinitely long tube of this radius (length) without flux.
+    #[must_use]
+    pub const fn tube(radius: f64) -> Self {
+        Self::Tube { radius, shape: TubeShape::Straight, drive: Drive::ZeroFlux, length: None }
+    }
+
+    /// Half of the length (length) of a tube between its closed ends; `None` for straight ones, which have none, and for
+    /// other regions.
+    #[must_use]
+    pub fn half_length(&self) -> Option<f64> {
+        match *self {
+            Self::Tube { radius, shape, length, .. } if shape != TubeShape::Straight => {
+                Some(0.5 * length.unwrap_or(USUAL_LENGTH * radius))
+            }
+            _ => None,
+        }
+    }
+
     /// True for three dimensions with rotational symmetry about the x axis.
     #[must_use]
     pub fn is_of_revolution(&self) -> bool {
         matches!(self, Self::Space | Self::Tube { .. })
     }
 
-    /// Lengths in x and y (length), a channel's width and a tube's diameter in y; infinite where the fluid is
+    /// Lengths in x and y (length), a channel's width and a tube's largest diameter in y; infinite where the fluid is
     /// unbounded.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         match *self {
             Self::Plane | Self::Space => [f64::INFINITY; 2],
-            Self::Tube { radius } => [f64::INFINITY, 2.0 * radius],
+            Self::Tube { radius, shape, .. } => {
+                let widest = if let TubeShape::Sinusoidal { amplitude, .. } = shape { amplitude.abs() } else { 0.0 };
+                [self.half_length().map_or(f64::INFINITY, |half| 2.0 * half), 2.0 * (radius + widest)]
+            }
             Self::Box { lengths } => lengths,
             Self::Channel { length, width, .. } => [length, width],
         }

@@ -17,7 +17,7 @@ use motile::motile_base::Vec2;
 const RECORD: &str = "files for ParaView";
 
 /// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
-/// and, where there are some, elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets
+/// and, where there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets
 /// (`inside.pvd`), rigid bodies and membranes (`curves.pvd`).
 ///
 /// | file | location | quantity (dimension) |
@@ -27,6 +27,7 @@ const RECORD: &str = "files for ParaView";
 /// | interface | at the markers | force on the fluid (force) |
 /// | interface | in each droplet's line | number of the droplet, in the order of addition |
 /// | interface | in the line of an interface across the period | -1, -2 and so on, in the order of addition |
+/// | surface | at the points | concentration (particles per area), tension (force per length) |
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | number of the solid |
@@ -61,6 +62,7 @@ pub struct ParaView {
     gels: VtkSeries,
     curves: VtkSeries,
     inside: VtkSeries,
+    surface: VtkSeries,
     begun: bool,
 }
 
@@ -73,7 +75,8 @@ impl ParaView {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
         let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
         let [gels, curves, inside] = [series("gels")?, series("curves")?, series("inside")?];
-        Ok(Self { raster, fields, interface, solids, gels, curves, inside, begun: false })
+        let surface = series("surface")?;
+        Ok(Self { raster, fields, interface, solids, gels, curves, inside, surface, begun: false })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), OutputError> {
@@ -87,6 +90,7 @@ impl ParaView {
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
         let present = [
             (&mut self.curves, curve_lines(system)?),
+            (&mut self.surface, meshes::surfaces(system)),
             (&mut self.solids, meshes::solids(system)),
             (&mut self.inside, meshes::particles(system)),
             (&mut self.gels, meshes::gels(system)),
@@ -144,8 +148,9 @@ impl<H: Hydrodynamics> Observer<H> for ParaView {
         if !std::mem::replace(&mut self.begun, true) {
             files.retain(|&earlier| time > 0.0 && earlier <= time);
             if !files.is_empty() {
-                let Self { fields, interface, solids, gels, curves, inside, .. } = self;
-                [fields, interface, solids, gels, curves, inside].into_iter().for_each(|series| series.after(files));
+                let Self { fields, interface, solids, gels, curves, inside, surface, .. } = self;
+                let all = [fields, interface, solids, gels, curves, inside, surface];
+                all.into_iter().for_each(|series| series.after(files));
                 // The resumed state has its files, or was not due for any.
                 return Ok(());
             }

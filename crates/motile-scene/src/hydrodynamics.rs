@@ -35,7 +35,8 @@ pub struct Domain {
 impl From<Region> for Domain {
     fn from(region: Region) -> Self {
         let [_, height] = region.lengths();
-        let walls = region.drive().map(|_| [-0.5 * height, 0.5 * height]);
+        let walls = (region.drive().is_some() || height < f64::INFINITY && region.is_of_revolution())
+            .then_some([-0.5 * height, 0.5 * height]);
         let origin = region.lengths().map(|length| if length.is_finite() { -0.5 * length } else { 0.0 });
         Self { origin, periods: region.periods().into(), walls }
     }

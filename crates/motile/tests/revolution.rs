@@ -39,7 +39,7 @@ fn a_droplet_in_space_swims_to_the_steady_state_of_the_reference() {
 #[test]
 fn droplets_in_tubes_are_slower() {
     let speeds = [None, Some(2.0), Some(1.4)].map(|radius| {
-        let region = radius.map_or(Region::Space, |radius| Region::Tube { radius });
+        let region = radius.map_or(Region::Space, Region::tube);
         let Built { mut scene, droplets, .. } = scene(region, [32, 128]).build().unwrap();
         scene.run(2.0).go().unwrap();
         scene.observe(droplets[0]).unwrap().speed()
@@ -60,6 +60,6 @@ fn what_has_no_meaning_in_three_dimensions_is_refused() {
     refused(&|setup| setup.droplets[0].angle = 1.0, "along the x axis");
     refused(&|setup| setup.method = Method::Grid(GridMethod::default()), "no grid");
     refused(&|setup| setup.rigid_bodies.push(RigidBodySetup::disc(0.3)), "two dimensions");
-    refused(&|setup| setup.region = Region::Tube { radius: -1.0 }, "region.tube.radius");
-    assert!(scene(Region::Tube { radius: 0.9 }, [48, 192]).build().is_err());
+    refused(&|setup| setup.region = Region::tube(-1.0), "region.tube.radius");
+    assert!(scene(Region::tube(0.9), [48, 192]).build().is_err());
 }

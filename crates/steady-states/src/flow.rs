@@ -2,28 +2,78 @@
 
 use motile::motile_base::Region;
 use motile_base::{FlowSample, ImposedFlow, Vec2};
-use stokes_layers::axisymmetric::{AxisymmetricFlow, MeridianCalculus};
+use stokes_layers::axisymmetric::{AxisymmetricFlow, Disturbances, MeridianCalculus};
 use stokes_layers::{Interface, InterfaceFlow, LayerError, PeriodicCalculus, Settings, TensionPlacement};
 
 /// Flow and calculus in two or three dimensions.
 #[derive(Debug)]
 pub(crate) enum Flow {
-    Plane { flow: Box<InterfaceFlow>, calculus: PeriodicCalculus },
-    Revolution { flow: Box<AxisymmetricFlow>, calculus: MeridianCalculus },
+    Plane { flow: Box<InterfaceFlow>, calculus: Box<PeriodicCalculus> },
+    Revolution { flow: Box<AxisymmetricFlow>, calculus: Box<MeridianCalculus>, tangent: Option<Box<Tangent>> },
+}
+
+/// Linear flow about a state of a body of revolution: its points, forces and velocities, and what disturbances change.
+#[derive(Debug)]
+pub(crate) struct Tangent {
+    positions: Vec<Vec2>,
+    forces: Vec<Vec2>,
+    velocities: Vec<Vec2>,
+    disturbances: Disturbances,
 }
 
 impl Flow {
     pub(crate) fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
-        let space = || AxisymmetricFlow::new(viscosity, settings);
-        let flow = match region {
-            Region::Space => space()?,
-            Region::Tube { radius } => space()?.with_tube(radius)?,
-            _ => {
-                let flow = Box::new(InterfaceFlow::new(region, viscosity, settings)?);
-                return Ok(Self::Plane { flow, calculus: PeriodicCalculus::new(settings.nodes)? });
-            }
-        };
-        Ok(Self::Revolution { flow: Box::new(flow), calculus: MeridianCalculus::new(settings.nodes)? })
+        if !region.is_of_revolution() {
+            let flow = Box::new(InterfaceFlow::new(region, viscosity, settings)?);
+            let calculus = Box::new(PeriodicCalculus::new(settings.nodes)?);
+            return Ok(Self::Plane { flow, calculus });
+        }
+        let flow = Box::new(AxisymmetricFlow::in_region(region, viscosity, settings)?);
+        let calculus = Box::new(MeridianCalculus::new(settings.nodes)?);
+        Ok(Self::Revolution { flow, calculus, tangent: None })
+    }
+
+    /// Keeps to the linear flow about the last state from here on, until [`Flow::release`]: in three dimensions, where
+    /// the derivative of the flow costs a few solutions of it. In the plane nothing changes.
+    pub(crate) fn linearise(
+        &mut self,
+        positions: &[Vec2],
+        forces: &[Vec2],
+        velocities: &[Vec2],
+    ) -> Result<(), LayerError> {
+        if let Self::Revolution { flow, tangent, .. } = self {
+            let [positions, forces, velocities] = [positions, forces, velocities].map(<[Vec2]>::to_vec);
+            let disturbances = flow.disturbances(0)?;
+            *tangent = Some(Box::new(Tangent { positions, forces, velocities, disturbances }));
+        }
+        Ok(())
+    }
+
+    /// Solves for the flow of every state again.
+    pub(crate) fn release(&mut self) {
+        if let Self::Revolution { tangent, .. } = self {
+            *tangent = None;
+        }
+    }
+
+    /// Writes the velocities (length per time) of the linear flow; false where the flow is not to be linear.
+    pub(crate) fn approximate(
+        &self,
+        positions: &[Vec2],
+        forces: &[Vec2],
+        out: &mut [Vec2],
+    ) -> Result<bool, LayerError> {
+        let Self::Revolution { tangent: Some(tangent), .. } = self else { return Ok(false) };
+        let less = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| *a - *b).collect::<Vec<_>>();
+        let (shape, pull) = (less(positions, &tangent.positions), less(forces, &tangent.forces));
+        tangent.disturbances.velocities_at_points(&shape, &pull, out)?;
+        out.iter_mut().zip(&tangent.velocities).for_each(|(out, velocity)| *out += *velocity);
+        Ok(true)
+    }
+
+    /// Disturbances of an order around the axis of the last solution; `None` in the plane.
+    pub(crate) fn disturbances(&mut self, order: usize) -> Result<Option<Disturbances>, LayerError> {
+        if let Self::Revolution { flow, .. } = self { flow.disturbances(order).map(Some) } else { Ok(None) }
     }
 
     /// Imposes a flow, which there is none of in three dimensions.

@@ -56,6 +56,7 @@
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
 //! parameter; [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
 //! of `docs/steady-states.md` are computed with this crate.
+mod azimuthal;
 mod branch;
 mod continuation;
 mod critical;

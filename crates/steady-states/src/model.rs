@@ -101,13 +101,13 @@ pub(crate) struct Model {
     pub(crate) radius: f64,
     pub(crate) concentration: f64,
     pub(crate) viscosities: [f64; 2],
-    diffusion: f64,
+    pub(crate) diffusion: f64,
     /// Rate of change in units of which rates are small or large (1/time): D/R^2 with particles, without them that
     /// at which the tension restores the circle or the imposed flow deforms it, whichever is faster.
     rate: f64,
-    law: ContractileTension,
+    pub(crate) law: ContractileTension,
     inside: Option<Inside>,
-    flow: Flow,
+    pub(crate) flow: Flow,
     /// Quadrature over rings, in three dimensions.
     rings: Option<Rings>,
     series: PeriodicSeries,
@@ -143,6 +143,9 @@ impl Model {
         if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some()
         {
             return refuse("the scene has solids, shells, shaped walls or a repulsion", "leave them out");
+        }
+        if setup.region.half_length().is_some() {
+            return refuse("nothing is steady in a tube that is not straight", "give a straight one");
         }
         if *bending > 0.0 {
             return refuse("the interface resists bending", "leave the bending out");
@@ -343,6 +346,9 @@ impl Model {
         self.law.values(&self.concentrations, &mut self.tensions);
         let Self { flow, positions, tensions, forces, .. } = self;
         flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
+        if flow.approximate(positions, forces, &mut self.velocities)? {
+            return Ok(());
+        }
         let viscosity = self.viscosities[0];
         let viscosities = [viscosity, self.viscosities[1]];
         for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
@@ -358,6 +364,15 @@ impl Model {
             nucleus.velocity = self.flow.rigid_velocity(1 + k);
         }
         Ok(self.flow.velocities(0, &mut self.velocities)?)
+    }
+
+    /// Takes the flow of all states for linear about the loaded one, until [`Model::release`], where that is quicker.
+    pub(crate) fn linearise(&mut self) -> Result<(), SteadyError> {
+        Ok(self.flow.linearise(&self.positions, &self.forces, &self.velocities)?)
+    }
+
+    pub(crate) fn release(&mut self) {
+        self.flow.release();
     }
 
     /// Force dipoles (force times length) of what keeps the discs rigid in the loaded state.

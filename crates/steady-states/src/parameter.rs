@@ -95,7 +95,7 @@ impl Parameter {
                 _ => None,
             },
             Self::TubeRadius => match setup.region {
-                Region::Tube { radius } => Some(radius),
+                Region::Tube { radius, .. } => Some(radius),
                 _ => None,
             },
             Self::NucleusRadius => match setup.rigid_bodies.first()?.shape {
@@ -155,7 +155,11 @@ impl Parameter {
                 Region::Box { lengths } => *lengths = [value; 2],
                 _ => return Err(missing()),
             },
-            Self::TubeRadius => setup.region = Region::Tube { radius: value },
+            Self::TubeRadius => {
+                if let Region::Tube { radius, .. } = &mut setup.region {
+                    *radius = value;
+                }
+            }
             Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
             Self::ShearRate => setup.flow.shear = value,
             Self::ExtensionRate => setup.flow.extension = value,

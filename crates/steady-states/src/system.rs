@@ -171,7 +171,11 @@ impl System {
         let mut jacobian = DMatrix::zeros(range.len(), range.len());
         self.by_diffusing = DVector::zeros(range.len());
         let inside = self.model.diffusing();
-        for (column, index) in range.clone().enumerate() {
+        if self.model.is_of_revolution() {
+            self.load(point)?;
+            self.model.linearise()?;
+        }
+        let filled = range.clone().enumerate().try_for_each(|(column, index)| {
             let step = step / (1.0 + 0.1 * self.modes.wave(index) as f64);
             let mut side = |amount: f64| {
                 let (mut h, mut m) = (offsets.clone(), density.clone());
@@ -187,8 +191,10 @@ impl System {
             let difference = (above - below) / step;
             self.by_diffusing[column] = (more - less) / step;
             jacobian.column_mut(column).copy_from(&difference.rows(range.start, range.len()));
-        }
-        Ok(jacobian)
+            Ok(())
+        });
+        self.model.release();
+        filled.map(|()| jacobian)
     }
 
     /// Rigid motions of one part of the state that leave the equations as they are: shifts along the region, across it

@@ -2,19 +2,21 @@
 
 mod calculus;
 mod container;
+mod disturbance;
 mod meridian;
 mod panels;
 mod ring;
 
 use std::f64::consts::PI;
 
-use motile_base::{FlowSample, Vec2, positive, same_length, within};
-use nalgebra::{DMatrix, DVector};
+use motile_base::{Drive, FlowSample, Region, Vec2, positive, same_length, within};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::{Inside, Interface, LayerError, Settings, Solution, error::finite_vectors, interface_flow::MOST_CONTRAST};
 pub use calculus::MeridianCalculus;
 pub use container::tube;
 use container::{Tube, Walls};
+pub use disturbance::Disturbances;
 use meridian::{Grid, Half, Meridian, Pair};
 use panels::{Panels, Spot};
 
@@ -97,6 +99,10 @@ pub struct AxisymmetricFlow {
     sides: Vec<Sides>,
     walls: Option<Box<Walls>>,
     tube: Option<Tube>,
+    /// Drive of a tube and the length that it is given for (length), infinite for one alone.
+    drive: (Drive, f64),
+    /// Flux through a tube (volume per time).
+    flux: f64,
     /// Unknown of each surface, cosines of x and sines of r: its velocity (length per time), or of a rigid body the
     /// density of its double layer (length per time times viscosity).
     solution: Vec<Pair>,
@@ -127,6 +133,8 @@ impl AxisymmetricFlow {
             sides: Vec::new(),
             walls: None,
             tube: None,
+            drive: (Drive::ZeroFlux, f64::INFINITY),
+            flux: 0.0,
             solution: Vec::new(),
             right: DVector::zeros(0),
             matrix: DMatrix::zeros(0, 0),
@@ -172,6 +180,74 @@ impl AxisymmetricFlow {
         self.tube = Some(Tube::new(positive("the radius of a tube", radius)?));
         self.walls = None;
         Ok(self)
+    }
+
+    /// The flow in space or in a tube, straight or of another shape.
+    ///
+    /// # Errors
+    /// A region of the plane; those of [`AxisymmetricFlow::new`], [`AxisymmetricFlow::with_tube`] and
+    /// [`AxisymmetricFlow::with_drive`].
+    pub fn in_region(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        region.check()?;
+        let mut flow = Self::new(viscosity, settings)?;
+        match region {
+            Region::Space => Ok(flow),
+            Region::Tube { radius, shape, drive, length } => {
+                let Some(half_length) = region.half_length() else {
+                    return flow.with_tube(radius)?.with_drive(drive, length.unwrap_or(f64::INFINITY));
+                };
+                let [wall, count] = container::nodes_of(shape, radius, half_length);
+                flow.contain(&tube(|x| shape.radius(radius, half_length, x), half_length, wall)?, count)?;
+                if let Some(walls) = &mut flow.walls {
+                    walls.open(viscosity, radius, half_length);
+                }
+                flow.with_drive(drive, f64::INFINITY)
+            }
+            _ => Err(LayerError::InTwoDimensions),
+        }
+    }
+
+    /// Drives fluid through the tube: a flux (volume per time), or a mean pressure gradient (force per volume) over a
+    /// length (length) of a straight one, as in a tube with these surfaces in every such length, of whose flow on one
+    /// another only the pressure counts; the mean velocity of a flux Q is `Q/(pi R^2)`.
+    ///
+    /// In a straight tube the surfaces are in the flow of Poiseuille, and the flow that they cause has no flux. By the
+    /// reciprocal theorem the pressure rises along the tube through forces f on the fluid and velocities u on surfaces
+    /// of another viscosity, with the flow U of Poiseuille of the flux 1, by
+    ///
+    /// ```text
+    /// INT f_x U dS + (eta_out - eta_in) INT (u_x n_r + u_r n_x) dU/dr dS
+    /// ```
+    ///
+    /// # Errors
+    /// No tube around the surfaces, a pressure gradient in one that is not straight, numbers that are not finite.
+    pub fn with_drive(mut self, drive: Drive, length: f64) -> Result<Self, LayerError> {
+        drive.check()?;
+        let open = self.tube.is_some() || self.walls.as_ref().is_some_and(|walls| walls.open.is_some());
+        if !open && drive != Drive::ZeroFlux {
+            return Err(LayerError::NoSuchFlow { flow: "a flux", remedy: "give a tube, or zero flux" });
+        }
+        if self.tube.is_none() && drive.flux().is_none() {
+            let (flow, remedy) = ("a pressure gradient in a tube that is not straight", "give a flux");
+            return Err(LayerError::NoSuchFlow { flow, remedy });
+        }
+        self.drive = (drive, length);
+        Ok(self)
+    }
+
+    /// Flux through the tube (volume per time) in the last solution.
+    #[must_use]
+    pub fn flux(&self) -> f64 {
+        self.flux
+    }
+
+    /// Mean pressure gradient (force per volume) over the length that the drive of a straight tube is given for;
+    /// `None` where there is no straight tube.
+    #[must_use]
+    pub fn pressure_gradient(&self) -> Option<f64> {
+        let Tube { radius, .. } = self.tube.as_ref()?;
+        let rise = if self.drive.1.is_finite() { self.pressure_rise(true) / self.drive.1 } else { 0.0 };
+        Some(rise - container::resistance(*radius, self.viscosity) * self.flux)
     }
 
     /// Viscosity of the exterior fluid (stress times time).
@@ -265,32 +341,49 @@ impl AxisymmetricFlow {
             }
         }
         self.add_walls();
-        if with_matrix {
+        let factors = with_matrix.then(|| {
             for surface in 0..self.len() {
                 self.grid.add_values(8.0 * PI * self.sides[surface].mean(), &mut self.matrix, n * surface);
                 self.complete(surface);
             }
-            let mut unknown = self.right.clone();
-            let factors = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0)).lu();
-            if !factors.solve_mut(&mut unknown) || unknown.iter().any(|value| !value.is_finite()) {
+            std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0)).lu()
+        });
+        let background = self.background();
+        self.flux = self.drive.0.flux().unwrap_or(0.0);
+        if let Some(background) = &background {
+            self.right.axpy(self.flux, background, 1.0);
+        }
+        let mut right = std::mem::replace(&mut self.right, DVector::zeros(0));
+        self.settle(factors.as_ref(), &mut right)?;
+        self.right = right;
+        if let (Some(background), None) = (background, self.drive.0.flux()) {
+            self.hold_pressure(factors.as_ref(), background)?;
+        }
+        self.settle_walls();
+        Ok(Solution::default())
+    }
+
+    /// Takes over the solution for a right-hand side, with the factors of the matrix if there is one.
+    fn settle(&mut self, factors: Option<&LU<f64, Dyn, Dyn>>, right: &mut DVector<f64>) -> Result<(), LayerError> {
+        let n = 2 * self.grid.nodes;
+        if let Some(factors) = factors {
+            if !factors.solve_mut(right) || right.iter().any(|value| !value.is_finite()) {
                 return Err(LayerError::SingularSurfaces);
             }
-            for (solution, values) in self.solution.iter_mut().zip(unknown.as_slice().chunks_exact(n)) {
+            for (solution, values) in self.solution.iter_mut().zip(right.as_slice().chunks_exact(n)) {
                 let (x, r) = values.split_at(n / 2);
                 solution.cos[..n / 2].copy_from_slice(x);
                 solution.sin[1..=n / 2].copy_from_slice(r);
             }
         } else {
-            for ((solution, values), sides) in
-                self.solution.iter_mut().zip(self.right.as_mut_slice().chunks_exact_mut(n)).zip(&self.sides)
-            {
+            let parts = self.solution.iter_mut().zip(right.as_mut_slice().chunks_exact_mut(n));
+            for ((solution, values), sides) in parts.zip(&self.sides) {
                 values.iter_mut().for_each(|value| *value /= 8.0 * PI * sides.mean());
                 let (x, r) = values.split_at(n / 2);
                 self.grid.analyse(x, r, solution);
             }
         }
-        self.settle_walls();
-        Ok(Solution::default())
+        Ok(())
     }
 
     /// Adds the layers of one surface at a node of another to the right-hand side and the matrix.
@@ -414,8 +507,9 @@ impl AxisymmetricFlow {
 
     /// Flow at a point of the upper half plane.
     fn flow_at(&mut self, place: Vec2) -> FlowSample {
-        let Self { grid, panels, surfaces, sides, solution, walls, viscosity, .. } = self;
-        let mut fluid = (*viscosity, f64::INFINITY);
+        let Self { grid, panels, surfaces, sides, solution, walls, viscosity, .. } = &mut *self;
+        let viscosity = *viscosity;
+        let mut fluid = (viscosity, f64::INFINITY);
         let mut sum = ([0.0; 2], 0.0, [[0.0; 2]; 2]);
         let mut add = |factor: f64, (u, p, g): ([f64; 2], f64, [[f64; 2]; 2])| {
             sum.0.iter_mut().zip(u).for_each(|(sum, u)| *sum += factor * u);
@@ -458,7 +552,14 @@ impl AxisymmetricFlow {
                 add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
             });
         }
-        let (velocity, pressure, gradient) = sum;
+        let (mut velocity, mut pressure, mut gradient) = sum;
+        if let (Some(Tube { radius, .. }), true) = (&self.tube, self.flux != 0.0) {
+            let [speed, slope] =
+                container::poiseuille(*radius, place.y).map(|part| 8.0 * PI * viscosity * self.flux * part);
+            velocity[0] += speed;
+            gradient[0][1] += slope;
+            pressure -= 8.0 * PI * self.flux * container::resistance(*radius, viscosity) * place.x;
+        }
         let rate = 1.0 / (8.0 * PI * fluid.0);
         let mut sample = FlowSample {
             velocity: rate * Vec2::from(velocity),
@@ -467,8 +568,8 @@ impl AxisymmetricFlow {
         };
         // Inside a rigid body.
         if fluid.0 == f64::INFINITY {
-            let holds = |surface: &usize| (surfaces[*surface].measures(grid)[0] - fluid.1).abs() == 0.0;
-            let body = (0..surfaces.len()).find(holds).and_then(|surface| self.rigid_velocity(surface));
+            let holds = |surface: &usize| (self.surfaces[*surface].measures(&self.grid)[0] - fluid.1).abs() == 0.0;
+            let body = (0..self.len()).find(holds).and_then(|surface| self.rigid_velocity(surface));
             sample = FlowSample { velocity: Vec2::new(body.unwrap_or(0.0), 0.0), ..FlowSample::default() };
         }
         sample

@@ -129,6 +129,12 @@ pub enum LayerError {
     /// A region of the plane for surfaces of revolution.
     #[error("bodies of revolution are in three dimensions: use the region space or tube")]
     InTwoDimensions,
+    /// Disturbances of anything but one interface of revolution.
+    #[error("disturbances are those of one interface of revolution, there are {found}: load one, and no rigid body")]
+    NotOneInterface {
+        /// Number of interfaces.
+        found: usize,
+    },
     /// Surfaces with singular equations.
     #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
     SingularSurfaces,

@@ -69,7 +69,7 @@ impl SteadyFlags {
         let region = match kind {
             RegionKind::Plane => Region::Plane,
             RegionKind::Space => Region::Space,
-            RegionKind::Tube => Region::Tube { radius: tube_radius.unwrap_or(2.0) },
+            RegionKind::Tube => Region::tube(tube_radius.unwrap_or(2.0)),
             RegionKind::Box => Region::Box { lengths: [side; 2] },
             RegionKind::Channel => Region::Channel { length, width: width.unwrap_or(3.0), drive },
         };

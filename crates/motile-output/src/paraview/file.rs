@@ -105,6 +105,49 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 
+    /// Surfaces of revolution about the x axis (PolyData, `.vtp`; length) in three dimensions, in so many sectors: of
+    /// triangles at both ends of each meridian, which are on the axis, and of quadrilaterals between. Values at points
+    /// are given once at an end and for every sector between.
+    #[must_use]
+    pub fn surfaces(meridians: &[Vec<Vec2>], sectors: usize) -> Self {
+        let (mut points, mut corners, mut ends): (Vec<[f64; 3]>, Vec<i64>, Vec<i64>) = Default::default();
+        for meridian in meridians {
+            let first = points.len();
+            let ring = |k: usize, sector: usize| match k {
+                0 => first,
+                _ if k + 1 == meridian.len() => first + 1 + (k - 1) * sectors,
+                _ => first + 1 + (k - 1) * sectors + sector % sectors,
+            };
+            for (k, at) in meridian.iter().enumerate() {
+                let pole = k == 0 || k + 1 == meridian.len();
+                for sector in 0..if pole { 1 } else { sectors } {
+                    let (sin, cos) = (std::f64::consts::TAU * sector as f64 / sectors as f64).sin_cos();
+                    points.push([at.x, at.y * cos, at.y * sin]);
+                }
+            }
+            for k in 1..meridian.len() {
+                for sector in 0..sectors {
+                    let quad = [ring(k - 1, sector), ring(k, sector), ring(k, sector + 1), ring(k - 1, sector + 1)];
+                    let start = corners.len();
+                    for corner in quad.map(|corner| corner as i64) {
+                        if !corners[start..].contains(&corner) {
+                            corners.push(corner);
+                        }
+                    }
+                    ends.push(corners.len() as i64);
+                }
+            }
+        }
+        let (count, cells) = (points.len(), ends.len());
+        let piece = format!(
+            "NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+             NumberOfPolys=\"{cells}\""
+        );
+        let cell_text = connectivity(&corners, &ends);
+        let geometry = format!("{}<Polys>\n{cell_text}</Polys>\n", positions_in_space(points));
+        Self { piece, geometry, ..Self::new("PolyData", "vtp", count, cells) }
+    }
+
     /// Triangles (UnstructuredGrid, `.vtu`) of points (length), by the numbers of their corners.
     #[must_use]
     pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
@@ -201,8 +244,18 @@ fn data(tag: &str, arrays: &[Array], count: usize) -> Result<String, OutputError
     Ok(text + &format!("</{tag}>\n"))
 }
 
+/// Values at the points of [`VtkFile::surfaces`] of values on a meridian.
+pub(crate) fn revolved(values: &[f64], sectors: usize) -> impl Iterator<Item = f64> {
+    let pole = |k: usize| k == 0 || k + 1 == values.len();
+    values.iter().enumerate().flat_map(move |(k, value)| std::iter::repeat_n(*value, if pole(k) { 1 } else { sectors }))
+}
+
 fn positions<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> String {
-    let bytes: Vec<u8> = points.into_iter().flat_map(|p| [p.x, p.y, 0.0]).flat_map(f64::to_le_bytes).collect();
+    positions_in_space(points.into_iter().map(|p| [p.x, p.y, 0.0]))
+}
+
+fn positions_in_space(points: impl IntoIterator<Item = [f64; 3]>) -> String {
+    let bytes: Vec<u8> = points.into_iter().flatten().flat_map(f64::to_le_bytes).collect();
     format!("<Points>\n{}</Points>\n", array("Float64", "Points", 3, &bytes))
 }
 

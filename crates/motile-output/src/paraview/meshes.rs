@@ -2,12 +2,15 @@
 
 use std::collections::HashMap;
 
+use motile::active_interface::ActiveDroplet;
 use motile::elastic_solids::Solid;
 use motile::interior_fields::{GelInDroplet, ParticlesInDroplet};
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Hydrodynamics, System};
 
+use super::file::revolved;
 use crate::VtkFile;
+use crate::snapshot::at_markers;
 use crate::solids::{solids as solids_of, stress_deviators};
 
 /// Triangles of several bodies.
@@ -32,6 +35,24 @@ impl Triangles {
     fn file(&self) -> Option<VtkFile> {
         (!self.points.is_empty()).then(|| VtkFile::triangles(&self.points, &self.triangles))
     }
+}
+
+/// Sectors of a surface of revolution.
+const SECTORS: usize = 64;
+
+/// File of the surfaces of all droplets of revolution of a system; `None` if there are none.
+pub(crate) fn surfaces<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
+    let (mut meridians, mut concentration, mut tension): (Vec<Vec<Vec2>>, Vec<f64>, Vec<f64>) = Default::default();
+    for (_, droplet) in system.bodies::<ActiveDroplet>().filter(|(_, droplet)| droplet.is_of_revolution()) {
+        let half = droplet.markers().len() / 2 + 1;
+        meridians.push(droplet.markers()[..half].to_vec());
+        for (out, segments) in [(&mut concentration, droplet.concentrations()), (&mut tension, droplet.tensions())] {
+            out.extend(revolved(&at_markers(segments)[..half.min(segments.len())], SECTORS));
+        }
+    }
+    let file = || VtkFile::surfaces(&meridians, SECTORS).point_scalars("tension", tension);
+    let carries = !concentration.is_empty();
+    (!meridians.is_empty()).then(|| if carries { file().point_scalars("concentration", concentration) } else { file() })
 }
 
 /// File of all gels of a system; `None` if there are none.

@@ -90,7 +90,15 @@ impl WatchedRun {
         let numbers = setup.numbers(&setup.droplets[0])?;
         let job = Job::new(&mut scene, setup, end, output, name)?;
         let raster = |spacing: f64| match setup.region {
-            Region::Plane | Region::Space | Region::Tube { .. } => {
+            Region::Tube { radius, .. } => {
+                let half = setup.region.half_length().map_or(0.5 * VIEW.max(4.0 * radius), |half| half);
+                let [_, height] = setup.region.lengths();
+                let (middle, sides) =
+                    (if setup.region.half_length().is_some() { 0.0 } else { x }, [2.0 * half, height]);
+                let cells = sides.map(|side| ((side / spacing).round() as usize).clamp(1, MOST_CELLS));
+                Raster::new([middle - half, -0.5 * height], sides, cells, [false; 2])
+            }
+            Region::Plane | Region::Space => {
                 let cells = (VIEW / spacing).round() as usize;
                 Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
             }

@@ -2,7 +2,7 @@
 
 use active_interface::Motion;
 use ib_core::AnyKernel;
-use motile_base::{Drive, Region};
+use motile_base::{Drive, Region, TubeShape};
 use motile_scene::StepSize;
 
 use super::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked};
@@ -22,7 +22,10 @@ impl Setup {
         top.positive("viscosity", self.viscosity)?;
         match self.region {
             Region::Plane | Region::Space => {}
-            Region::Tube { radius } => top.length("region.tube.radius", radius)?,
+            Region::Tube { radius, .. } => {
+                top.length("region.tube.radius", radius)?;
+                self.check_tube()?;
+            }
             Region::Box { lengths } => {
                 top.length("region.box.lengths[0]", lengths[0])?;
                 top.length("region.box.lengths[1]", lengths[1])?;
@@ -74,6 +77,18 @@ impl Setup {
             wall.check(&format!("walls[{number}]"), self)?;
         }
         self.check_correction()
+    }
+
+    /// Refuses a tube whose wall, drive or length cannot be.
+    fn check_tube(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        let Region::Tube { shape, drive, .. } = self.region else { return Ok(()) };
+        self.region.check().or_else(|error| top.refuse("region.tube", &"given", error.to_string()))?;
+        if shape != TubeShape::Straight && drive.flux().is_none() {
+            let remedy = "only straight tubes have a prescribed pressure: give zero-flux or a flux";
+            return top.refuse("region.tube.drive", &format!("{drive:?}"), remedy);
+        }
+        Ok(())
     }
 
     /// Refuses what has no meaning or no method for bodies of revolution in three dimensions.

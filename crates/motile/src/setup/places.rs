@@ -59,7 +59,11 @@ impl Setup {
         let slack = 4.0 * extent.length() / (corners.len() * corners.len()) as f64;
         let fits = match self.region {
             Region::Plane | Region::Space => true,
-            Region::Tube { radius } => high.y.max(-low.y) <= radius + slack,
+            Region::Tube { radius, shape, .. } => {
+                let half = self.region.half_length().unwrap_or(f64::INFINITY);
+                let fits = |corner: &Vec2| corner.y.abs() <= shape.radius(radius, half, corner.x) + slack;
+                low.x > -half && high.x < half && corners.iter().all(fits)
+            }
             Region::Box { .. } => extent.x < length && extent.y < width,
             Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
         };

@@ -14,6 +14,7 @@ use crate::{LayerError, TensionPlacement, calculus::MOST_POINTS};
 pub struct MeridianCalculus {
     curve: PeriodicSeries,
     pull: PeriodicSeries,
+    slope: PeriodicSeries,
     hoop: PeriodicSeries,
     tangents: Vec<Vec2>,
 }
@@ -29,7 +30,8 @@ impl MeridianCalculus {
             return Err(LayerError::NotOfRevolution { curve: 0, point: len - 1, x: f64::NAN, y: f64::NAN });
         }
         let series = PeriodicSeries::new(len)?;
-        Ok(Self { curve: series.clone(), pull: series.clone(), hoop: series, tangents: vec![Vec2::ZERO; len] })
+        let [curve, pull, slope] = [(); 3].map(|()| series.clone());
+        Ok(Self { curve, pull, slope, hoop: series, tangents: vec![Vec2::ZERO; len] })
     }
 
     /// Forces on the fluid (force) at the points, of the surface tension gamma (force per length). With the force f
@@ -64,22 +66,29 @@ impl MeridianCalculus {
         self.curve.write_vectors(&mut self.tangents)?;
         self.curve.analyse_vectors(positions)?;
         self.curve.shift(shift);
-        let points = self.curve.values().iter().zip(&self.tangents).zip(tension);
-        let pull = |((place, tangent), tension): ((&Complex64, &Vec2), &f64)| {
-            let factor = tension * place.im / tangent.length();
+        // The part along the meridian is sin(t) times a function h whose series is differentiated, so that no force comes
+        // out of the poles: there r/sin(t) is the slope of r.
+        let angle = |k: usize| 2.0 * PI * k as f64 / len as f64;
+        let points = self.curve.values().iter().zip(&self.tangents).zip(tension).enumerate();
+        let pull = |(k, ((place, tangent), tension)): (usize, ((&Complex64, &Vec2), &f64))| {
+            let at_pole = shift == 0.0 && (2 * k).is_multiple_of(len);
+            let ratio = if at_pole { tangent.y.abs() } else { place.im / (angle(k) + shift).sin() };
+            let factor = tension * ratio / tangent.length();
             Complex64::new(factor * tangent.x, factor * tangent.y)
         };
         self.pull.analyse(points.map(pull))?;
-        self.pull.differentiate();
         self.pull.shift(-shift);
+        self.slope.resample(&self.pull);
+        self.slope.differentiate();
         let hoop = self.tangents.iter().zip(tension).map(|(tangent, tension)| tension * tangent.length());
         self.hoop.analyse(hoop.map(|value| Complex64::new(0.0, value)))?;
         self.hoop.shift(-shift);
         let factor = 2.0 * PI * PI / len as f64;
-        let parts = self.pull.values().iter().zip(self.hoop.values());
-        for (k, (force, (pull, hoop))) in forces.iter_mut().zip(parts).enumerate() {
+        let parts = self.pull.values().iter().zip(self.slope.values()).zip(self.hoop.values());
+        for (k, (force, ((pull, slope), hoop))) in forces.iter_mut().zip(parts).enumerate() {
             let side = if 2 * k > len { -factor } else { factor };
-            *force = Vec2::new(side * pull.re, side * (pull.im - hoop.im));
+            let (sin, cos) = angle(k).sin_cos();
+            *force = side * Vec2::new(cos * pull.re + sin * slope.re, cos * pull.im + sin * slope.im - hoop.im);
         }
         // Both vanish at the poles.
         (forces[0], forces[len / 2]) = (Vec2::ZERO, Vec2::ZERO);

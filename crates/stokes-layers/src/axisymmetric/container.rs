@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use motile_base::{Vec2, positive, within};
+use motile_base::{Drive, TubeShape, Vec2, positive, within};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::{
     AxisymmetricFlow, add_waves,
-    meridian::{Grid, Meridian},
+    meridian::{Grid, Meridian, dot},
     panels::{Panels, Spot},
 };
 use crate::LayerError;
@@ -23,7 +23,7 @@ const MOST_TUBE_NODES: usize = 1600;
 /// A straight tube that follows the surfaces.
 #[derive(Debug, Clone)]
 pub(super) struct Tube {
-    radius: f64,
+    pub(super) radius: f64,
     /// Half length, and the distance of the nodes for which it was made (length).
     half_length: f64,
     spacing: f64,
@@ -41,7 +41,7 @@ impl Tube {
 pub(super) struct Walls {
     pub(super) grid: Grid,
     pub(super) meridian: Meridian,
-    factors: LU<f64, Dyn, Dyn>,
+    pub(super) factors: LU<f64, Dyn, Dyn>,
     /// Place of the container's middle (length).
     pub(super) shift: Vec2,
     /// 8 pi times viscosity times velocity at the nodes of the surfaces, by the coefficients of the forces: sines of x,
@@ -50,6 +50,33 @@ pub(super) struct Walls {
     /// Forces for the single layers of the surfaces, and for unit coefficients of the unknowns.
     from_forces: DVector<f64>,
     from_unknowns: DMatrix<f64>,
+    /// Forces that drive a flux of 1 through the ends of a tube.
+    pub(super) open: Option<DVector<f64>>,
+}
+
+/// Velocity along a straight tube of a radius, per flux (1/length squared), at a distance from the axis (length), and
+/// its slope: the flow of Poiseuille.
+pub(super) fn poiseuille(radius: f64, r: f64) -> [f64; 2] {
+    let mean = 1.0 / (PI * radius * radius);
+    [2.0 * mean * (1.0 - (r / radius).powi(2)), -4.0 * mean * r / (radius * radius)]
+}
+
+/// Fall of the pressure per length and flux (force times time over length to the sixth) in that flow.
+pub(super) fn resistance(radius: f64, viscosity: f64) -> f64 {
+    8.0 * viscosity / (PI * radius.powi(4))
+}
+
+/// Points and nodes of a tube of a shape: their distance follows from its least radius, and from its ramps and waves.
+pub(super) fn nodes_of(shape: TubeShape, radius: f64, half_length: f64) -> [usize; 2] {
+    let narrowest = shape.least_radius(radius);
+    let detail = match shape {
+        TubeShape::Straight => f64::INFINITY,
+        TubeShape::Constriction { ramp, .. } => ramp / 10.0,
+        TubeShape::Sinusoidal { amplitude, period } => (period / 24.0).min(0.06 * period * narrowest / amplitude.abs()),
+    };
+    let spacing = (1.5 * SPACINGS[0] * narrowest).min(detail);
+    let count = (4.0 * (half_length + radius) / spacing).clamp(64.0, MOST_TUBE_NODES as f64) as usize / 2 * 2;
+    [4 * count, count]
 }
 
 impl Walls {
@@ -86,7 +113,21 @@ impl Walls {
         let empty = DMatrix::zeros(0, 0);
         let from_forces = DVector::zeros(2 * n);
         let shift = Vec2::ZERO;
-        Ok(Self { grid, meridian, factors, shift, onto_surfaces: empty.clone(), from_forces, from_unknowns: empty })
+        let onto_surfaces = empty.clone();
+        Ok(Self { grid, meridian, factors, shift, onto_surfaces, from_forces, from_unknowns: empty, open: None })
+    }
+
+    /// Opens the ends of a tube whose ends have this radius (length): the forces of a flow that is Poiseuille's there.
+    pub(super) fn open(&mut self, viscosity: f64, radius: f64, half_length: f64) {
+        let n = self.grid.nodes;
+        let mut forces = DVector::zeros(2 * n);
+        for (j, node) in self.meridian.nodes.iter().enumerate() {
+            if node.place.x.abs() > half_length - 1.5 * radius && node.place.y < radius {
+                forces[j] = 8.0 * PI * viscosity * poiseuille(radius, node.place.y)[0];
+            }
+        }
+        self.factors.solve_mut(&mut forces);
+        self.open = Some(forces);
     }
 }
 
@@ -205,6 +246,71 @@ impl AxisymmetricFlow {
             matrix.gemm(-1.0, &onto, &unknowns, 1.0);
         }
         (walls.onto_surfaces, walls.from_forces, walls.from_unknowns) = (onto, forces, unknowns);
+    }
+
+    /// 8 pi times viscosity times velocity at the nodes of the surfaces of a flux of 1 through the tube, where it is
+    /// driven.
+    pub(super) fn background(&mut self) -> Option<DVector<f64>> {
+        if self.drive.0 == Drive::ZeroFlux {
+            return None;
+        }
+        let n = self.grid.nodes;
+        if let Some(Tube { radius, .. }) = self.tube {
+            let mut velocities = DVector::zeros(2 * n * self.surfaces.len());
+            for (surface, meridian) in self.surfaces.iter().enumerate() {
+                for (j, node) in meridian.nodes.iter().enumerate() {
+                    velocities[2 * n * surface + j] = 8.0 * PI * self.viscosity * poiseuille(radius, node.place.y)[0];
+                }
+            }
+            return Some(velocities);
+        }
+        let walls = self.walls.as_mut()?;
+        let open = walls.open.as_ref()?;
+        if let Some(flux) = self.drive.0.flux() {
+            walls.from_forces.axpy(flux, open, 1.0);
+        }
+        Some(&walls.onto_surfaces * open)
+    }
+
+    /// Rise of the pressure along a straight tube (stress) by the surfaces, with the forces on them or without.
+    pub(super) fn pressure_rise(&self, with_forces: bool) -> f64 {
+        let Some(Tube { radius, .. }) = self.tube else { return 0.0 };
+        let mut rise = 0.0;
+        for ((meridian, sides), solution) in self.surfaces.iter().zip(&self.sides).zip(&self.solution) {
+            for (j, (node, weight)) in meridian.nodes.iter().zip(&self.grid.weights).enumerate() {
+                let [speed, slope] = poiseuille(radius, node.place.y);
+                let (waves, normal) = (&self.grid.waves[j], node.normal());
+                let (x, r) = (dot(&solution.cos, &waves.cos), dot(&solution.sin, &waves.sin));
+                let pull = if with_forces { meridian.force_of(waves).x * speed } else { 0.0 };
+                let jump = sides.contrast() * node.place.y * (x * normal.y + r * normal.x) * slope;
+                rise += 2.0 * PI * weight * (pull + jump);
+            }
+        }
+        rise
+    }
+
+    /// Adds to the solution without flux as much of that in the flow of Poiseuille, without forces, that the mean
+    /// pressure gradient is the prescribed one.
+    pub(super) fn hold_pressure(
+        &mut self,
+        factors: Option<&LU<f64, Dyn, Dyn>>,
+        mut background: DVector<f64>,
+    ) -> Result<(), LayerError> {
+        let Some(Tube { radius, .. }) = self.tube else { return Ok(()) };
+        let (drive, length) = self.drive;
+        let per_length = |rise: f64| if length.is_finite() { rise / length } else { 0.0 };
+        let without = per_length(self.pressure_rise(true));
+        let kept = self.solution.clone();
+        self.settle(factors, &mut background)?;
+        let by_flux = per_length(self.pressure_rise(false));
+        self.flux = (without - drive.gradient()) / (resistance(radius, self.viscosity) - by_flux);
+        for (solution, kept) in self.solution.iter_mut().zip(kept) {
+            let parts = [(&mut solution.cos, kept.cos), (&mut solution.sin, kept.sin)];
+            for (values, kept) in parts {
+                values.iter_mut().zip(kept).for_each(|(value, kept)| *value = self.flux * *value + kept);
+            }
+        }
+        Ok(())
     }
 
     /// Computes the forces on the container for the solution.

@@ -325,7 +325,7 @@ impl Meridian {
         }
     }
 
-    fn force_of(&self, waves: &Waves) -> Vec2 {
+    pub(super) fn force_of(&self, waves: &Waves) -> Vec2 {
         Vec2::new(dot(&self.force.sin, &waves.sin), dot(&self.force.cos, &waves.cos))
     }
 

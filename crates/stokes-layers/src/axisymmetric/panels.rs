@@ -42,12 +42,14 @@ pub(super) struct Source<'a> {
     pub(super) waves: &'a Waves,
     /// Number of the node, for a node.
     pub(super) node: Option<usize>,
+    /// Waves of the middle between the foot and the point, and of half of the way, for a point near the foot.
+    pub(super) halves: Option<[&'a Waves; 2]>,
 }
 
 /// Panels and working memory.
 #[derive(Debug, Clone)]
 pub(super) struct Panels {
-    gauss: Vec<(f64, f64)>,
+    pub(super) gauss: Vec<(f64, f64)>,
     first: Vec<(f64, f64)>,
     pub(super) waves: Waves,
     middle: Waves,
@@ -142,7 +144,7 @@ impl Panels {
         if spot.gap > FAR * source.spacing {
             for (j, ((point, weight), waves)) in source.nodes.iter().zip(&grid.weights).zip(&grid.waves).enumerate() {
                 let ring = Ring::new(point.place - spot.place, target, point.place.y, with_gradient);
-                visit(Source { weight: *weight, point: *point, ring, waves, node: Some(j) });
+                visit(Source { weight: *weight, point: *point, ring, waves, node: Some(j), halves: None });
             }
             return;
         }
@@ -169,7 +171,8 @@ impl Panels {
             let d =
                 if near { source.difference(&self.middle, &self.half) + spot.offset } else { point.place - spot.place };
             let ring = Ring::new(d, target, point.place.y, with_gradient);
-            visit(Source { weight, point, ring, waves: &self.waves, node: None });
+            let halves = near.then_some([&self.middle, &self.half]);
+            visit(Source { weight, point, ring, waves: &self.waves, node: None, halves });
         }
         self.nodes = nodes;
     }

@@ -67,6 +67,11 @@ impl Ring {
         Self { d, target, source, moments }
     }
 
+    /// Source less target along and from the axis (length).
+    pub(super) fn offset(&self) -> Vec2 {
+        self.d
+    }
+
     /// Integral of a polynomial in w over `|x|^p`.
     fn integral<const N: usize>(&self, order: usize, polynomial: [f64; N]) -> f64 {
         polynomial.iter().zip(&self.moments[order / 2]).map(|(c, moment)| c * moment).sum()

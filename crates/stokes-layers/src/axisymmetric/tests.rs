@@ -326,3 +326,41 @@ fn drag_in_a_tight_tube_is_that_of_lubrication() {
     let order = (errors[0] / errors[1]).log2();
     assert!(errors[0].abs() < 0.06 && (order - 1.0).abs() < 0.15, "{errors:?}, order {order}");
 }
+
+/// Disturbances of order 0 against central differences of the solution itself, for a pear at ratios 1 and 10, in space
+/// and in a tube.
+#[test]
+fn disturbances_are_the_derivatives_of_the_flow() {
+    let count = 64;
+    let pear = |shift: f64| {
+        closed(count, |t| {
+            let radius = 1.0 + 0.15 * t.cos() + shift * (0.4 * (2.0 * t).cos() + 0.2 * (3.0 * t).cos());
+            (radius * t.cos() + shift * 0.3 * t.cos().powi(2), radius * t.sin())
+        })
+    };
+    for (ratio, tube) in [(1.0, None), (10.0, None), (10.0, Some(1.8))] {
+        let at = |shift: f64| {
+            let mut flow = flow(count);
+            if let Some(radius) = tube {
+                flow = flow.with_tube(radius).unwrap();
+            }
+            let points = pear(shift);
+            let forces = tensions(&points, |t| (t.cos() * (0.7 + shift)).exp());
+            flow.load([Interface::closed(&points, &forces, [ratio, 1.0])].into_iter()).unwrap();
+            flow.solve().unwrap();
+            (points, forces, velocities(&flow, 0, count), flow)
+        };
+        let (_, _, _, mut flow) = at(0.0);
+        let disturbances = flow.disturbances(0).unwrap();
+        let h = 1e-4;
+        let ((p, f, u, _), (q, g, v, _)) = (at(h), at(-h));
+        let slope = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| (*a - *b) / (2.0 * h)).collect::<Vec<_>>();
+        let mut out = vec![Vec2::ZERO; count];
+        disturbances.velocities_at_points(&slope(&p, &q), &slope(&f, &g), &mut out).unwrap();
+        let largest = u.iter().map(|u| u.length()).fold(0.0, f64::max);
+        let error = slope(&u, &v).iter().zip(&out).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / largest;
+        assert!(error < 1e-7, "ratio {ratio}, tube {tube:?}: {error:e}");
+    }
+    let mut flow = flow(count);
+    assert!(flow.disturbances(0).unwrap_err().to_string().contains("one"));
+}

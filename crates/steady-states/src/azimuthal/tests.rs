@@ -1,0 +1,76 @@
+use motile::prelude::*;
+use motile::setup::Exclusion;
+
+use super::*;
+
+fn setup(activity: f64, viscosities: [f64; 2], nodes: usize) -> Setup {
+    let mut setup = Setup {
+        region: Region::Space,
+        viscosity: viscosities[1],
+        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        droplets: vec![DropletSetup::active(activity)],
+        ..Setup::default()
+    };
+    setup.droplets[0].viscosity = Some(viscosities[0]);
+    if let Some(particles) = &mut setup.droplets[0].particles {
+        particles.excluded_volume = Exclusion::Step(2.0 * activity.abs());
+    }
+    setup
+}
+
+/// Growth of a sphere at rest by spherical harmonics l: degenerate in the order m. Eigenvalues of the 2 x 2 matrices of
+/// `axisymmetric.csv`, here of activity -1 in viscosities 100 and 10.
+#[test]
+fn a_sphere_grows_at_the_same_rates_in_every_order() {
+    let state = SteadyState::uniform(&setup(-1.0, [100.0, 10.0], 48)).unwrap();
+    let matrices = [
+        (1, [0.0, -0.208314417555, 0.0, 0.424943252664]),
+        (2, [-1.02151963887, -0.0590912995343, 0.260023180803, 0.505851462713]),
+        (3, [-1.57726817238, -0.0465507078334, 0.512100055968, 0.37341392477]),
+        (4, [-2.10983437183, -0.0387449076533, 0.767212498846, 0.034107651798]),
+    ];
+    for order in 0..3 {
+        let (matrix, _) = System::new(state.setup()).unwrap().around(state.point(), order).unwrap();
+        let found = eigenvalues(&matrix).unwrap();
+        for (degree, [aa, ab, ba, bb]) in matrices.into_iter().filter(|(degree, _)| *degree >= order.max(1)) {
+            let (half, det): (f64, f64) = (0.5 * (aa + bb), aa * bb - ab * ba);
+            let exact = half + (half * half - det).sqrt();
+            let error = found.iter().map(|z| (z - exact).norm()).fold(f64::INFINITY, f64::min);
+            assert!(error < 1e-8, "order {order}, degree {degree}: {exact} missed by {error:e}");
+        }
+    }
+}
+
+/// Order 0 by the formulas for all orders and by differences of the equations of the curve: two derivations, whose
+/// leading eigenvalues meet.
+#[test]
+fn disturbances_of_order_zero_are_those_of_the_spectrum() {
+    let errors = [64, 96, 128].map(|nodes| {
+        let state = SteadyState::find(&setup(-1.0, [100.0, 100.0], nodes)).unwrap();
+        let leading = state.spectrum().unwrap().modes[0].value;
+        let (matrix, _) = System::new(state.setup()).unwrap().around(state.point(), 0).unwrap();
+        let found = eigenvalues(&matrix).unwrap();
+        found.iter().map(|z| (z - leading).norm()).fold(f64::INFINITY, f64::min)
+    });
+    assert!(errors[1] < 0.2 * errors[0] && errors[2] < 0.2 * errors[1] && errors[2] < 1e-5, "{errors:?}");
+}
+
+/// A shift across the axis and a turn of a swimmer change no rate: the coefficients of their rates vanish as the nodes
+/// resolve the swimmer.
+#[test]
+fn shifts_and_turns_of_swimmers_are_neutral() {
+    let neutral = [48, 72, 96].map(|nodes| {
+        let state = SteadyState::find(&setup(-1.0, [100.0, 100.0], nodes)).unwrap();
+        state.spectrum_around(1).unwrap().neutral
+    });
+    assert!(neutral[1] < 0.3 * neutral[0] && neutral[2] < 0.3 * neutral[1] && neutral[2] < 1e-2, "{neutral:?}");
+}
+
+#[test]
+fn orders_that_are_not_computed_are_refused() {
+    let state = SteadyState::uniform(&setup(-1.0, [100.0, 100.0], 32)).unwrap();
+    assert!(state.spectrum_around(0).unwrap_err().to_string().contains("order"));
+    let plane = Setup { region: Region::Plane, ..setup(-1.0, [100.0, 100.0], 32) };
+    let error = SteadyState::uniform(&plane).unwrap().spectrum_around(1).unwrap_err().to_string();
+    assert!(error.contains("two dimensions"), "{error}");
+}
