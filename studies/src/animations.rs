@@ -72,7 +72,7 @@ fn film(name: &str, path: &Path) -> Result<[f64; 2]> {
     let Built { mut scene, .. } = setup.build()?;
     let raster = match setup.region {
         Region::Plane | Region::Space | Region::Tube { .. } => {
-            let height = if let Region::Tube { radius } = setup.region { 2.0 * radius } else { VIEW[1] };
+            let height = if let Region::Tube { radius, .. } = setup.region { 2.0 * radius } else { VIEW[1] };
             let cells = [VIEW[0], height].map(|side| (side * CELLS / VIEW[0]).round() as usize);
             Raster::new([-0.5 * VIEW[0], -0.5 * height], [VIEW[0], height], cells, [false; 2])?
         }
