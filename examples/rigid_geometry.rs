@@ -54,9 +54,12 @@ struct Flags {
     /// Length over which the corners of the constriction and of the ratchet are rounded (R0); without it 0.06
     #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
     rounding: Option<f64>,
-    /// Distance of the nodes of walls (R0)
+    /// Distance of the nodes of walls where these are nearest to one another (R0)
     #[arg(long, default_value_t = 0.05, value_parser = positive, allow_hyphen_values = true)]
     wall_spacing: f64,
+    /// Largest factor by which this distance grows where walls are farther from one another; 1 for equal distances
+    #[arg(long, default_value_t = 3.0, value_parser = positive, allow_hyphen_values = true)]
+    wall_grading: f64,
     #[command(flatten)]
     scene: SceneFlags<ChannelFlags>,
 }
@@ -141,10 +144,9 @@ impl Flags {
         let (spacing, [period, width]) = (self.wall_spacing, setup.region.lengths());
         let Some(shape) = shape else {
             // One close to each wall, so that there is room on the other side.
-            let post = |[x, y]: [f64; 2]| WallSetup {
-                outline: SolidOutline::Disc { centre: [x * period, y * width], radius: 0.12 * width },
-                spacing,
-                rounding: 0.0,
+            let post = |[x, y]: [f64; 2]| {
+                let outline = SolidOutline::Disc { centre: [x * period, y * width], radius: 0.12 * width };
+                WallSetup::new(outline, spacing)
             };
             setup.walls = [[0.25, 0.3], [-0.25, -0.3]].map(post).into();
             return Ok(setup);
@@ -158,6 +160,7 @@ impl Flags {
             *width = 2.0 * half;
         }
         setup.walls = WallSetup::channel(&shape, spacing);
+        setup.walls.iter_mut().for_each(|wall| wall.grading = self.wall_grading);
         if matches!(self.case, Case::Constriction | Case::Ratchet) {
             setup.walls.iter_mut().for_each(|wall| wall.rounding = self.rounding.unwrap_or(0.06));
         }

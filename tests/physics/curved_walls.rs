@@ -1,5 +1,10 @@
 //! Rigid walls of any shape against exact values and limits.
 
+use std::f64::consts::TAU;
+
+use motile::boundary_integral::{BoundaryIntegral, RigidWall, Settings};
+use motile::motile_base::{Drive, FlowSample, Region, Vec2};
+use motile::motile_scene::{Hydrodynamics, Markers};
 use motile_tests::validation::{curved_walls, order};
 
 /// `curved_walls_*.csv`: droplets of fixed shape in a wavy channel; errors fall faster than any power of the nodes.
@@ -32,4 +37,33 @@ fn flow_along_wavy_walls() {
     // The two limits meet.
     let [small, long] = [curved_walls::small_amplitude(1e3, 0.01), curved_walls::lubrication(0.01)];
     assert!((small / long - 1.0).abs() < 1e-6, "{small} {long}");
+}
+
+/// Nodes at unequal distances solve the same problem: the flow through a narrow place converges spectrally to that of
+/// equal ones, with fewer nodes.
+#[test]
+fn nodes_may_be_where_walls_are_near() {
+    let side = |x: f64| 1.25 - 0.85 * (-x * x).exp();
+    let flow = |wall: &dyn Fn(RigidWall) -> RigidWall, nodes: usize| {
+        let [below, above] = [RigidWall::below(12.0, nodes, |x| -side(x)), RigidWall::above(12.0, nodes, side)];
+        let walls = [below, above].map(|side| wall(side.unwrap()));
+        let region = Region::Channel { length: 12.0, width: 3.5, drive: Drive::Gradient(-1.0) };
+        let flow = BoundaryIntegral::new(region, 1.0, Settings::default()).unwrap().with_walls(&walls);
+        let places = [[0.0, 0.0], [0.6, -0.3], [3.0, 0.9], [-1.2, 0.75], [6.0, -0.2]].map(Vec2::from);
+        let mut samples = [FlowSample::default(); 5];
+        flow.unwrap().sample(&Markers::new(), &places, &mut samples).unwrap();
+        samples.map(|sample| sample.velocity)
+    };
+    let exact = flow(&|wall| wall, 320);
+    let error = |velocities: [Vec2; 5]| {
+        let largest = exact.iter().map(|u| u.length()).fold(0.0, f64::max);
+        velocities.iter().zip(&exact).map(|(u, v)| u.distance(*v)).fold(0.0, f64::max) / largest
+    };
+    let wanted = |factor: f64| move |place: Vec2| factor * (place.y.abs() / 0.4).min(3.0);
+    let graded = |spacing: f64| {
+        error(flow(&move |wall: RigidWall| wall.graded(wanted(spacing)).unwrap(), (TAU / spacing) as usize))
+    };
+    let [coarse, middle, fine] = [0.2, 0.14, 0.1].map(graded);
+    println!("{coarse:e} {middle:e} {fine:e}");
+    assert!(fine < 1e-8 && fine < 1e-2 * middle && middle < 0.1 * coarse, "{coarse:e} {middle:e} {fine:e}");
 }

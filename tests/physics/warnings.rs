@@ -69,16 +69,16 @@ fn settings_that_cost_a_per_cent_are_told() {
     let corners = vec![[2.0, -0.5], [2.5, -0.5], [2.5, 0.5], [2.0, 0.5]];
     let outline = SolidOutline::Polygon { corners: corners.clone(), rounding: 0.0 };
     for (rounding, expected) in [(0.0, &["corners not resolved"][..]), (0.125, &[])] {
-        let walls = vec![WallSetup { outline: outline.clone(), spacing: 0.1, rounding }];
+        let walls = vec![WallSetup { rounding, ..WallSetup::new(outline.clone(), 0.1) }];
         let setup = Setup { walls, ..channel(6.0, integral(24), -1.0) };
         assert_eq!(causes(&setup, 0.05), expected, "{rounding}");
     }
     // An arc of the radius of the spacing turns by a radian from node to node, and less between points of its line.
     let arcs = SolidOutline::Polygon { corners, rounding: 0.1 };
-    let walls = vec![WallSetup { outline: arcs, spacing: 0.1, rounding: 0.0 }];
+    let walls = vec![WallSetup::new(arcs, 0.1)];
     assert_eq!(causes(&Setup { walls, ..channel(6.0, integral(24), -1.0) }, 0.05), ["corners not resolved"]);
     let round = SolidOutline::Disc { centre: [2.0, 0.0], radius: 0.3 };
-    let walls = vec![WallSetup { outline: round, spacing: 0.1, rounding: 0.0 }];
+    let walls = vec![WallSetup::new(round, 0.1)];
     assert!(causes(&Setup { walls, ..channel(6.0, integral(24), -1.0) }, 0.05).is_empty());
 }
 

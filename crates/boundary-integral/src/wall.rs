@@ -11,6 +11,13 @@ const NODES: [f64; 2] = [Settings::NODES[0] as f64, 3000.0];
 const MOST_POINTS: f64 = 1_048_576.0;
 /// Corners per node of the boundary that gaps are measured from: as many as the layers have fine nodes.
 const CORNERS: usize = 4;
+/// Points per node between which polynomials of the fifth degree are exact to round-off.
+const FINEST: usize = 16;
+/// Angle (radians) by which a wall turns from one node to the next where nodes are spread: a tenth of a right angle.
+const GENTLE: f64 = 0.157;
+/// Distances of the widest nodes over which the density of nodes follows: four standard deviations of a Gaussian, of
+/// which waves that nodes do not resolve are round-off.
+const TRANSITION: f64 = 10.0;
 
 /// A rigid no-slip wall or obstacle at rest in a channel: a smooth curve of any shape through points of equally spaced
 /// parameters.
@@ -133,16 +140,90 @@ impl RigidWall {
         let ends = self.points.iter().skip(1).copied().chain([self.points[0] + self.period]);
         let perimeter: f64 = self.points.iter().zip(ends).map(|(a, b)| a.distance(b)).sum();
         let mut series = PeriodicSeries::new(count)?;
-        series.analyse(self.points.iter().enumerate().map(|(k, x)| {
-            let x = *x - step * k as f64;
-            Complex64::new(x.x, x.y)
-        }))?;
+        series.analyse(self.periodic_part())?;
         let decay = std::f64::consts::TAU * length / perimeter;
         series.scale(|index| (-0.5 * (decay * index as f64).powi(2)).exp());
         for (k, (point, value)) in self.points.iter_mut().zip(series.values()).enumerate() {
             *point = Vec2::new(value.re, value.im) + step * k as f64;
         }
         Ok(self)
+    }
+
+    /// Spreads the nodes so that their distance (length) is nowhere more than `wanted(place)`, or than the distance over
+    /// which the wall turns by a tenth of a right angle unless they are closer already: the number of nodes is what
+    /// that takes. The density of nodes follows smoothly, within some nodes, so that quadrature stays spectral.
+    ///
+    /// # Errors
+    /// Distances that are not positive and finite, and those that take more than 3000 nodes.
+    pub fn graded(mut self, wanted: impl Fn(Vec2) -> f64) -> Result<Self, LayerError> {
+        self.refine()?;
+        let count = self.points.len();
+        let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
+        let steps: Vec<f64> = (0..count).map(|k| at(k).distance(at(k + 1))).collect();
+        let uniform = steps.iter().sum::<f64>() / self.nodes as f64;
+        let mut spacings = Vec::with_capacity(count);
+        // Alike from both ends, so that walls that mirror each other are.
+        for k in 0..count {
+            let wish = positive("the wanted distance of nodes", wanted(self.points[k]))?;
+            let [before, after] = [count - 1, 0].map(|shift| at(k + shift + 1) - at(k + shift));
+            let (turn, step) = (before.angle_to(after).abs(), 0.5 * (before.length() + after.length()));
+            spacings.push(wish.min(uniform.max(GENTLE * step / turn.max(f64::MIN_POSITIVE))));
+        }
+        let coarsest = spacings.iter().copied().fold(0.0, f64::max);
+        let reach = ((TRANSITION * coarsest / uniform * (count / self.nodes) as f64).ceil() as usize).min(count / 2);
+        let spacings = smoothed_below(&spacings, reach)?;
+        // The parameter in which nodes are equally spaced, at each point.
+        let mut parameter = vec![0.0];
+        for k in 0..count {
+            let next = 0.5 * (1.0 / spacings[k] + 1.0 / spacings[(k + 1) % count]);
+            parameter.push(parameter[k] + steps[k] * next);
+        }
+        let total = parameter[count];
+        let nodes = 2.0 * (0.5 * total).ceil().max(0.5 * NODES[0]);
+        within("the number of nodes of a wall", nodes, NODES[0], NODES[1])?;
+        let finer = (count / self.nodes).max(1);
+        self.nodes = nodes as usize;
+        let many = finer * self.nodes;
+        let value = |k: isize| {
+            let turns = k.div_euclid(count as isize);
+            let index = k.rem_euclid(count as isize) as usize;
+            (parameter[index] + total * turns as f64, self.points[index] + self.period * turns as f64)
+        };
+        let mut from = 0;
+        let mut points = Vec::with_capacity(many);
+        for k in 0..many {
+            let sought = total * k as f64 / many as f64;
+            while parameter[from + 1] <= sought {
+                from += 1;
+            }
+            points.push(interpolated(std::array::from_fn(|j| value(from as isize + j as isize - 2)), sought));
+        }
+        self.points = points;
+        Ok(self)
+    }
+
+    /// Interpolates to so many points for each node that polynomials through neighbours are exact to round-off.
+    fn refine(&mut self) -> Result<(), LayerError> {
+        let (few, many) = (self.points.len(), FINEST * self.nodes);
+        if few >= many {
+            return Ok(());
+        }
+        let [mut given, mut finer] = [PeriodicSeries::new(few)?, PeriodicSeries::new(many)?];
+        given.analyse(self.periodic_part())?;
+        finer.resample(&given);
+        let step = self.period / many as f64;
+        let values = finer.values().iter().enumerate();
+        self.points = values.map(|(k, value)| Vec2::new(value.re, value.im) + step * k as f64).collect();
+        Ok(())
+    }
+
+    /// Points less the advance of the curve, as complex numbers.
+    fn periodic_part(&self) -> impl ExactSizeIterator<Item = Complex64> {
+        let step = self.period / self.points.len() as f64;
+        self.points.iter().enumerate().map(move |(k, x)| {
+            let x = *x - step * k as f64;
+            Complex64::new(x.x, x.y)
+        })
     }
 
     /// Largest angle by which the wall turns within the distance of its nodes (radians): what nodes do not resolve is
@@ -158,6 +239,12 @@ impl RigidWall {
             sum += turn(k + within) - turn(k);
             largest.max(sum.abs())
         })
+    }
+
+    /// Points of one period, or of an obstacle (length).
+    #[must_use]
+    pub fn points(&self) -> &[Vec2] {
+        &self.points
     }
 
     /// The wall as a curve of layers.
@@ -184,6 +271,28 @@ fn reverse(points: &mut [Vec2]) {
     if let Some(rest) = points.get_mut(1..) {
         rest.reverse();
     }
+}
+
+/// The least values within some places of each of a periodic list, smoothed over as many: nowhere above the list.
+fn smoothed_below(values: &[f64], reach: usize) -> Result<Vec<f64>, LayerError> {
+    let count = values.len();
+    let least =
+        |k: usize| (0..=2 * reach).map(|j| values[(k + count + j - reach) % count]).fold(f64::INFINITY, f64::min);
+    let mut series = PeriodicSeries::new(count)?;
+    series.analyse((0..count).map(|k| Complex64::from(least(k))))?;
+    // A Gaussian whose tail beyond the reach is below 1e-4.
+    let decay = std::f64::consts::TAU * reach as f64 / (4.0 * count as f64);
+    series.scale(|index| (-0.5 * (decay * index as f64).powi(2)).exp());
+    Ok(series.values().iter().map(|value| value.re).collect())
+}
+
+/// Value at `sought` of the polynomial through points at given parameters.
+fn interpolated(points: [(f64, Vec2); 6], sought: f64) -> Vec2 {
+    let weight = |i: usize| -> f64 {
+        let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+        others.map(|(_, (parameter, _))| (sought - parameter) / (points[i].0 - parameter)).product()
+    };
+    points.iter().enumerate().map(|(i, (_, point))| weight(i) * *point).sum()
 }
 
 /// Points `(x, height(x))` over a period, several per node.

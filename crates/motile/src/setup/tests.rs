@@ -525,10 +525,10 @@ fn corners_of_walls_are_rounded_over_the_length() {
     let corners = vec![[1.8, -0.4], [2.6, -0.4], [2.6, 0.4], [1.8, 0.4]];
     let outline = SolidOutline::Polygon { corners, rounding: 0.0 };
     // However far apart nodes are asked for, a wall has enough of them to be one.
-    let sparse = vec![WallSetup { outline: outline.clone(), spacing: 10.0, rounding: 0.1 }];
+    let sparse = vec![WallSetup { rounding: 0.1, ..WallSetup::new(outline.clone(), 10.0) }];
     assert!(Setup { region: channel(6.0), walls: sparse, ..Setup::default() }.build().is_ok());
     for rounding in [0.05, 0.1] {
-        let walls = vec![WallSetup { outline: outline.clone(), spacing: 0.05, rounding }];
+        let walls = vec![WallSetup { rounding, ..WallSetup::new(outline.clone(), 0.05) }];
         let Built { scene, .. } = Setup { region: channel(6.0), walls, ..Setup::default() }.build().unwrap();
         let tip = Vec2::new(2.6, 0.4) - Vec2::splat(rounding / std::f64::consts::TAU.sqrt());
         let boundary = scene.system().hydrodynamics().walls().unwrap();

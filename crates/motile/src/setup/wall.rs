@@ -11,6 +11,8 @@ use crate::SetupError;
 
 /// Points per node by which corners are rounded.
 const FINER: f64 = 16.0;
+/// Largest factor between the distances of nodes along a wall.
+const MOST_GRADING: f64 = 10.0;
 /// Most nodes of a wall.
 const MOST_NODES: f64 = 3000.0;
 
@@ -41,19 +43,33 @@ const MOST_NODES: f64 = 3000.0;
 pub struct WallSetup {
     /// Outline that it bounds: the side of a channel, an island, a closed outline.
     pub outline: SolidOutline,
-    /// Distance of its nodes (length).
+    /// Distance of its nodes where walls are nearest to one another (length).
     pub spacing: f64,
+    /// Largest factor by which this distance grows in proportion to that from the other walls, never beyond what
+    /// curvature asks for; 1 for equal distances, as in a file that gives none. See [`RigidWall::graded`].
+    #[serde(default = "uniform")]
+    pub grading: f64,
     /// Length over which its corners are rounded, no less than the spacing for accurate flow there; see
     /// [`RigidWall::rounded`]. 0 for outlines that are smooth, as in a file that gives none.
     #[serde(default)]
     pub rounding: f64,
 }
 
+fn uniform() -> f64 {
+    1.0
+}
+
 impl WallSetup {
+    /// The wall along a smooth outline, with nodes at that distance (length).
+    #[must_use]
+    pub fn new(outline: SolidOutline, spacing: f64) -> Self {
+        Self { outline, spacing, grading: uniform(), rounding: 0.0 }
+    }
+
     /// The sides and islands of a channel, with nodes at that distance (length).
     #[must_use]
     pub fn channel(channel: &ChannelShape, spacing: f64) -> Vec<Self> {
-        let wall = |outline| Self { outline, spacing, rounding: 0.0 };
+        let wall = |outline| Self::new(outline, spacing);
         let mut walls = vec![wall(SolidOutline::WallBelow(*channel)), wall(SolidOutline::WallAbove(*channel))];
         let island = |number| wall(SolidOutline::Island { of: *channel, number });
         walls.extend((0..channel.islands()).map(island));
@@ -112,6 +128,9 @@ impl WallSetup {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
         checked.not_negative("rounding", self.rounding)?;
+        if !(1.0..=MOST_GRADING).contains(&self.grading) {
+            checked.refuse("grading", &self.grading, format!("give 1, equal distances, to {MOST_GRADING}"))?;
+        }
         if !matches!(setup.region, Region::Channel { .. }) {
             let remedy = "rigid walls stand in a channel, wider than they are: give such a region";
             checked.refuse("outline", &"a rigid wall", remedy)?;
@@ -128,7 +147,32 @@ impl Setup {
     pub fn rigid_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
         let walls = self.walls.iter().enumerate();
-        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&format!("walls[{k}]")))).collect()
+        let keyed = |k: usize| move |error: SetupError| error.of(&format!("walls[{k}]"));
+        let built: Vec<RigidWall> =
+            walls.map(|(k, wall)| wall.build(period).map_err(keyed(k))).collect::<Result<_, _>>()?;
+        if self.walls.iter().all(|wall| wall.grading == 1.0) {
+            return Ok(built);
+        }
+        // Distances of the points of each wall from the others.
+        let others = |k: usize| {
+            let mut others = Boundary::default();
+            built.iter().enumerate().filter(|(j, _)| *j != k).for_each(|(_, wall)| wall.add_to(&mut others));
+            others.sort();
+            others
+        };
+        let others: Vec<Boundary> = (0..built.len()).map(others).collect();
+        let distance = |k: usize, point: Vec2| others[k].distance(point, [Some(period), None]).abs();
+        let nearest = built.iter().enumerate().flat_map(|(k, wall)| wall.points().iter().map(move |p| (k, *p)));
+        let nearest = nearest.map(|(k, point)| distance(k, point)).fold(f64::INFINITY, f64::min);
+        let apart = |k: usize, point: Vec2| {
+            if nearest > 0.0 && nearest.is_finite() { distance(k, point) / nearest } else { 1.0 }
+        };
+        let graded = built.iter().zip(&self.walls).enumerate().map(|(k, (wall, setup))| {
+            let wanted = |point| setup.spacing * apart(k, point).clamp(1.0, setup.grading);
+            if setup.grading == 1.0 { Ok(wall.clone()) } else { wall.clone().graded(wanted) }
+                .map_err(|error| keyed(k)(error.into()))
+        });
+        graded.collect()
     }
 
     /// Refuses a droplet that starts beyond a rigid wall.

@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use motile_base::widely;
 use num_complex::Complex64;
 
 mod flow;
@@ -124,20 +125,25 @@ impl WallModes {
                 let mut powers = *powers;
                 let first = k * powers.distance;
                 let mut depth: Lanes = std::array::from_fn(|lane| first * (lane + 1) as f64);
-                for sum in &mut sums[..chunks] {
-                    let Sums { plain: [a_re, a_im], mixed: [b_re, b_im] } = sum;
-                    for lane in 0..LANES {
-                        // The phase of a source is the conjugate of that of a target.
-                        let (re, im) = (powers.re[lane], -powers.im[lane]);
-                        let (c_re, c_im) = (p - depth[lane] * q_re, -depth[lane] * q_im);
-                        a_re[lane] += re * q_re - im * q_im;
-                        a_im[lane] += re * q_im + im * q_re;
-                        b_re[lane] += re * c_re - im * c_im;
-                        b_im[lane] += re * c_im + im * c_re;
-                        depth[lane] += first * LANES as f64;
-                    }
-                    powers.advance();
-                }
+                widely(
+                    #[inline(always)]
+                    || {
+                        for sum in &mut sums[..chunks] {
+                            let Sums { plain: [a_re, a_im], mixed: [b_re, b_im] } = sum;
+                            for lane in 0..LANES {
+                                // The phase of a source is the conjugate of that of a target.
+                                let (re, im) = (powers.re[lane], -powers.im[lane]);
+                                let (c_re, c_im) = (p - depth[lane] * q_re, -depth[lane] * q_im);
+                                a_re[lane] += re * q_re - im * q_im;
+                                a_im[lane] += re * q_im + im * q_re;
+                                b_re[lane] += re * c_re - im * c_im;
+                                b_im[lane] += re * c_im + im * c_re;
+                                depth[lane] += first * LANES as f64;
+                            }
+                            powers.advance();
+                        }
+                    },
+                );
             }
         }
     }
@@ -239,19 +245,23 @@ impl WallModes {
                 let coefficients = &self.coefficients[side];
                 let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
                 let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
-                let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
-                for c in &coefficients[..chunks] {
-                    for lane in 0..LANES {
-                        let (re, im) = (powers.re[lane], powers.im[lane]);
-                        sum[lane] += re * c.sum[0][lane] - im * c.sum[1][lane];
-                        plain[lane] += re * c.plain[1][lane] + im * c.plain[0][lane];
-                        linear_re[lane] += re * c.linear[0][lane] - im * c.linear[1][lane];
-                        linear_im[lane] += re * c.linear[1][lane] + im * c.linear[0][lane];
-                    }
-                    powers.advance();
-                }
-                let [sum, plain, linear_re, linear_im] =
-                    [sum, plain, linear_re, linear_im].map(|lanes| lanes.iter().sum::<f64>());
+                let [sum, plain, linear_re, linear_im] = widely(
+                    #[inline(always)]
+                    || {
+                        let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
+                        for c in &coefficients[..chunks] {
+                            for lane in 0..LANES {
+                                let (re, im) = (powers.re[lane], powers.im[lane]);
+                                sum[lane] += re * c.sum[0][lane] - im * c.sum[1][lane];
+                                plain[lane] += re * c.plain[1][lane] + im * c.plain[0][lane];
+                                linear_re[lane] += re * c.linear[0][lane] - im * c.linear[1][lane];
+                                linear_im[lane] += re * c.linear[1][lane] + im * c.linear[0][lane];
+                            }
+                            powers.advance();
+                        }
+                        [sum, plain, linear_re, linear_im].map(|lanes| lanes.iter().sum::<f64>())
+                    },
+                );
                 u += sign * (sum - s * linear_re);
                 v += plain - s * linear_im;
             }

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use motile_base::{Vec2, within};
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::{DMatrix, DVector};
 
 use num_complex::Complex64;
 
+use super::factors::DenseFactors;
 use crate::{
     LayerError,
     curve::{Curve, LayerCurve},
@@ -44,7 +45,7 @@ pub(crate) struct RigidWalls {
     half: f64,
     /// Twice the period times the viscosity (length times stress times time).
     scale: f64,
-    factors: LU<f64, Dyn, Dyn>,
+    factors: DenseFactors,
     /// Forces on the fluid at the nodes (force) in the last response.
     pub(crate) forces: DVector<f64>,
     /// Mean pressure gradient (force per volume) in the last response.
@@ -104,10 +105,11 @@ impl RigidWalls {
             let mut block = matrix.view_mut((range.start, range.start), (range.len(), range.len()));
             block.ger(factor, &normal, &normal, 1.0);
         }
-        let factors = LU::new(matrix);
+        let factors = DenseFactors::new(matrix);
         // 4 pi eta times the velocity that a unit gradient drives is -2 pi (half^2 - y^2).
         let mut unit = &parabola * TAU;
-        if !factors.solve_mut(&mut unit) || !unit.iter().all(|f| f.is_finite()) {
+        factors.solve(&mut unit);
+        if !unit.iter().all(|f| f.is_finite()) {
             return Err(LayerError::SingularWalls);
         }
         let scale = 2.0 * length * viscosity;
@@ -125,7 +127,7 @@ impl RigidWalls {
     pub(crate) fn respond(&mut self, layers: &mut Layers, moment: f64, driven: bool) {
         self.forces.fill(0.0);
         add_walls(layers, -1.0, self.forces.as_mut_slice());
-        self.factors.solve_mut(&mut self.forces);
+        self.factors.solve(&mut self.forces);
         let part = if driven { 1.0 } else { 0.0 };
         self.gradient = match self.drive.flux() {
             None => part * self.drive.gradient(),

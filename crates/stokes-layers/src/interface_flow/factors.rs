@@ -1,0 +1,99 @@
+//! Factors of a dense matrix that is solved with many times.
+
+use motile_base::widely;
+use nalgebra::{DMatrix, DVector, Dyn, LU, PermutationSequence};
+
+/// Columns that are taken off the right-hand side together, so that it is read and written once for all of them.
+const COLUMNS: usize = 4;
+
+/// Lower and upper factor of a matrix by Gaussian elimination with row exchanges. The solution, which reads all of the
+/// matrix for each right-hand side, runs in the widest vector registers that there are.
+#[derive(Debug, Clone)]
+pub(super) struct DenseFactors {
+    exchanges: PermutationSequence<Dyn>,
+    /// The upper factor, and below the diagonal the lower one, whose diagonal is 1.
+    entries: DMatrix<f64>,
+}
+
+impl DenseFactors {
+    pub(super) fn new(matrix: DMatrix<f64>) -> Self {
+        let (exchanges, mut lower, entries) = LU::new(matrix).unpack();
+        lower.fill_diagonal(0.0);
+        Self { exchanges, entries: entries + lower }
+    }
+
+    /// Replaces a right-hand side by the solution; singular matrices give values that are not finite.
+    pub(super) fn solve(&self, values: &mut DVector<f64>) {
+        self.exchanges.permute_rows(values);
+        let (entries, values) = (self.entries.as_slice(), values.as_mut_slice());
+        widely(
+            #[inline(always)]
+            || substitute(entries, values),
+        );
+    }
+}
+
+/// Forward and backward substitution with a matrix by columns.
+#[inline(always)]
+fn substitute(entries: &[f64], values: &mut [f64]) {
+    let count = values.len();
+    let column = |j: usize| &entries[j * count..(j + 1) * count];
+    let (blocks, rest) = (count / COLUMNS, count % COLUMNS);
+    for block in 0..blocks + rest.min(1) {
+        let start = block * COLUMNS;
+        let end = (start + COLUMNS).min(count);
+        for j in start..end {
+            for i in j + 1..end {
+                values[i] -= column(j)[i] * values[j];
+            }
+        }
+        let (known, below) = values.split_at_mut(end);
+        take_off(below, &known[start..], |j| &column(start + j)[end..]);
+    }
+    for block in (0..blocks + rest.min(1)).rev() {
+        let start = block * COLUMNS;
+        let end = (start + COLUMNS).min(count);
+        for j in (start..end).rev() {
+            values[j] /= column(j)[j];
+            for i in start..j {
+                values[i] -= column(j)[i] * values[j];
+            }
+        }
+        let (above, known) = values.split_at_mut(start);
+        take_off(above, &known[..end - start], |j| &column(start + j)[..start]);
+    }
+}
+
+/// Subtracts columns times known values.
+#[inline(always)]
+fn take_off<'a>(values: &mut [f64], known: &[f64], column: impl Fn(usize) -> &'a [f64]) {
+    if let &[w, x, y, z] = known {
+        let columns = column(0).iter().zip(column(1)).zip(column(2).iter().zip(column(3)));
+        for (value, ((a, b), (c, d))) in values.iter_mut().zip(columns) {
+            *value -= (a * w + b * x) + (c * y + d * z);
+        }
+    } else {
+        for (j, factor) in known.iter().enumerate() {
+            values.iter_mut().zip(column(j)).for_each(|(value, entry)| *value -= entry * factor);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DMatrix, DVector, DenseFactors};
+
+    #[test]
+    fn products_with_solutions_are_the_right_hand_sides() {
+        for count in [1, 3, 4, 7, 30] {
+            let entry =
+                |i: usize, j: usize| (1.3 * (i * i + 3 * j + 1) as f64).sin() - if i == j + 1 { 2.0 } else { 0.0 };
+            let matrix = DMatrix::from_fn(count, count, entry);
+            let right = DVector::from_fn(count, |i, _| (i as f64).cos());
+            let mut solution = right.clone();
+            DenseFactors::new(matrix.clone()).solve(&mut solution);
+            let error = (&matrix * &solution - &right).amax() / solution.amax();
+            assert!(error < 1e-13, "{count}: {error:e}");
+        }
+    }
+}
