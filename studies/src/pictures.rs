@@ -1,5 +1,6 @@
 //! The pictures of model and methods in `docs/images`, drawn from what the library computes.
 
+mod crates;
 mod droplet;
 mod flow_chart;
 mod regimes;
@@ -38,6 +39,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         ("layers", staggered::layers()?),
         ("method", flow_chart::picture()),
         ("regimes", regimes::picture()?),
+        ("crates", crates::picture()?),
     ] {
         ensure!(picture.len() < LARGEST, "{name}.svg has {} bytes, more than {LARGEST}", picture.len());
         fs::write(folder.join(format!("{name}.svg")), &picture)?;

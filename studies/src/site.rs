@@ -134,7 +134,7 @@ fn below(path: &Path, link: &str) -> Option<PathBuf> {
     Some(found)
 }
 
-/// Checks that every page is in SUMMARY.md, that links lead somewhere and that formulas can be typeset.
+/// Checks that every page is in SUMMARY.md and has a picture, that links lead somewhere and that formulas can be typeset.
 ///
 /// # Errors
 /// All that is wrong, a line each.
@@ -156,6 +156,9 @@ pub(crate) fn check() -> Result<()> {
         let inside = path.starts_with("docs") && !path.ends_with(SUMMARY);
         if inside && !listed.contains(path) {
             wrong.push(format!("{} is not in docs/{SUMMARY}", path.display()));
+        }
+        if inside && !page.contains("![") && !path.ends_with(FRONT) {
+            wrong.push(format!("{} has no picture", path.display()));
         }
         if let Err(error) = typeset(page) {
             wrong.push(format!("{}: {error:#}", path.display()));

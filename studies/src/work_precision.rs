@@ -10,7 +10,7 @@
 //! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
 //! one at a time.
 
-mod cost;
+pub(crate) mod cost;
 mod figures;
 mod front;
 mod lists;

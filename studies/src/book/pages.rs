@@ -103,7 +103,7 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let words: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
     front += &wrapped(&format!("{} figures: {}.", numbers.len(), words.join(", ")));
-    front += "\n";
+    front += "\n![Speed over the activity in channels](figures/3.4.svg)\n\n";
     front += &table;
     pages.insert(0, ("README.md".to_owned(), front));
     Ok(pages)

@@ -139,7 +139,7 @@ pub(crate) fn repeat(mut work: impl FnMut() -> Result<()>) -> Result<Cost> {
 }
 
 /// Seconds that this thread has had a processor for, where the system tells.
-fn processor_time() -> Option<f64> {
+pub(crate) fn processor_time() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
     Some(1e-9 * nanoseconds)
