@@ -41,11 +41,15 @@ const LARGEST: u64 = 250_000;
 const LARGEST_SUM: u64 = 1_500_000;
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
+    let names = names()?;
+    if let Some(wanted) = &flags.scene {
+        ensure!(names.contains(wanted), "there is no scene {wanted}: give one of {}", names.join(", "));
+    }
     let folder = if flags.write { root().join("docs/images/scenes") } else { flags.out.clone() };
     fs::create_dir_all(&folder)?;
     let mut sum = 0;
     let mut table = Table::new("Animations of the first page", &["scene", "time", "steps", "bytes"]);
-    for name in names()? {
+    for name in names {
         if flags.scene.as_ref().is_some_and(|wanted| *wanted != name) {
             continue;
         }

@@ -78,6 +78,10 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }),
         ));
     }
+    if let Some(folder) = &flags.ib2d {
+        let code = folder.join("pyIB2d/IBM_Blackbox");
+        ensure!(code.is_dir(), "--ib2d {}: there is no {}: give a clone of IB2d", folder.display(), code.display());
+    }
     for (cells, dt) in IB2D {
         let Some(folder) = flags.ib2d.clone() else { continue };
         let python = flags.python.clone();

@@ -63,7 +63,15 @@ fn turn(value: &mut Value) -> Result<()> {
 
 /// README.md as a page of docs.
 fn front() -> Result<String> {
-    Ok(fs::read_to_string(root().join("README.md"))?.replace("](docs/", "](").replace("](README.md", "](index.md"))
+    Ok(from_docs(&fs::read_to_string(root().join("README.md"))?))
+}
+
+/// A page of the repository's root with its links as they are from docs.
+fn from_docs(page: &str) -> String {
+    let up = page.replace("](", "](../");
+    [("../docs/", ""), ("../#", "#"), ("../http", "http")]
+        .iter()
+        .fold(up, |page, (from, to)| page.replace(&format!("]({from}"), &format!("]({to}")))
 }
 
 /// A page with its formulas as MathML.
@@ -112,7 +120,8 @@ fn within(page: &str, path: &Path) -> String {
                 out += &rest[..start];
                 out += &rest[start + 1..middle];
             }
-            None => out += &rest[..middle + 2 + end + 1],
+            // mdBook makes the index of a folder of its README.md.
+            None => out += &format!("{}{})", &rest[..middle + 2], place.replace("README.md", FRONT)),
         }
         rest = after;
     }
@@ -223,6 +232,10 @@ mod tests {
         assert_eq!(turned("[x](../theory.md#a) [y](https://z)"), "[x](../theory.md#a) [y](https://z)");
         assert_eq!(turned("see [x](../../crates/y.toml)."), "see x.");
         assert_eq!(turned("[x](../../README.md#z)"), "[x](../index.md#z)");
+        assert_eq!(turned("[x](README.md) ![p](a.svg)"), "[x](index.md) ![p](a.svg)");
+        let front = |page: &str| within(&from_docs(page), Path::new(FRONT));
+        assert_eq!(front("[a](docs/a.md#b) [c](CHANGELOG.md) [d](#e)"), "[a](a.md#b) c [d](#e)");
+        assert_eq!(front("[a](docs/book/README.md) [c](https://x)"), "[a](book/index.md) [c](https://x)");
     }
 
     #[test]
