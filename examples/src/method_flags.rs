@@ -31,9 +31,10 @@ pub(crate) const METHODS: [(&str, &str, MethodKind); 3] = [
     (MethodKind::Grid.name(), "On a grid", MethodKind::Grid),
 ];
 
-const INTEGRATORS: [(&str, &str, IntegratorKind); 2] = [
+const INTEGRATORS: [(&str, &str, IntegratorKind); 3] = [
     ("midpoint", "Two stages a step", IntegratorKind::Midpoint),
     ("runge-kutta-chebyshev", "Long steps of many stages, for stiff solids", IntegratorKind::RungeKuttaChebyshev),
+    ("runge-kutta", "Fourth order, without particles", IntegratorKind::RungeKutta),
 ];
 
 /// The numerical method.

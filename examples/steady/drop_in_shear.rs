@@ -18,7 +18,7 @@ use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::ActiveDroplet;
 use motile::motile_base::Region;
-use motile::motile_scene::{Deformation, Every, Handle, System};
+use motile::motile_scene::{Deformation, Every, Handle, System, integrator::IntegratorKind};
 use motile::setup::{AnyFlow, Built, DropletSetup, FlowSetup, IntegralMethod, Method, PoiseuilleSetup, Setup};
 use motile_examples::{pair, positive};
 use motile_output::run::{Job, OutputFlags, Summary, say};
@@ -128,6 +128,7 @@ impl Flags {
             viscosity: 1.0,
             flow,
             method: Method::Integral(IntegralMethod { nodes: self.nodes, cells: self.nodes }),
+            integrator: IntegratorKind::RungeKutta,
             droplets: vec![drop],
             ..Setup::default()
         };

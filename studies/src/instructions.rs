@@ -16,7 +16,7 @@ use motile::ib_core::{AnyKernel, ImmersedBoundary, Transfer};
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Body, Hydrodynamics};
 use motile::prelude::*;
-use motile::setup::{Material, SolidSetup};
+use motile::setup::{FlowSetup, Material, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver};
 
 const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.csv");
@@ -108,11 +108,15 @@ fn viscous(setup: Setup) -> Setup {
     Setup { droplets, ..setup }
 }
 
+fn in_flow(flow: FlowSetup) -> Setup {
+    Setup { region: Region::Plane, flow, ..Setup::default() }
+}
+
 /// Something to count.
 type Work = fn() -> Result<()>;
 
 /// What is counted, by name.
-const WORKS: [(&str, Work); 12] = [
+const WORKS: [(&str, Work); 14] = [
     ("periodic Stokes solve, 120 x 120", || solve(PeriodicStokes::new(Grid::periodic(120, 120, 0.05)?, 1.0)?)),
     ("channel Stokes solve, 120 x 60", || solve(ChannelStokes::new(Grid::channel(120, 60, 0.05)?, 1.0)?)),
     ("spread 400 markers", || transfer(true)),
@@ -130,6 +134,10 @@ const WORKS: [(&str, Work); 12] = [
     ("three steps, box without a grid", || steps(&Setup::default())),
     ("three steps, channel without a grid", || steps(&Setup { region: channel(), ..Setup::default() })),
     ("three steps, ratio 10 without a grid", || steps(&viscous(Setup::default()))),
+    ("three steps, plane without a grid", || steps(&in_flow(FlowSetup::default()))),
+    ("three steps, plane without a grid, in a shear", || {
+        steps(&in_flow(FlowSetup { shear: 1.0, ..FlowSetup::default() }))
+    }),
 ];
 
 /// Counts the instructions of kernels and steps.

@@ -10,6 +10,7 @@ mod contrast;
 mod curved_walls;
 mod elastic_walls;
 mod headings;
+mod imposed_flows;
 mod interfaces;
 mod recommended;
 mod solids;
@@ -52,7 +53,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 36] = [
+const STUDIES: [(&str, Run); 37] = [
     ("fixed-shapes", fixed),
     ("relaxation", relax),
     ("growth", grow),
@@ -84,6 +85,7 @@ const STUDIES: [(&str, Run); 36] = [
     ("interface-several", interfaces::several),
     ("interface-long-runs", interfaces::long_runs),
     ("active-walls", active_walls::active_walls),
+    ("imposed-flows", imposed_flows::imposed_flows),
     ("two-droplets", two_droplets::two_droplets),
     ("curved-walls", curved_walls::curved_walls),
     ("elastic-walls", elastic_walls::elastic_walls),

@@ -3,12 +3,12 @@
 use motile::active_interface::theory::{Stratum, StratumEnd};
 use motile::active_interface::{ActiveInterface, Motion, wave};
 use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::motile_base::FlowSample;
+use motile::motile_base::{FlowSample, ImposedFlow};
 use motile::motile_scene::{Body, Hydrodynamics, Markers};
 use motile::prelude::*;
 use motile::setup::{
-    DropletShape, ElasticitySetup, Hold, InterfaceSetup, InterfaceShape, Material, Side, SolidOutline, SolidSetup,
-    Start,
+    DropletShape, ElasticitySetup, Hold, InterfaceSetup, InterfaceShape, Material, RigidBodySetup, Side, SolidOutline,
+    SolidSetup, Start,
 };
 use motile_tests::validation::flat::{Flat, PERIOD, difference, half_space, wall};
 
@@ -101,7 +101,7 @@ const BOX: Region = Region::Box { lengths: [PERIOD, PERIOD] };
 
 #[test]
 fn particles_and_areas_are_conserved() {
-    let channel = Region::Channel { length: PERIOD, width: 5.0, drive: Drive::ZeroFlux };
+    let channel = Region::Channel { length: PERIOD, width: 5.0, drive: Drive::Gradient(-0.5) };
     for region in [BOX, channel] {
         let Built { mut scene, interfaces, .. } = walls(INTEGRAL, region, Vec::new()).build().unwrap();
         let before = [0, 1].map(|k| scene.observe(interfaces[k]).unwrap());
@@ -198,6 +198,11 @@ fn impossible_interfaces_end_in_a_sentence() {
     has(&said(&|setup| setup.interfaces[0].viscosity = Some(20.0)), "would have the viscosities");
     has(&said(&|setup| setup.interfaces[0].inside = Side::Above), "would have the viscosities");
     has(&said(&|setup| setup.interfaces.truncate(1)), "would have the viscosities");
+    let flux = Region::Channel { length: PERIOD, width: 5.0, drive: Drive::Flux(1.0) };
+    has(
+        &said(&|setup| setup.region = flux),
+        "region.channel.drive.flux = 1: a flux along layers of different viscosity",
+    );
     has(
         &said(&|setup| {
             setup.interfaces[1].height = -1.2;
@@ -292,4 +297,83 @@ fn elastic_walls_carry_their_particles() {
     setup.interfaces[0].motion = Motion::default();
     let said = setup.build().unwrap_err().to_string();
     assert!(said.contains("give \"with-fluid\""), "{said}");
+}
+
+/// Layers of two fluids between sliding walls: the shear stress is the same in all, (U_2 - U_1)/(h_1/eta_1 +
+/// h_2/eta_2), and small waves on them decay. In a sheared box the images of interfaces slide past each other, which is
+/// refused, and so is the stresslet of an interface.
+#[test]
+fn layers_in_a_shear() {
+    let (walls, width, half, inside) = ([-1.0, 2.0], 4.0, 0.7, 5.0);
+    let wall = |height: f64, side: Side| InterfaceSetup {
+        height,
+        inside: side,
+        viscosity: Some(inside),
+        particles: None,
+        shape: InterfaceShape::Waves { cosines: vec![0.01], sines: Vec::new() },
+        ..InterfaceSetup::default()
+    };
+    let setup = Setup {
+        region: Region::Channel { length: PERIOD, width, drive: Drive::ZeroGradient },
+        viscosity: 1.0,
+        flow: FlowSetup { wall_velocity: Some(walls), ..FlowSetup::default() },
+        method: INTEGRAL,
+        droplets: Vec::new(),
+        interfaces: vec![wall(-half, Side::Below), wall(half, Side::Above)],
+        ..Setup::default()
+    };
+    let Built { mut scene, interfaces, .. } = setup.build().unwrap();
+    let before = scene.observe(interfaces[1]).unwrap().height_modes.amplitude(1);
+    scene.run(8.0).go().unwrap();
+    let after = scene.observe(interfaces[1]).unwrap();
+    assert!(after.height_modes.amplitude(1) < 0.2 * before && (after.height - half).abs() < 1e-9, "{after:?}");
+    let stress = (walls[1] - walls[0]) / (2.0 * half + (width - 2.0 * half) / inside);
+    let mut samples = [FlowSample::default(); 3];
+    let places = [Vec2::new(0.3, 0.0), Vec2::new(-1.0, 1.9), Vec2::new(2.0, -1.9)];
+    scene.system_mut().sample(&places, &mut samples).unwrap();
+    for (sample, viscosity) in samples.iter().zip([1.0, inside, inside]) {
+        let found = viscosity * (sample.gradient[0][1] + sample.gradient[1][0]);
+        assert!((found / stress - 1.0).abs() < 0.01, "{found} {stress}");
+    }
+    let refused = scene.system_mut().stresslets().unwrap_err().to_string();
+    assert!(refused.contains("periodic along x") && refused.contains("average the stress"), "{refused}");
+    let region = Region::Box { lengths: [PERIOD, width] };
+    let boxed = Setup { region, flow: FlowSetup { shear: 0.8, ..FlowSetup::default() }, ..setup };
+    let refused = boxed.check().unwrap_err().to_string();
+    assert!(refused.contains("slide past each other") && refused.contains("wall-velocity"), "{refused}");
+    let still = Setup { flow: FlowSetup::default(), ..boxed };
+    let mut scene = still.build().unwrap().scene;
+    scene.impose(ImposedFlow::shear(1.0)).unwrap();
+    let refused = scene.run(1.0).go().unwrap_err().to_string();
+    assert!(refused.contains("slide past each other"), "{refused}");
+}
+
+/// A rigid disc between two active walls: three resolutions of the integrals, and layers, give it one motion.
+#[test]
+fn interfaces_beside_rigid_bodies() {
+    let disc = RigidBodySetup {
+        centre: [0.4, 0.3],
+        shape: DropletShape::Round { radius: 0.6 },
+        force: [3.0, -1.0],
+        ..RigidBodySetup::default()
+    };
+    for region in [BOX, Region::Channel { length: PERIOD, width: 5.0, drive: Drive::Gradient(-2.0) }] {
+        let motion = |method: Method| {
+            let setup = Setup { rigid_bodies: vec![disc.clone()], ..walls(method, region, Vec::new()) };
+            let Built { mut scene, rigid_bodies, interfaces, .. } = setup.build().unwrap();
+            (0..4).for_each(|_| scene.step(0.05).unwrap());
+            let body = scene.observe(rigid_bodies[0]).unwrap();
+            let wave = scene.observe(interfaces[1]).unwrap().height_modes.amplitude(1);
+            [body.velocity.x, body.velocity.y, body.spin, wave]
+        };
+        let nodes = |nodes: usize| motion(Method::Integral(IntegralMethod { nodes, cells: 96 }));
+        let [coarse, fine] = [24, 48].map(nodes);
+        let layers =
+            motion(Method::Layers(LayersMethod { nodes: 48, cells: 96, spacing: 0.125, ..LayersMethod::default() }));
+        for k in 0..4 {
+            let scale = 1e-5 * fine[0].abs().max(fine[1].abs());
+            assert!((coarse[k] - fine[k]).abs() < scale, "{region:?} {coarse:?} {fine:?}");
+            assert!((layers[k] - fine[k]).abs() < scale, "{region:?} {layers:?} {fine:?}");
+        }
+    }
 }

@@ -95,9 +95,9 @@ pub(crate) struct Cells<'a> {
 }
 
 impl Cells<'_> {
-    /// Factor of the flux through a face.
-    fn face(&self, k: usize) -> f64 {
-        self.faces.get(k).copied().unwrap_or(1.0)
+    /// Multiplies what is per length of a face by the lengths, where faces have one.
+    fn over_faces(&self, values: &mut [f64]) {
+        values.iter_mut().zip(self.faces).for_each(|(value, face)| *value *= face);
     }
 }
 
@@ -161,8 +161,9 @@ impl Transport {
                     .max(0.0)
                 }
             };
-            *flux = face * velocity * cells.face(k);
+            *flux = face * velocity;
         }
+        cells.over_faces(&mut self.fluxes);
         add_flux_differences(&self.fluxes, 1.0, rate);
     }
 
@@ -198,14 +199,14 @@ impl Transport {
         if !cells.sizes.iter().all(|&length| length > 0.0) {
             return numbers.fill(f64::NAN);
         }
-        let m = self.len();
         // Unknowns are the concentrations: l_k c_k - factor (g_{k+1} (c_{k+1} - c_k) - g_k (c_k - c_{k-1})) = n_k, a
         // symmetric matrix whose diagonal dominates.
-        for (k, diffusivity) in diffusivities.iter().enumerate() {
-            let conductance = factor * diffusivity * cells.face(k) / spacing_at(cells.lengths, k);
-            self.lower[k] = -conductance;
-            self.upper[before(k, 1, m)] = -conductance;
+        for (k, (lower, diffusivity)) in self.lower.iter_mut().zip(diffusivities).enumerate() {
+            *lower = -(factor * diffusivity / spacing_at(cells.lengths, k));
         }
+        cells.over_faces(&mut self.lower);
+        self.upper.copy_from_slice(&self.lower);
+        self.upper.rotate_left(1);
         for (k, size) in cells.sizes.iter().enumerate() {
             self.diagonal[k] = size - self.lower[k] - self.upper[k];
         }
@@ -224,8 +225,9 @@ impl Transport {
     fn diffuse(&mut self, cells: Cells<'_>, diffusivities: &[f64]) {
         let (c, m) = (&self.concentrations, self.concentrations.len());
         for (k, (flux, diffusivity)) in self.fluxes.iter_mut().zip(diffusivities).enumerate() {
-            *flux = -diffusivity * cells.face(k) * (c[k] - c[before(k, 1, m)]) / spacing_at(cells.lengths, k);
+            *flux = -diffusivity * (c[k] - c[before(k, 1, m)]) / spacing_at(cells.lengths, k);
         }
+        cells.over_faces(&mut self.fluxes);
     }
 }
 

@@ -5,7 +5,6 @@
 mod bending;
 mod body;
 mod build;
-mod elasticity;
 mod filter;
 pub(crate) mod geometry;
 mod limits;
@@ -15,7 +14,7 @@ mod spectral;
 
 use std::sync::Arc;
 
-use motile_base::{InputError, PeriodicSeries, Vec2};
+use motile_base::{InputError, Membrane, PeriodicSeries, Vec2};
 use motile_scene::{FluidView, points};
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +24,6 @@ use crate::{
     curve::{CrossingFinder, MINIMUM_MARKERS},
 };
 use bending::Bending;
-use elasticity::Elasticity;
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
 use limits::finest_response;
@@ -84,7 +82,7 @@ pub(crate) struct Law {
     /// Switch of the area constraint, which restores the area after each step.
     pub(crate) keeps_area: bool,
     /// Elasticity along the interface, if it is a membrane.
-    pub(crate) elasticity: Option<Elasticity>,
+    pub(crate) elasticity: Option<Membrane>,
     /// Bending, if the interface resists it.
     pub(crate) bending: Option<Bending>,
 }
@@ -263,7 +261,8 @@ impl ActiveInterface {
         let Law { elasticity, bending, .. } = &mut self.law;
         let Shape { markers, advance, .. } = &self.state.shape;
         if let Some(elasticity) = elasticity {
-            elasticity.add_forces(markers, *advance, forces)?;
+            elasticity.move_to(markers, Vec2::new(*advance, 0.0))?;
+            elasticity.add_forces(forces)?;
         }
         bending.as_mut().map_or(Ok(()), |bending| bending.add_forces(markers, *advance, forces))
     }

@@ -1,38 +1,17 @@
 //! Elastic membranes around fluid: shells and capsules.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use motile_base::{CurveForces, InputError, Vec2, all_points_finite, not_negative, positive, same_length};
-use motile_scene::{Body, BodyError, FluidView, MarkerKind, StepLimit, points};
-use serde::{Deserialize, Serialize};
+use motile_base::{BendingMeasure, Membrane, PeriodicSeries, Vec2, all_points_finite, positive, same_length};
+use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepLimit, points};
 
 use crate::{SolidError, rigid_body::closed_outline};
-
-/// Measure k of the bending of a membrane in its energy. The measures differ where the membrane is stretched too.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum BendingMeasure {
-    /// Curvature kappa, the angle by which the tangent turns per present length (1/length).
-    #[default]
-    Curvature,
-    /// Angle by which the tangent turns per reference length, kappa times the stretch (1/length): that of a chain of
-    /// links with hinges between them.
-    TurningAngle,
-}
 
 /// A closed elastic membrane that moves with the fluid, around fluid of its own viscosity: a shell inside a droplet, or
 /// a capsule.
 ///
-/// With the stretch lambda, the ratio of present and reference length, and the bending measure k (1/length), k0 at
-/// rest,
-///
-/// ```text
-/// energy = INT E_s/2 (lambda - 1)^2 + B/2 (k - k0)^2 dS          over the reference length S
-/// ```
-///
-/// Derivatives along the curve are those of the Fourier series through the markers, and the forces are minus the
-/// gradient of this energy by the markers exactly, so that they have neither resultant nor torque.
+/// Its energy and forces are those of a [`Membrane`]; deformation, angle and period of tank-treading in a flow are in
+/// `System::deformation`, strains in what a scene observes of it ([`ShellStrains`]).
 ///
 /// ```
 /// use elastic_solids::{Shell, SolidError};
@@ -50,15 +29,9 @@ pub enum BendingMeasure {
 pub struct Shell {
     name: String,
     positions: Vec<Vec2>,
-    stretching: f64,
-    bending: f64,
-    measure: BendingMeasure,
+    membrane: Membrane,
     viscosity_inside: Option<f64>,
-    /// Reference length per parameter (length), and bending measure at rest (1/length), at the markers.
-    lengths: Vec<f64>,
-    curvatures: Vec<f64>,
     area: f64,
-    curve: CurveForces,
     /// Truncation of the motion where the flow resolves fewer modes than there are markers.
     modes: Option<usize>,
     motions: Vec<Vec2>,
@@ -71,31 +44,16 @@ impl Shell {
     /// # Errors
     /// Fewer than 8 points, points that are not finite or coincide, no area, moduli that are negative or not finite.
     pub fn new(points: &[Vec2], stretching: f64, bending: f64) -> Result<Self, SolidError> {
-        not_negative("the stretching modulus", stretching)?;
-        not_negative("the bending modulus", bending)?;
         let (positions, area, _) = closed_outline(points)?;
-        let count = positions.len();
-        let mut shell = Self {
+        Ok(Self {
             name: "shell".to_owned(),
+            membrane: Membrane::new([stretching, bending], &positions, Vec2::ZERO)?,
+            motions: vec![Vec2::ZERO; positions.len()],
             positions,
-            stretching,
-            bending,
-            measure: BendingMeasure::default(),
             viscosity_inside: None,
-            lengths: Vec::new(),
-            curvatures: Vec::new(),
             area,
-            curve: CurveForces::new(count)?,
             modes: None,
-            motions: vec![Vec2::ZERO; count],
-        };
-        shell.curve.move_to(&shell.positions)?;
-        shell.lengths = shell.curve.measures().map(|[speed, _]| speed).collect();
-        for &length in &shell.lengths {
-            positive("the distance of neighbouring points", length)?;
-        }
-        shell.curvatures = shell.curve.measures().map(|[speed, cross]| cross / speed.powi(3)).collect();
-        Ok(shell)
+        })
     }
 
     /// Gives the shell a name for messages ("shell" otherwise).
@@ -107,17 +65,15 @@ impl Shell {
     /// Measures the bending in another way than by the curvature.
     #[must_use]
     pub fn with_measure(self, measure: BendingMeasure) -> Self {
-        Self { measure, ..self }
+        Self { membrane: self.membrane.with_measure(measure), ..self }
     }
 
     /// Puts the bending at rest at one curvature everywhere (1/length; positive for a circle), whatever the shape.
     ///
     /// # Errors
     /// A curvature that is not finite.
-    pub fn with_reference_curvature(mut self, curvature: f64) -> Result<Self, SolidError> {
-        all_points_finite("the reference curvature", &[Vec2::splat(curvature)])?;
-        self.curvatures.fill(curvature);
-        Ok(self)
+    pub fn with_reference_curvature(self, curvature: f64) -> Result<Self, SolidError> {
+        Ok(Self { membrane: self.membrane.with_reference_curvature(curvature)?, ..self })
     }
 
     /// Fills the shell with a fluid of another viscosity (stress times time) than that around it.
@@ -136,9 +92,9 @@ impl Shell {
         same_length("the points of a shell", self.positions.len(), points.len())?;
         all_points_finite("the points of a shell", points)?;
         self.positions.copy_from_slice(points);
-        self.curve.move_to(points)?;
-        for [speed, _] in self.curve.measures() {
-            positive("the distance of neighbouring points", speed)?;
+        self.membrane.move_to(points, Vec2::ZERO)?;
+        for [stretch, _] in self.membrane.strains() {
+            positive("the distance of neighbouring points", stretch)?;
         }
         Ok(self)
     }
@@ -158,47 +114,13 @@ impl Shell {
     /// Elastic energy (force times length).
     #[must_use]
     pub fn energy(&self) -> f64 {
-        let sum: f64 = self
-            .strains()
-            .zip(&self.lengths)
-            .map(|([stretch, bend], length)| {
-                length * (self.stretching * (stretch - 1.0).powi(2) + self.bending * bend * bend)
-            })
-            .sum();
-        0.5 * sum * TAU / self.positions.len() as f64
+        self.membrane.energy()
     }
 
-    /// Stretch, and change of the bending measure from that at rest (1/length), at each point.
-    fn strains(&self) -> impl Iterator<Item = [f64; 2]> {
-        let rest = self.lengths.iter().zip(&self.curvatures);
-        self.curve.measures().zip(rest).map(|([speed, cross], (length, curvature))| {
-            let stretch = speed / length;
-            let bend = cross / speed.powi(3);
-            let measured = match self.measure {
-                BendingMeasure::Curvature => bend,
-                BendingMeasure::TurningAngle => bend * stretch,
-            };
-            [stretch, measured - curvature]
-        })
-    }
-
-    /// Writes the elastic forces on the fluid (force): minus the gradient of the energy by the points.
-    fn forces(&mut self, forces: &mut [Vec2]) -> Result<(), InputError> {
-        let Self { curve, lengths, curvatures, stretching, bending, measure, .. } = self;
-        forces.fill(Vec2::ZERO);
-        let pull = |index: usize, [speed, cross]: [f64; 2]| {
-            let length = lengths[index];
-            // The measure is w over this power of v, over the reference length to make up for it.
-            let (power, unit) = match measure {
-                BendingMeasure::Curvature => (3, 1.0),
-                BendingMeasure::TurningAngle => (2, length),
-            };
-            let per_cross = 1.0 / (speed.powi(power) * unit);
-            let moment = *bending * (cross * per_cross - curvatures[index]) * length;
-            let along = *stretching * (speed / length - 1.0);
-            [along - f64::from(power) * moment * cross * per_cross / speed, moment * per_cross]
-        };
-        curve.add(pull, forces)
+    /// The membrane, in the shape whose forces were last written, or that the shell was given.
+    #[must_use]
+    pub fn membrane(&self) -> &Membrane {
+        &self.membrane
     }
 }
 
@@ -221,8 +143,9 @@ impl Body for Shell {
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.modes = view.shape_modes.filter(|&modes| modes < self.positions.len());
-        self.curve.move_to(&self.positions)?;
-        Ok(self.forces(forces)?)
+        self.membrane.move_to(&self.positions, Vec2::ZERO)?;
+        forces.fill(Vec2::ZERO);
+        Ok(self.membrane.add_forces(forces)?)
     }
 
     fn state_len(&self) -> usize {
@@ -246,7 +169,7 @@ impl Body for Shell {
         self.motions.copy_from_slice(velocities);
         if let Some(modes) = self.modes {
             // As long as the series, so that the call cannot fail.
-            let _ = self.curve.truncate(&mut self.motions, modes);
+            let _ = self.membrane.truncate(&mut self.motions, modes);
         }
         points::write(&self.motions, rate);
     }
@@ -262,13 +185,8 @@ impl Body for Shell {
             Some(modes) => PI * modes.min(count) as f64 / (count as f64 * shortest),
             None => 4.0 * view.interface_stiffness,
         };
-        let (mut stretched, mut tension) = (1.0_f64, 0.0_f64);
-        for [stretch, _] in self.strains() {
-            stretched = stretched.max(stretch).max(1.0 / stretch);
-            tension = tension.max(self.stretching * (stretch - 1.0).abs());
-        }
         let viscosities = view.viscosity + self.viscosity_inside.unwrap_or(view.viscosity);
-        let modulus = stretched * (self.stretching + self.bending * wave * wave) + tension;
+        let modulus = self.membrane.stiffness(wave);
         limits(StepLimit::decay(4.0 * viscosities / (wave * modulus), "the elastic membrane"));
     }
 
@@ -278,17 +196,49 @@ impl Body for Shell {
 
     /// Moduli, and the shape at rest.
     fn properties(&self) -> Vec<(String, f64)> {
-        let count = self.positions.len() as f64;
+        let ([stretching, bending], [length, curvature]) = (self.membrane.moduli(), self.membrane.at_rest());
         let mut properties = vec![
-            ("the number of markers", count),
-            ("the stretching modulus", self.stretching),
-            ("the bending modulus", self.bending),
-            ("the power of the stretch in the measure of bending", f64::from(self.measure as u8)),
-            ("the length at rest", self.lengths.iter().sum::<f64>() * TAU / count),
-            ("the mean curvature at rest", self.curvatures.iter().sum::<f64>() / count),
+            ("the number of markers", self.positions.len() as f64),
+            ("the stretching modulus", stretching),
+            ("the bending modulus", bending),
+            ("the power of the stretch in the measure of bending", f64::from(self.membrane.measure() as u8)),
+            ("the length at rest", length),
+            ("the mean curvature at rest", curvature),
         ];
         properties.extend(self.viscosity_inside.map(|viscosity| ("the viscosity inside", viscosity)));
         properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+}
+
+/// Strains of a shell along the trigonometric interpolants of those at its markers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ShellStrains {
+    /// Largest and smallest stretch (no dimension).
+    pub stretches: [f64; 2],
+    /// Largest and smallest tension T (force), as in [`Membrane::tensions`].
+    pub tensions: [f64; 2],
+    /// Elastic energy (force times length).
+    pub energy: f64,
+}
+
+impl Observe for Shell {
+    type Observables = ShellStrains;
+
+    fn observables(&self, _view: &FluidView, _flow: &BodyFlow<'_>) -> Result<ShellStrains, BodyError> {
+        let mut membrane = self.membrane.clone();
+        membrane.move_to(&self.positions, Vec2::ZERO)?;
+        let mut series = PeriodicSeries::new(self.positions.len())?;
+        let mut range = |values: &mut dyn Iterator<Item = f64>| -> Result<[f64; 2], BodyError> {
+            let values: Vec<_> = values.map(|value| value.into()).collect();
+            series.analyse(values.into_iter())?;
+            Ok(series.range()?)
+        };
+        Ok(ShellStrains {
+            stretches: range(&mut membrane.strains().map(|[stretch, _]| stretch))?,
+            tensions: range(&mut membrane.tensions())?,
+            energy: membrane.energy(),
+        })
     }
 }
 

@@ -33,14 +33,21 @@ impl Frame {
     /// Square of the distance of a point from the nearest image of the box (length squared); zero inside.
     #[inline]
     fn squared_distance(&self, point: Vec2, periods: &Periods) -> f64 {
-        let squared = |from: Vec2| {
-            let away = from.abs() - self.half;
-            away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
-        };
-        if periods.tilt == 0.0 {
-            return squared(periods.wrap(point - self.centre));
-        }
-        periods.rows(point - self.centre).map(squared).fold(f64::INFINITY, f64::min)
+        let from = point - self.centre;
+        if periods.tilt == 0.0 { self.squared_from(periods.wrap(from)) } else { self.squared_from_rows(from, periods) }
+    }
+
+    #[inline]
+    fn squared_from(&self, from: Vec2) -> f64 {
+        let away = from.abs() - self.half;
+        away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
+    }
+
+    /// The least over the rows of images of a sheared domain, out of the way of those that are not.
+    #[cold]
+    #[inline(never)]
+    fn squared_from_rows(&self, from: Vec2, periods: &Periods) -> f64 {
+        periods.rows(from).map(|from| self.squared_from(from)).fold(f64::INFINITY, f64::min)
     }
 
     /// True where the distance from an image of another box is at most `reach` (length).

@@ -27,8 +27,9 @@
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
-//! curve ([`PeriodicSeries`]), and the forces of energies of such curves ([`CurveForces`]). Every length is correct,
-//! odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
+//! curve ([`PeriodicSeries`]), the forces of energies of such curves ([`CurveForces`]) and elastic membranes along them
+//! ([`Membrane`]). Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and
+//! 11 are fast.
 //!
 //! # Input
 //!
@@ -52,6 +53,7 @@ mod explanation;
 mod flow;
 mod imposed;
 mod input;
+mod membrane;
 pub mod polygon;
 mod real;
 mod region;
@@ -70,6 +72,7 @@ pub use imposed::ImposedFlow;
 pub use input::{
     InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,
 };
+pub use membrane::{BendingMeasure, Membrane};
 pub use real::RealTransform;
 pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;

@@ -110,6 +110,26 @@ impl PeriodicSeries {
         &self.values
     }
 
+    /// Largest and smallest real part of the series over its period, not only at the places of the samples: by
+    /// interpolation to sixteen times as many and parabolas through three of those.
+    ///
+    /// # Errors
+    /// More samples than a [`ComplexTransform`] takes.
+    pub fn range(&self) -> Result<[f64; 2], InputError> {
+        const FINER: usize = 16;
+        let mut fine = Self::new(FINER * self.len())?;
+        fine.resample(self);
+        let values = fine.values();
+        let extreme = |sign: f64| {
+            let at = |k: usize| sign * values[k % values.len()].re;
+            let most = (0..values.len()).max_by(|&a, &b| at(a).total_cmp(&at(b))).unwrap_or(0);
+            let [before, here, after] = [most + values.len() - 1, most, most + 1].map(at);
+            let (slope, bend) = (0.5 * (after - before), after - 2.0 * here + before);
+            sign * if bend < 0.0 { here - 0.5 * slope * slope / bend } else { here }
+        };
+        Ok(if self.is_empty() { [f64::NAN; 2] } else { [extreme(1.0), extreme(-1.0)] })
+    }
+
     /// The values at the places of the samples, as vectors of the plane.
     ///
     /// # Errors

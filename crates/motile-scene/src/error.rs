@@ -352,6 +352,15 @@ pub enum SceneError {
         /// The integrator's name.
         integrator: &'static str,
     },
+    /// Parts of the motion that an integrator would have to treat implicitly and does not.
+    #[error(
+        "{integrator} does not step what bodies have implicit, such as the diffusion of particles: use the midpoint \
+         rule or the Runge-Kutta-Chebyshev method"
+    )]
+    ImplicitParts {
+        /// The integrator's name.
+        integrator: &'static str,
+    },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
         "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: take a larger \

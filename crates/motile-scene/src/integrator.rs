@@ -3,11 +3,13 @@
 mod chebyshev;
 mod error_estimate;
 mod midpoint;
+mod runge_kutta;
 mod spectral_radius;
 
 pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
 pub(crate) use error_estimate::ErrorEstimate;
 pub use midpoint::Midpoint;
+pub use runge_kutta::RungeKutta;
 
 use std::any::Any;
 
@@ -77,6 +79,8 @@ pub enum IntegratorKind {
     Midpoint,
     /// [`RungeKuttaChebyshev`] with at most 16 stages, for stiff solids.
     RungeKuttaChebyshev,
+    /// [`RungeKutta`], of fourth order, for scenes without particles.
+    RungeKutta,
 }
 
 impl From<IntegratorKind> for Box<dyn Integrator> {
@@ -84,6 +88,7 @@ impl From<IntegratorKind> for Box<dyn Integrator> {
         match kind {
             IntegratorKind::Midpoint => Box::new(Midpoint::default()),
             IntegratorKind::RungeKuttaChebyshev => Box::new(RungeKuttaChebyshev::new()),
+            IntegratorKind::RungeKutta => Box::new(RungeKutta::default()),
         }
     }
 }

@@ -134,15 +134,20 @@ impl Model {
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "give the method of boundary integrals");
         };
+        if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
+            return refuse(
+                "the scene has a shell or an interface that is periodic along x, whose points go on moving along it",
+                "run it until its deformation no longer changes (System::deformation)",
+            );
+        }
         let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
             return refuse("the scene is not of one droplet", "give one droplet");
         };
         if !setup.flow.is_none() && matches!(setup.region, Region::Box { .. }) {
-            return refuse("the images of a sheared box move for ever", "give the plane or a channel");
+            return refuse("the images of a sheared box move for ever", "give the plane or a channel, or run it");
         }
-        if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some()
-        {
-            return refuse("the scene has solids, shells, shaped walls or a repulsion", "leave them out");
+        if !(setup.solids.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some() {
+            return refuse("the scene has solids, shaped walls or a repulsion", "leave them out");
         }
         if setup.region.half_length().is_some() {
             return refuse("nothing is steady in a tube that is not straight", "give a straight one");

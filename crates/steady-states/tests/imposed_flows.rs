@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
+use motile::motile_base::Region;
 use motile::prelude::*;
+use motile::setup::ShellSetup;
 use steady_states::{Branch, BranchPoint, Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
 
 const SHEAR: FlowSetup = FlowSetup { shear: 1.0, extension: 0.0, rotation: 0.0, poiseuille: None, wall_velocity: None };
@@ -158,6 +160,12 @@ fn flows_that_no_state_is_steady_in() {
     let drop = drop_in(SHEAR, 1.0, 0.1, 32);
     let refused = SteadyState::uniform(&drop).unwrap_err().to_string();
     assert!(refused.contains("deformed by the imposed flow"), "{refused}");
+    let boxed = Setup { region: Region::Box { lengths: [6.0; 2] }, ..drop.clone() };
+    let refused = SteadyState::find(&boxed).unwrap_err().to_string();
+    assert!(refused.contains("images of a sheared box move") && refused.contains("run it"), "{refused}");
+    let capsule = Setup { droplets: Vec::new(), shells: vec![ShellSetup::default()], ..drop };
+    let refused = SteadyState::find(&capsule).unwrap_err().to_string();
+    assert!(refused.contains("has a shell") && refused.contains("run it until"), "{refused}");
     let refused = Parameter::ShearRate.with(&Setup::default(), 1.0).unwrap_err().to_string();
     assert!(refused.contains("no parameter shear"), "{refused}");
 }

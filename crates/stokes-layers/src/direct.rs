@@ -30,6 +30,7 @@ macro_rules! with_kernel {
             AnyPair::Free($kernel) => $body,
             AnyPair::Row($kernel) => $body,
             AnyPair::Lattice($kernel) => $body,
+            AnyPair::Sheared($kernel) => $body,
         }
     };
 }

@@ -253,7 +253,8 @@ impl InterfaceFlow {
     /// # Errors
     /// A viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one,
     /// where round-off shows; positions or forces that are not finite, too few or too many points, a clockwise curve, a
-    /// node beyond a wall.
+    /// node beyond a wall; beside open interfaces a sheared box, or between fluids of different viscosity a prescribed
+    /// flux.
     pub fn load<'a>(&mut self, interfaces: impl Iterator<Item = Interface<'a>> + Clone) -> Result<(), LayerError> {
         self.equation.clear();
         for Interface { inside, viscosity_outside: outside, .. } in interfaces.clone() {
@@ -267,6 +268,7 @@ impl InterfaceFlow {
             }
             self.equation.push(inside, outside);
         }
+        self.layers.at_walls = self.viscosities_at_walls(interfaces.clone())?.map(|eta| eta / self.viscosity);
         let nodes = self.settings.nodes;
         let given = |Interface { positions, forces, period, .. }| (LayerCurve { positions, period, nodes }, forces);
         let before = self.len();
@@ -280,6 +282,38 @@ impl InterfaceFlow {
             walls.checked = true;
         }
         Ok(())
+    }
+
+    /// Viscosities below the lowest and above the highest open interface, at the walls of a channel (stress times
+    /// time).
+    fn viscosities_at_walls<'a>(
+        &self,
+        interfaces: impl Iterator<Item = Interface<'a>>,
+    ) -> Result<[f64; 2], LayerError> {
+        let mut found = [(f64::INFINITY, self.viscosity), (f64::NEG_INFINITY, self.viscosity)];
+        let drive = self.region.drive().unwrap_or(Drive::ZeroGradient);
+        let sheared = matches!(self.region, Region::Box { .. }) && !self.layers.imposed.is_none();
+        for Interface { positions, period, inside, viscosity_outside: outside, .. } in interfaces {
+            let (Inside::Fluid { viscosity: inside }, true) = (inside, period.x != 0.0) else { continue };
+            if sheared {
+                let flow = "a shear of a box with interfaces that are periodic along x, whose images slide past each \
+                            other,";
+                return Err(LayerError::NoSuchFlow { flow, remedy: "use a channel with walls that slide" });
+            }
+            if drive.flux().is_some() && inside != outside {
+                let flow = "a flux along interfaces that are periodic along x, between fluids of different viscosity,";
+                return Err(LayerError::NoSuchFlow { flow, remedy: "prescribe the pressure gradient" });
+            }
+            let height = positions.iter().map(|x| x.y).sum::<f64>() / positions.len() as f64;
+            let [below, above] = if period.x > 0.0 { [outside, inside] } else { [inside, outside] };
+            if height < found[0].0 {
+                found[0] = (height, below);
+            }
+            if height > found[1].0 {
+                found[1] = (height, above);
+            }
+        }
+        Ok(found.map(|(_, viscosity)| viscosity))
     }
 
     /// Computes the single layer of the interfaces, at walls too.

@@ -53,6 +53,8 @@ pub(crate) struct Layers {
     pub(crate) walls: Option<Walls>,
     /// The imposed flow, without what the drive of a channel drives.
     pub(crate) imposed: ImposedFlow,
+    /// Viscosities at the lower and upper wall of a channel over that of the exterior fluid.
+    pub(crate) at_walls: [f64; 2],
     close: CloseCorrection,
     /// Flow of the last layer at the nodes.
     pub(crate) flow: Vec<Vectors>,
@@ -89,6 +91,7 @@ impl Layers {
             multipoles: Multipoles::new(region, tolerance)?,
             walls,
             imposed: ImposedFlow::NONE,
+            at_walls: [1.0; 2],
             close: CloseCorrection::new(tolerance, symmetry),
             flow: Vec::new(),
             fine: Vec::new(),
@@ -300,12 +303,20 @@ impl Layers {
         close.add_dipoles(curves, plans, density, flow);
     }
 
-    /// The imposed flow together with what the drive of a channel drives in fluid of that viscosity.
-    pub(crate) fn forced_flow(&self, viscosity: f64) -> ImposedFlow {
+    /// The imposed flow over the viscosity of the exterior fluid times that of the fluid that drives it: beside a wall
+    /// that slides, the one there.
+    fn forcing(&self) -> ImposedFlow {
         match &self.walls {
-            Some(walls) => self.imposed + walls.driven_flow(&self.imposed, viscosity),
-            None => self.imposed,
+            Some(walls) if self.at_walls != [1.0; 2] => walls.sliding(&self.imposed, self.at_walls),
+            _ => self.imposed,
         }
+    }
+
+    /// The imposed flow together with what the drive of a channel drives in fluid of that viscosity, of the exterior
+    /// fluid, in units of velocity there.
+    pub(crate) fn forced_flow(&self, viscosity: f64) -> ImposedFlow {
+        let forcing = self.forcing();
+        self.walls.as_ref().map_or(forcing, |walls| forcing + walls.driven_flow(&forcing, viscosity))
     }
 
     /// Prescribes the mean pressure gradient along a channel (force per volume).
@@ -335,7 +346,7 @@ impl Layers {
     pub(crate) fn pressure_gradient(&self, density: Density<'_>, viscosity: f64) -> f64 {
         self.walls
             .as_ref()
-            .map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, &self.imposed, viscosity))
+            .map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, &self.forcing(), viscosity))
     }
 
     /// Interpolates velocities to the fine nodes.
@@ -349,13 +360,16 @@ impl Layers {
         }
     }
 
-    /// Mean of the double layer in a box, 4 pi/area times the sum of X v.n, which its flow is reduced by.
+    /// Mean of the double layer in a box, 4 pi/area times the sum of X v.n, which its flow is reduced by, so that the
+    /// mean of the velocity is zero. The x component of an interface that is periodic along x depends on where its
+    /// period begins: there the mean of viscosity times velocity is.
     pub(crate) fn mean_flow(&self, density: Density<'_>) -> Option<Complex64> {
         let Region::Box { lengths: [lx, ly] } = self.region else { return None };
         let mut sum = Complex64::default();
         for (index, (curve, contrast)) in self.curves.iter().zip(density.contrasts).enumerate() {
             let (vx, vy) = density.of(index);
             for (i, (z, t)) in curve.nodes.position.iter().zip(&curve.nodes.tangent).enumerate() {
+                let z = if curve.is_open() { Complex64::new(0.0, z.im) } else { *z };
                 sum += z * ((vx[i] * t.im - vy[i] * t.re) * contrast * curve.weight());
             }
         }

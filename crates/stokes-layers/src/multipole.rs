@@ -144,9 +144,10 @@ impl Multipoles {
         let kernel = match self.region {
             Region::Plane | Region::Space | Region::Tube { .. } => AnyPair::Free(FreePair { offset }),
             Region::Channel { length, .. } => AnyPair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
-            Region::Box { lengths } => {
-                AnyPair::Lattice(LatticePair::new(lengths, self.images.tilt(), offset, self.tolerance))
-            }
+            Region::Box { lengths } => match self.images.tilt() {
+                0.0 => AnyPair::Lattice(LatticePair::new(lengths, 0.0, offset, self.tolerance)),
+                tilt => AnyPair::Sheared(LatticePair::new(lengths, tilt, offset, self.tolerance)),
+            },
         };
         CurvePair { target, source, own, kernel }
     }

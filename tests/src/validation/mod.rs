@@ -19,6 +19,7 @@ pub mod fixed_shapes;
 pub mod flat;
 pub mod growth;
 pub mod headings;
+pub mod imposed;
 pub mod interfaces;
 pub mod lateral;
 mod order;

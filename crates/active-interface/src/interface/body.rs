@@ -146,8 +146,9 @@ impl Body for ActiveInterface {
             push("the diffusion constant", self.diffusion());
         }
         if let Some(elasticity) = &self.law.elasticity {
-            push("the stretching modulus", elasticity.stretching);
-            push("the bending modulus", elasticity.bending);
+            let [stretching, bending] = elasticity.moduli();
+            push("the stretching modulus", stretching);
+            push("the bending modulus", bending);
         }
         if let Some(bending) = &self.law.bending {
             push("the bending modulus", bending.modulus);

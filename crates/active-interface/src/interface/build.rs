@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use motile_base::{InputError, Vec2, all_finite, finite, not_negative, positive, same_length};
+use motile_base::{InputError, Membrane, Vec2, all_finite, finite, not_negative, positive, same_length};
 
 use super::{
-    Account, ActiveInterface, Bending, Derived, Elasticity, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve,
-    State, geometry::Geometry,
+    Account, ActiveInterface, Bending, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
+    geometry::Geometry,
 };
 use crate::{
     Flux, InterfaceError, Tension,
@@ -170,20 +170,19 @@ impl ActiveInterface {
     /// # Errors
     /// A closed interface, moduli that are negative or not finite.
     pub fn with_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, InterfaceError> {
-        not_negative("the stretching modulus", stretching)?;
-        not_negative("the bending modulus", bending)?;
         if self.advance() == 0.0 {
             return Err(InterfaceError::ClosedMembrane);
         }
         self.law.motion = Motion::WithFluid;
-        self.law.elasticity = Some(Elasticity::new(stretching, bending, self.markers(), self.advance())?);
+        let advance = Vec2::new(self.advance(), 0.0);
+        self.law.elasticity = Some(Membrane::new([stretching, bending], self.markers(), advance)?);
         Ok(self)
     }
 
     /// Elastic energy of the shape whose forces were last written (force times length); zero without elasticity.
     #[must_use]
     pub fn elastic_energy(&self) -> f64 {
-        self.law.elasticity.as_ref().map_or(0.0, Elasticity::energy)
+        self.law.elasticity.as_ref().map_or(0.0, Membrane::energy)
     }
 
     /// Bounds the relative changes of the area and of the number of particles since the start, beyond which a step is

@@ -89,20 +89,20 @@ impl Geometry {
         Cells { sizes, lengths, faces: &rings.circles }
     }
 
-    /// Weight of a marker in an integral over the interface (length, or length squared).
-    fn weight(&self, marker: usize) -> f64 {
-        self.rings.weights.get(marker).copied().unwrap_or(self.weights[marker])
+    /// Weights of the markers in an integral over the interface (length, or length squared).
+    fn all_weights(&self) -> &[f64] {
+        if self.rings.weights.is_empty() { &self.weights } else { &self.rings.weights }
     }
 
     /// Volume of a body of revolution through these markers (length cubed).
     pub(crate) fn volume(&self, markers: &[Vec2]) -> f64 {
-        let parts = markers.iter().zip(&self.tangents).enumerate();
-        parts.map(|(k, (x, tau))| self.weight(k) * (x - markers[0]).dot(outward(*tau)) / 3.0).sum()
+        let parts = markers.iter().zip(&self.tangents).zip(self.all_weights());
+        parts.map(|((x, tau), weight)| weight * (x - markers[0]).dot(outward(*tau)) / 3.0).sum()
     }
 
     /// Length of the interface, or area of a surface of revolution by the markers' weights.
     pub(crate) fn total_weight(&self) -> f64 {
-        (0..self.weights.len()).map(|k| self.weight(k)).sum()
+        self.all_weights().iter().sum()
     }
 
     /// Mean length of the segments (length).
@@ -128,8 +128,7 @@ pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
 /// area or volume enclosed stays.
 pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], motion: &mut [Vec2]) {
     let (mut flux, mut total) = (0.0, 0.0);
-    for (k, (u, tau)) in velocities.iter().zip(&geometry.tangents).enumerate() {
-        let w = geometry.weight(k);
+    for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(geometry.all_weights()) {
         flux += u.dot(outward(*tau)) * w;
         total += w;
     }

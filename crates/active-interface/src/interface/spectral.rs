@@ -52,10 +52,13 @@ impl SpectralCurve {
         geometry.stretch.resize(self.len(), 0.0);
         let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
+        let relative = markers.iter().map(|x| Complex64::new(x.x - markers[0].x, x.y - markers[0].y));
         let (step, slope) = (advance / self.len() as f64, advance / TAU);
-        let relative =
-            |(k, x): (usize, &Vec2)| Complex64::new(x.x - markers[0].x - step * k as f64, x.y - markers[0].y);
-        analyse(&mut self.vectors, markers.iter().enumerate().map(relative));
+        if advance == 0.0 {
+            analyse(&mut self.vectors, relative);
+        } else {
+            analyse(&mut self.vectors, relative.enumerate().map(|(k, z)| z - step * k as f64));
+        }
         self.vectors.differentiate();
         for (k, tangent) in self.vectors.values().iter().map(|tangent| tangent + slope).enumerate() {
             let stretch = tangent.norm();

@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -18,7 +20,7 @@ fn curve(radius: f64, modes: &[[f64; 2]]) -> Vec<Vec2> {
 
 fn forces(shell: &mut Shell) -> Vec<Vec2> {
     let mut forces = vec![Vec2::ZERO; COUNT];
-    shell.forces(&mut forces).unwrap();
+    shell.write_forces(&crate::solid::tests::fluid_view(), &mut forces).unwrap();
     forces
 }
 

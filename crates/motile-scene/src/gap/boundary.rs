@@ -57,19 +57,25 @@ impl Nearest {
             (from_middle[k].abs() + 0.5 * along[k].abs() > 0.5 * period).then(|| -period.copysign(from_middle[k]))
         };
         if periods.tilt != 0.0 {
-            let row = |k: f64| Vec2::new(k * periods.tilt, k * periods[1].unwrap_or(0.0));
-            for shift in [row(0.0), row(1.0), row(-1.0)] {
-                let from = Periods { lengths: [periods[0], None], tilt: 0.0 }.wrap(from_middle + shift);
-                let step = periods[0].unwrap_or(0.0);
-                [0.0, step, -step].into_iter().for_each(|x| self.look_at(number, along, from + Vec2::new(x, 0.0)));
-            }
-            return;
+            return self.look_at_rows(number, along, from_middle, periods);
         }
         let [x, y] = [other(0), other(1)];
         for dx in [Some(0.0), x].into_iter().flatten() {
             for dy in [Some(0.0), y].into_iter().flatten() {
                 self.look_at(number, along, from_middle + Vec2::new(dx, dy));
             }
+        }
+    }
+
+    /// Looks at the images of a side in a sheared domain, out of the way of domains that are not.
+    #[cold]
+    #[inline(never)]
+    fn look_at_rows(&mut self, number: usize, along: Vec2, from_middle: Vec2, periods: Periods) {
+        let row = |k: f64| Vec2::new(k * periods.tilt, k * periods[1].unwrap_or(0.0));
+        for shift in [row(0.0), row(1.0), row(-1.0)] {
+            let from = Periods { lengths: [periods[0], None], tilt: 0.0 }.wrap(from_middle + shift);
+            let step = periods[0].unwrap_or(0.0);
+            [0.0, step, -step].into_iter().for_each(|x| self.look_at(number, along, from + Vec2::new(x, 0.0)));
         }
     }
 

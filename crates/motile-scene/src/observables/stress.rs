@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile_base::{ImposedFlow, InputError, PeriodicSeries, Vec2};
 
-use crate::{Hydrodynamics, Markers, SceneError, System};
+use crate::{FlowError, Hydrodynamics, Markers, SceneError, System};
 
 /// Mean stress of a periodic box and the part of its bodies in it (Batchelor, J. Fluid Mech. 41, 545 (1970)),
 ///
@@ -98,8 +98,14 @@ impl<H: Hydrodynamics> System<H> {
     /// bodies inside others are apart. Closed curves are integrated by their trigonometric interpolants.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`].
+    /// Those of [`System::evaluate`]; [`FlowError::Unsupported`] beside interfaces that are periodic along x, whose
+    /// tension pulls across the ends of a period.
     pub fn stresslets(&mut self) -> Result<Vec<[[f64; 2]; 2]>, SceneError> {
+        if self.markers().groups().iter().any(|group| group.kind.advance().is_some()) {
+            let what = "the stresslet of an interface that is periodic along x";
+            let remedy = "average the stress over a horizontal line that crosses no interface, by `System::sample`";
+            return Err(SceneError::Flow { time: self.time(), source: FlowError::Unsupported { what, remedy } });
+        }
         self.evaluate()?;
         let viscosity = self.hydrodynamics().fluid_view().viscosity;
         let markers = self.markers();
@@ -110,12 +116,12 @@ impl<H: Hydrodynamics> System<H> {
     /// Mean stress of a periodic box.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`]; [`crate::FlowError::Unsupported`] where the region is no box.
+    /// Those of [`System::stresslets`]; [`FlowError::Unsupported`] where the region is no box.
     pub fn stress(&mut self) -> Result<Stress, SceneError> {
         let view = self.hydrodynamics().fluid_view();
         let [Some(lx), Some(ly)] = *view.domain.periods else {
             let (what, remedy) = ("the mean stress of a region without an area", "use a periodic box, or `stresslets`");
-            return Err(SceneError::Flow { time: self.time(), source: crate::FlowError::Unsupported { what, remedy } });
+            return Err(SceneError::Flow { time: self.time(), source: FlowError::Unsupported { what, remedy } });
         };
         let mut total = [[0.0; 2]; 2];
         for stresslet in self.stresslets()? {

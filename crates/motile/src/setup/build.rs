@@ -193,6 +193,18 @@ impl Setup {
         })
     }
 
+    /// The like for an elastic membrane, of at least three markers for each two modes of its shape: products of more
+    /// modes than that would pass for others in its energy, and waves that do not exist grow.
+    pub(super) fn membrane_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
+        let count = self.marker_count(curve, name)?;
+        Ok(match self.method {
+            Method::Integral(IntegralMethod { nodes, .. }) | Method::Layers(LayersMethod { nodes, .. }) => {
+                count.max(nodes + nodes.div_ceil(2))
+            }
+            Method::Grid(_) => count,
+        })
+    }
+
     /// The flow of this scene, for scenes that are put together by hand.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use active_interface::Motion;
 use ib_core::AnyKernel;
 use motile_base::{Drive, Region, TubeShape};
-use motile_scene::StepSize;
+use motile_scene::{StepSize, integrator::IntegratorKind};
 
 use super::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked};
 use crate::SetupError;
@@ -61,6 +61,9 @@ impl Setup {
             StepSize::Adaptive { tolerance } => ("step.adaptive.tolerance", tolerance.to_string()),
             other => ("step", format!("{other:?}")),
         };
+        if self.integrator == IntegratorKind::RungeKutta {
+            self.check_no_diffusion()?;
+        }
         self.step.check().or_else(|error| top.refuse(key, &value, error.to_string()))?;
         if let Some(repulsion) = self.repulsion {
             top.positive("repulsion.strength", repulsion.strength())?;
@@ -89,6 +92,19 @@ impl Setup {
             return top.refuse("region.tube.drive", &format!("{drive:?}"), remedy);
         }
         Ok(())
+    }
+
+    /// Refuses particles and gels, parts of whose motion are stiffer than an integrator without implicit parts steps.
+    fn check_no_diffusion(&self) -> Result<(), SetupError> {
+        let has = self.droplets.iter().any(|droplet| droplet.particles.is_some() || droplet.gel.is_some())
+            || self.interfaces.iter().any(|interface| interface.particles.is_some())
+            || !self.gels.is_empty();
+        if !has {
+            return Ok(());
+        }
+        let remedy = "it does not step particles or gels, whose diffusion is implicit: give \"midpoint\" or \
+                      \"runge-kutta-chebyshev\"";
+        Checked { place: "" }.refuse("integrator", &"runge-kutta", remedy)
     }
 
     /// Refuses what has no meaning or no method for bodies of revolution in three dimensions.

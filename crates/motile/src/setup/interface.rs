@@ -168,7 +168,9 @@ impl Setup {
         let advance = if interface.inside == Side::Above { length } else { -length };
         let count = match &self.method {
             Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
-                *cells.max(nodes)
+                // As many to a mode as `membrane_count` gives a shell.
+                let least = if interface.elasticity.is_some() { nodes + nodes.div_ceil(2) } else { *nodes };
+                least.max(*cells)
             }
             Method::Grid(grid) => (length / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)).ceil() as usize,
         };
@@ -244,6 +246,11 @@ impl BodySetup for InterfaceSetup {
         checked.finite("height", self.height)?;
         if let Some(viscosity) = self.viscosity {
             checked.positive("viscosity", viscosity)?;
+            let flux = setup.region.drive().and_then(|drive| drive.flux());
+            if let Some(flux) = flux.filter(|_| viscosity != setup.viscosity) {
+                let remedy = "a flux along layers of different viscosity is not computed: give a gradient";
+                return Checked { place: "region.channel.drive" }.refuse("flux", &flux, remedy);
+            }
         }
         checked.not_negative("tension", self.tension)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {

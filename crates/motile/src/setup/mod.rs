@@ -83,7 +83,8 @@ pub struct Setup {
     pub flow: FlowSetup,
     /// Length of the steps of runs.
     pub step: StepSize,
-    /// Integrator of the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids.
+    /// Integrator of the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids, `"runge-kutta"`, of fourth
+    /// order, for scenes without particles.
     pub integrator: IntegratorKind,
     /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
     /// thinner than is resolved; no part of the physics of the model.

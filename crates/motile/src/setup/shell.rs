@@ -70,7 +70,7 @@ impl BodySetup for ShellSetup {
             Ok(shape.curve()?.0.rotated(self.angle).translated(self.centre.into()))
         };
         let curve = placed(&self.shape)?;
-        let markers = setup.outline(&curve, setup.marker_count(&curve, &self.name)?)?;
+        let markers = setup.outline(&curve, setup.membrane_count(&curve, &self.name)?)?;
         let mut shell = match &self.rest {
             None => Shell::new(&markers, self.stretching, self.bending)?,
             Some(rest) => {

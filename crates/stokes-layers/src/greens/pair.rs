@@ -163,9 +163,9 @@ impl PairKernel for RowPair {
 }
 
 /// All images of a periodic box as rows along x: the row of the nodes themselves and those beside it, whose functions
-/// fall off like `exp(-k |y|)`.
+/// fall off like `exp(-k |y|)`; in a box that is `SHEARED` the rows are displaced along x.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LatticePair {
+pub(crate) struct LatticePair<const SHEARED: bool> {
     row: RowPair,
     /// Period across the rows (length).
     across: f64,
@@ -175,7 +175,7 @@ pub(crate) struct LatticePair {
     turn: [f64; 2],
 }
 
-impl LatticePair {
+impl<const SHEARED: bool> LatticePair<SHEARED> {
     /// The kernel for a source whose centre lies `offset` (length) from that of the target, with as many rows of images
     /// as bring the rest below `tolerance`; each is displaced by `tilt` along x (length) from the one below.
     pub(crate) fn new([lx, ly]: [f64; 2], tilt: f64, offset: [f64; 2], tolerance: f64) -> Self {
@@ -194,8 +194,13 @@ impl LatticePair {
         let (mut shrink, [mut c, mut s]) = (1.0, [1.0, 0.0]);
         for m in 1..=self.rows {
             shrink *= self.decay;
-            [c, s] = [c * self.turn[0] - s * self.turn[1], s * self.turn[0] + c * self.turn[1]];
             let height = self.across * m as f64;
+            if !SHEARED {
+                take(down * down * shrink, [cos, sin], terms.dy + height, 1.0);
+                take(up * up * shrink, [cos, sin], terms.dy - height, -1.0);
+                continue;
+            }
+            [c, s] = [c * self.turn[0] - s * self.turn[1], s * self.turn[0] + c * self.turn[1]];
             take(down * down * shrink, [cos * c - sin * s, sin * c + cos * s], terms.dy + height, 1.0);
             take(up * up * shrink, [cos * c + sin * s, sin * c - cos * s], terms.dy - height, -1.0);
         }
@@ -207,7 +212,7 @@ impl LatticePair {
     }
 }
 
-impl PairKernel for LatticePair {
+impl<const SHEARED: bool> PairKernel for LatticePair<SHEARED> {
     #[inline(always)]
     fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
         let k = self.row.k;
@@ -250,13 +255,13 @@ impl PairKernel for LatticePair {
         let [mut xx, mut xy, mut yy] = self.row.diagonal(tx, ty);
         let terms = RowTerms { s: 0.0, c: 1.0, sh: 0.0, ch: 1.0, dy: 0.0 };
         self.beside(&terms, |b, [cos, sin], y, side| {
-            let (log, bend) = if cos == 1.0 {
-                ((1.0 - b).ln(), side * self.row.k * y * b / (1.0 - b))
-            } else {
+            let (log, bend) = if SHEARED {
                 let e = 1.0 - 2.0 * b * cos + b * b;
                 let factor = self.row.k * y * b / e;
                 xy += factor * sin;
                 (0.5 * e.ln(), side * factor * (cos - b))
+            } else {
+                ((1.0 - b).ln(), side * self.row.k * y * b / (1.0 - b))
             };
             xx -= log + bend;
             yy -= log - bend;
@@ -270,5 +275,6 @@ impl PairKernel for LatticePair {
 pub(crate) enum AnyPair {
     Free(FreePair),
     Row(RowPair),
-    Lattice(LatticePair),
+    Lattice(LatticePair<false>),
+    Sheared(LatticePair<true>),
 }

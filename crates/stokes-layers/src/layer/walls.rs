@@ -16,7 +16,7 @@ use crate::{
     plan::Plan,
     transforms::REFINEMENT,
 };
-use motile_base::{Drive, ImposedFlow};
+use motile_base::{Drive, ImposedFlow, Vec2};
 
 /// Part of the half width by which a node may lie beyond a wall: round-off of positions that touch it, which are sums
 /// of some thousand steps.
@@ -191,6 +191,12 @@ impl Walls {
         self.modes.begin(self.gap, self.gap, accuracy);
         self.put_dipoles(curves, density, self.refined.then_some(fine), self.gap, 1.0);
         self.add_modes(out);
+    }
+
+    /// The Couette flow of walls that slide, the lower and the upper one faster by these factors.
+    pub(crate) fn sliding(&self, imposed: &ImposedFlow, factors: [f64; 2]) -> ImposedFlow {
+        let at = |wall: usize, y: f64| factors[wall] * imposed.velocity_at(Vec2::new(0.0, y)).x;
+        ImposedFlow::couette([at(0, -self.half), at(1, self.half)], 2.0 * self.half)
     }
 
     /// The parabolic flow that the drive drives besides an imposed one.
