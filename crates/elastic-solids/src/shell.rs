@@ -230,7 +230,7 @@ impl Observe for Shell {
         membrane.move_to(&self.positions, Vec2::ZERO)?;
         let mut series = PeriodicSeries::new(self.positions.len())?;
         let mut range = |values: &mut dyn Iterator<Item = f64>| -> Result<[f64; 2], BodyError> {
-            let values: Vec<_> = values.map(|value| value.into()).collect();
+            let values: Vec<_> = values.map(Into::into).collect();
             series.analyse(values.into_iter())?;
             Ok(series.range()?)
         };

@@ -28,8 +28,8 @@
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
 //! curve ([`PeriodicSeries`]), the forces of energies of such curves ([`CurveForces`]) and elastic membranes along them
-//! ([`Membrane`]). Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and
-//! 11 are fast.
+//! ([`Membrane`]). Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7
+//! and 11 are fast.
 //!
 //! # Input
 //!

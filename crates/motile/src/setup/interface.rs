@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveInterface, InitialConcentration, InterfaceError, Motion, line_through, wave};
-use motile_base::{Region, Vec2};
+use motile_base::{Drive, Region, Vec2};
 use motile_scene::{Body, Scene, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
@@ -246,7 +246,7 @@ impl BodySetup for InterfaceSetup {
         checked.finite("height", self.height)?;
         if let Some(viscosity) = self.viscosity {
             checked.positive("viscosity", viscosity)?;
-            let flux = setup.region.drive().and_then(|drive| drive.flux());
+            let flux = setup.region.drive().and_then(Drive::flux);
             if let Some(flux) = flux.filter(|_| viscosity != setup.viscosity) {
                 let remedy = "a flux along layers of different viscosity is not computed: give a gradient";
                 return Checked { place: "region.channel.drive" }.refuse("flux", &flux, remedy);
