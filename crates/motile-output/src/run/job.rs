@@ -83,6 +83,11 @@ impl Job {
         !self.output.no_pictures
     }
 
+    /// Most rows of tables that were asked for.
+    pub(super) fn rows(&self) -> Option<u32> {
+        self.output.rows
+    }
+
     /// Runs to the end, to an observer's error [`Decided`], or to a failure.
     ///
     /// # Errors

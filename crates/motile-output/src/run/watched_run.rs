@@ -15,7 +15,7 @@ use crate::plot::{concentration_plot, time_series};
 use crate::{CsvTable, DropletsCsv, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
 /// Rows of the trajectory and files for ParaView in a run.
-const ROWS: f64 = 1000.0;
+const ROWS: u32 = 1000;
 const FILES: f64 = 20.0;
 /// Time between the frames of the animation, and the smallest and largest number of frames.
 const FRAME_INTERVAL: f64 = 1.2;
@@ -145,10 +145,10 @@ impl WatchedRun {
     /// Files that cannot be written. The failure of the run itself is returned by [`WatchedRun::finish`].
     pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
         let time = self.job.end;
-        let mut observers: Vec<Watch<'_>> =
-            vec![(Every::StepAfter(time / ROWS), &mut self.recorder), (Every::Steps(1), &mut self.gap)];
+        let row = Every::StepAfter(time / f64::from(self.job.rows().unwrap_or(ROWS)));
+        let mut observers: Vec<Watch<'_>> = vec![(row, &mut self.recorder), (Every::Steps(1), &mut self.gap)];
         if let Some(table) = &mut self.droplets {
-            observers.push((Every::StepAfter(time / ROWS), table));
+            observers.push((row, table));
         }
         if let Some(end) = end {
             observers.push((Every::Steps(1), end));

@@ -46,6 +46,23 @@ fn a_run_in_a_channel_leaves_all_its_files() {
 }
 
 #[test]
+fn rows_are_as_few_as_asked_for() {
+    let directory = directory("rows-of-a-run");
+    let setup = Setup::default();
+    let output = OutputFlags { rows: Some(4), ..output(&directory, true) };
+    let mut run = watch(&setup, 1.0, &output).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    run.finish(&summary).unwrap();
+    let mut table = csv::Reader::from_path(directory.join("trajectory.csv")).unwrap();
+    let times: Vec<f64> = table.records().map(|row| row.unwrap()[0].parse().unwrap()).collect();
+    // The start, the first steps beyond each quarter, the end.
+    assert!(times.len() == 5 && times[0] == 0.0 && times[4] == 1.0, "{times:?}");
+    assert!((1..4).all(|k| (0.0..0.1).contains(&(times[k] - 0.25 * k as f64))), "{times:?}");
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
 fn a_run_that_breaks_off_keeps_what_it_has() {
     // A step that is stable at the start, but not when the particles have gathered.
     let directory = directory("broken-run");
