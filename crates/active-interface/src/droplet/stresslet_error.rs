@@ -10,10 +10,12 @@ use crate::curve::polygon::edges;
 use crate::interface::grid_spacing;
 
 /// Errors over gamma R, gamma the mean tension and R the radius, measured (`tests/physics/stresslets.rs`): of first
-/// order in h/R with uncorrected velocities; of second order with the correction, in open fluid, and beside walls in
-/// units of (R/gap)^3 up to a largest value.
+/// order in h/R with uncorrected velocities. With the correction of second order: in units of the squared number
+/// `R max|V_t - W|/D` by which the concentration is carried against its diffusion, which sets how steep it is, more so
+/// where a gap to an image is narrow, by R over half of it; beside walls in units of (R/gap)^3. Up to a largest value.
 const UNCORRECTED: f64 = 1.7;
-const CORRECTED: f64 = 0.15;
+const STEEP: f64 = 0.007;
+const BESIDE_IMAGES: f64 = 0.3;
 const BESIDE_WALLS: f64 = 0.07;
 const CORRECTED_MOST: f64 = 2.5;
 /// Part of the stresslet that its error may be without a warning.
@@ -53,11 +55,22 @@ impl ActiveDroplet {
         let unit = mean * radius;
         let cells = spacing / radius;
         let part = if view.second_order {
+            let markers = || self.markers().iter();
             let gap = view.domain.walls.map_or(f64::INFINITY, |[bottom, top]| {
-                self.markers().iter().fold(f64::INFINITY, |gap, x| gap.min(x.y - bottom).min(top - x.y))
+                markers().fold(f64::INFINITY, |gap, x| gap.min(x.y - bottom).min(top - x.y))
             });
+            let [wide, high] = [|x: &Vec2| x.x, |x: &Vec2| x.y].map(|along| {
+                let extent = |way: f64| markers().map(|x| way * along(x)).fold(f64::NEG_INFINITY, f64::max);
+                extent(1.0) + extent(-1.0)
+            });
+            let [x, y] = view.domain.periods.lengths;
+            let to_image =
+                |period: Option<f64>, extent: f64| period.map_or(f64::INFINITY, |period| 0.5 * (period - extent));
+            let half = to_image(x, wide).min(to_image(y, high)).max(0.5 * spacing);
+            let steepness = self.cell_peclet() * lengths.len() as f64 / TAU;
+            let open = STEEP * steepness * steepness * (1.0 + BESIDE_IMAGES * (radius / half).powf(1.5));
             let walls = BESIDE_WALLS * (radius / gap.max(spacing)).powi(3);
-            (CORRECTED + walls).min(CORRECTED_MOST) * cells * cells
+            (open + walls).min(CORRECTED_MOST) * cells * cells
         } else {
             UNCORRECTED * cells
         };
