@@ -12,6 +12,7 @@ mod exchange;
 mod gel;
 mod hard_cases;
 mod instructions;
+mod many;
 mod nucleus;
 mod pictures;
 mod scaling;
@@ -55,6 +56,7 @@ enum Study {
     Gel(gel::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
+    Many(many::Flags),
     Nucleus(nucleus::Flags),
     Exchange(exchange::Flags),
     /// Lists the tables that are older than the last change of what they measure
@@ -82,6 +84,7 @@ fn main() -> ExitCode {
         Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
+        Study::Many(flags) => many::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(flags) => exchange::run(flags),
         Study::Stale => tables::stale(),

@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, LayerError, PeriodicCalculus, Settings, TensionPlacement};
+use boundary_integral::{BoundaryIntegral, LayerError, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
 use motile_base::{Drive, FlowSample, InputError, Region, Vec2};
 use motile_scene::{FlowError, Hydrodynamics, MarkerKind, Markers};
 use scenes::{Ellipse, markers};
@@ -156,4 +156,15 @@ fn no_markers_and_no_iterations_left() {
     let mut markers = markers(&[Ellipse { axes: [1.4, 0.7], viscosity: Some(100.0), ..circle() }], 64);
     let error = solver.velocities(&mut markers).unwrap_err();
     assert!(matches!(error, FlowError::NoConvergence { iterations: 2, .. }), "{error}");
+}
+
+#[test]
+fn walls() {
+    let points = |count: usize| (0..count).map(|k| Vec2::new(0.1 * k as f64, -1.0)).collect::<Vec<_>>();
+    let of = |points: Vec<Vec2>, nodes| RigidWall::line_below(points, 10.0, nodes).expect_err("refused").to_string();
+    assert!(of(points(100), 4).contains("the number of nodes of a wall"), "{}", of(points(100), 4));
+    assert!(of(points(20), 40).contains("the number of points of a wall"));
+    let mut lost = points(100);
+    lost[3].y = f64::NAN;
+    assert!(of(lost.clone(), 40).contains("the points of a wall"), "{}", of(lost, 40));
 }

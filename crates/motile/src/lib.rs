@@ -56,7 +56,7 @@ mod recommend;
 pub mod setup;
 mod setup_error;
 
-pub use recommend::{Recommendation, SceneKind, recommend};
+pub use recommend::{Recommendation, SceneKind, cheapest, recommend};
 pub use setup_error::SetupError;
 pub use {
     active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, motile_base, motile_scene,

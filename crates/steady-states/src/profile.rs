@@ -462,3 +462,6 @@ impl Profile {
         Ok([("shape", tail(&sampler.curve)), ("concentration", tail(&sampler.density))])
     }
 }
+
+#[cfg(test)]
+mod tests;

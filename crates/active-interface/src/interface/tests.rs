@@ -215,3 +215,21 @@ fn forces_of_bending_are_minus_the_gradient_of_the_energy() {
     let exact = std::f64::consts::PI * 0.4 * 0.6_f64.powi(2) / 2.0;
     assert!((bending.energy(&circle, 0.0).unwrap() / exact - 1.0).abs() < 1e-12);
 }
+
+/// A membrane is at rest in the shape that it was made of, however bent.
+#[test]
+fn a_bent_membrane_is_at_rest_where_it_was_made() {
+    let period = 3.0;
+    let at = |k: usize| {
+        let x = period * k as f64 / 64.0;
+        Vec2::new(x, 0.4 * (std::f64::consts::TAU * x / period).sin())
+    };
+    let markers: Vec<Vec2> = (0..64).map(at).collect();
+    let mut membrane = super::elasticity::Elasticity::new(2.0, 0.5, &markers, period).unwrap();
+    let mut forces = vec![Vec2::ZERO; 64];
+    membrane.add_forces(&markers, period, &mut forces).unwrap();
+    assert!(forces.iter().all(|force| force.length() < 1e-10), "{forces:?}");
+    let pressed: Vec<Vec2> = markers.iter().map(|x| *x * Vec2::new(1.0, 0.5)).collect();
+    membrane.add_forces(&pressed, period, &mut forces).unwrap();
+    assert!(forces.iter().any(|force| force.length() > 1e-2));
+}

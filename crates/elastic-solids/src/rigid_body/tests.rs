@@ -20,6 +20,8 @@ fn its_centre_is_that_of_its_area() {
     assert!((body.centre() - Vec2::new(2.0, -1.0)).length() < 1e-4, "{:?}", body.centre());
     assert!((body.area() / (std::f64::consts::PI * 1.5 * 0.7) - 1.0).abs() < 1e-3);
     assert!((body.mean).length() > 0.1);
+    // Its markers run counter-clockwise, though the points that were given do not.
+    assert!(area_and_arm(&body.markers().collect::<Vec<_>>()).0 > 0.0);
 }
 
 #[test]

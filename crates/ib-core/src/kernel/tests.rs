@@ -139,3 +139,14 @@ proptest! {
         }
     }
 }
+
+/// A kernel gives as much to points on either side.
+#[test]
+fn values_are_even() {
+    for role in [Role::Normal, Role::Tangential] {
+        for r in [0.2, 0.7, 1.3, 1.9] {
+            assert_eq!(BSpline::<4>.value(role, -r), BSpline::<4>.value(role, r), "{r}");
+            assert_eq!(Peskin4.value(role, -r), Peskin4.value(role, r), "{r}");
+        }
+    }
+}

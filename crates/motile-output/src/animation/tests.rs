@@ -49,8 +49,12 @@ fn frames_have_the_width_that_is_asked_for() {
     let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap()).of_width(150.0);
     film.observe(scene.system_mut()).unwrap();
     film.write(&[], &path).unwrap();
-    let decoder = gif::DecodeOptions::new().read_info(File::open(&path).unwrap()).unwrap();
-    assert_eq!(decoder.width(), 150);
+    let width = || gif::DecodeOptions::new().read_info(File::open(&path).unwrap()).unwrap().width();
+    assert_eq!(width(), 150);
+    let mut usual = Film::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap());
+    usual.observe(scene.system_mut()).unwrap();
+    usual.write(&[], &path).unwrap();
+    assert_eq!(f64::from(width()), Format::FRAME.width);
     std::fs::remove_file(&path).unwrap();
     for pixels in [99.0, 2001.0, f64::NAN] {
         let refused = film.clone().of_width(pixels).write(&[], &path).unwrap_err();

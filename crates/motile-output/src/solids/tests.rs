@@ -11,7 +11,7 @@ fn walls_of_a_channel() {
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
         ..Setup::default()
     };
-    let scene = setup.build().unwrap().scene;
+    let mut scene = setup.build().unwrap().scene;
     let thickness = 1.5;
     let system = scene.system();
     let area = |ring: &[Vec2]| {
@@ -32,6 +32,16 @@ fn walls_of_a_channel() {
     assert!((value("channel_width_min") - 2.4).abs() < 1e-12 && (value("channel_width_max") - 2.4).abs() < 1e-12);
     assert!((value("droplet_gap") - 0.2).abs() < 5e-3 && value("elastic_energy") < 1e-18);
     assert!((value("smallest_jacobian") - 1.0).abs() < 1e-12);
+    // The droplet presses on them: of both walls the largest displacements count.
+    scene.run(0.2).go().unwrap();
+    let system = scene.system();
+    let measured = meter.measure(system).unwrap();
+    let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];
+    let largest =
+        |of: fn(&Deformation) -> f64| solids(system).map(|solid| of(&Deformation::of(solid))).fold(0.0, f64::max);
+    assert!(value("largest_normal_displacement") > 1e-4);
+    assert_eq!(value("largest_normal_displacement"), largest(|seen| seen.largest_normal_displacement));
+    assert_eq!(value("largest_displacement"), largest(|seen| seen.largest_displacement));
 }
 
 /// A solid that is moved as a whole has that displacement everywhere.

@@ -863,3 +863,53 @@ mod file {
         assert!(wanted.len() > 150 && missing.is_empty(), "{} {missing:?}", wanted.len());
     }
 }
+
+#[test]
+fn numbers_of_shapes_and_shells_are_named() {
+    let droplet = |shape| DropletSetup { shape, ..DropletSetup::default() };
+    let squeezed = |radius, half_height| DropletShape::Squeezed { radius, half_height, to: Squeezed::Ellipse };
+    let ellipse = |half_axes| {
+        let outline = SolidOutline::Ellipse { centre: [0.0; 2], half_axes };
+        let solids = vec![SolidSetup::new(outline, Material::Springs { shear: 1.0 })];
+        Setup { method: layers(), droplets: Vec::new(), solids, ..Setup::default() }
+    };
+    let cases = [
+        (
+            "droplets[0].shape.squeezed.radius = -1",
+            Setup { droplets: vec![droplet(squeezed(-1.0, 0.5))], ..Setup::default() },
+        ),
+        ("shells[0].viscosity = 0", {
+            let shells = vec![ShellSetup { viscosity: Some(0.0), ..ShellSetup::default() }];
+            Setup { droplets: Vec::new(), shells, ..Setup::default() }
+        }),
+        ("solids[0].outline.ellipse.half-axes = 0", ellipse([0.0, 0.5])),
+        ("droplets[0] overlaps a rigid wall by", {
+            let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
+            let droplets = vec![DropletSetup { centre: [0.0, 1.0], ..DropletSetup::default() }];
+            Setup { region: channel(6.0), walls, droplets, ..Setup::default() }
+        }),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+    #[cfg(feature = "toml")]
+    assert!(Setup::from_toml("viscosity = -1.0").unwrap_err().to_string().starts_with("viscosity = -1"));
+}
+
+/// The points of an interface may be given from either end.
+#[test]
+fn interfaces_through_points_from_either_end() {
+    let points: Vec<[f64; 2]> = (0..40)
+        .map(|k| 0.15 * f64::from(k) - 3.0)
+        .map(|x| [x, 0.3 * (std::f64::consts::TAU * x / 6.0).sin()])
+        .collect();
+    let made = |points: Vec<[f64; 2]>| {
+        let interfaces = vec![InterfaceSetup { shape: InterfaceShape::Points(points), ..InterfaceSetup::default() }];
+        let setup = Setup { droplets: Vec::new(), interfaces, ..Setup::default() };
+        setup.build().unwrap().scene.system().markers().positions().to_vec()
+    };
+    let reversed = points.iter().rev().copied().collect();
+    for (one, other) in made(points).iter().zip(made(reversed)) {
+        assert!((one.y - other.y).abs() < 1e-9 && (one.x - other.x).abs() < 1e-9, "{one:?} {other:?}");
+    }
+}

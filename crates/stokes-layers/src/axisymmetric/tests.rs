@@ -364,3 +364,13 @@ fn disturbances_are_the_derivatives_of_the_flow() {
     let mut flow = flow(count);
     assert!(flow.disturbances(0).unwrap_err().to_string().contains("one"));
 }
+
+#[test]
+fn volume_and_area_of_a_sphere() {
+    let mut flow = flow(32);
+    let (points, forces) = (sphere(32), vec![Vec2::ZERO; 32]);
+    flow.load(std::iter::once(Interface::closed(&points, &forces, [1.0; 2]))).unwrap();
+    let [volume, area] = flow.measures(0).unwrap();
+    assert!((volume - 2.0 / 3.0 * TAU).abs() < 1e-12 && (area - 2.0 * TAU).abs() < 1e-12, "{volume} {area}");
+    assert_eq!(flow.measures(1), None);
+}

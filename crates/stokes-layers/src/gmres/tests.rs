@@ -95,3 +95,20 @@ fn recycled_directions_invert_the_matrix_on_their_images() {
         assert!(error < 1e-9, "{error:e}");
     }
 }
+
+/// Of a second system with the same matrix the directions of the first are known.
+#[test]
+fn a_neighbouring_system_takes_fewer_products() {
+    let product = |x: &[f64], out: &mut [f64], _: f64| {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = (1.0 + 0.3 * (i % 12) as f64) * x[i];
+        }
+    };
+    let b: Vec<f64> = (0..96).map(|i| 1.0 + (f64::from(i)).sin()).collect();
+    let beside: Vec<f64> = b.iter().enumerate().map(|(i, b)| b * (1.0 + 0.1 * (i % 12) as f64)).collect();
+    let mut keeps = Gmres::recycling();
+    let (mut x, mut y) = (vec![0.0; 96], vec![0.0; 96]);
+    let first = keeps.solve(product, &b, &mut x, 1e-10, 100).iterations;
+    let second = keeps.solve(product, &beside, &mut y, 1e-10, 100).iterations;
+    assert!(first >= 10 && second <= first / 2, "{first} {second}");
+}

@@ -48,3 +48,10 @@ proptest! {
         prop_assert!(numbers.iter().zip(mirrored.iter().rev()).all(|(a, b)| a == b));
     }
 }
+
+#[test]
+fn repairs_of_a_run_add_up() {
+    let mut sum = Repair { segments: 1, moved: 2.0, furthest: 3 };
+    sum.accumulate(Repair { segments: 4, moved: 0.5, furthest: 2 });
+    assert_eq!(sum, Repair { segments: 5, moved: 2.5, furthest: 3 });
+}

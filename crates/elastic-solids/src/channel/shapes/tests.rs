@@ -156,3 +156,17 @@ fn bad_shapes_are_refused() {
     assert!(matches!(channel.widened(-2.5), Err(SolidError::NotBetween { .. } | SolidError::Crossing { .. })));
     assert!(matches!(channel.walls(-1.05, 3.0, &Mesher::new(0.1).unwrap()), Err(SolidError::WallTooThin { .. })));
 }
+
+#[test]
+fn errors_name_what_is_wrong() {
+    let sides = |amplitude| ChannelShape::Sinusoidal { width: 2.0, amplitude, waves: 1, phase: 0.0 };
+    for (shape, name) in [
+        (ChannelShape::Straight { width: -1.0 }, "the width of the channel"),
+        (ChannelShape::Straight { width: 0.0 }, "the width of the channel"),
+        (sides(f64::NAN), "the amplitude of the sides"),
+        (sides(f64::INFINITY), "the amplitude of the sides"),
+    ] {
+        let text = shape.channel(6.0).expect_err("refused").to_string();
+        assert!(text.contains(name), "{text}");
+    }
+}

@@ -264,3 +264,16 @@ proptest! {
         let _ = GmshMesh::from_text(&text);
     }
 }
+
+/// A plane mesh may be at any height.
+#[test]
+fn meshes_below_the_plane_are_read() {
+    let places = [
+        ("\n10\n0 0 0\n", "\n10\n0 0 -7.25\n"),
+        ("\n1 0 0 0.5\n1 1 0 0.75\n", "\n1 0 -7.25 0.5\n1 1 -7.25 0.75\n"),
+        ("\n0 1 0\n9 9 0\n", "\n0 1 -7.25\n9 9 -7.25\n"),
+    ];
+    let text = places.iter().fold(SQUARE.to_owned(), |text, (from, to)| text.replacen(from, to, 1));
+    assert_eq!(text.matches("-7.25").count(), 5, "{text}");
+    assert_eq!(GmshMesh::from_text(&text), GmshMesh::from_text(SQUARE));
+}

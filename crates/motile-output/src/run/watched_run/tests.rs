@@ -41,6 +41,10 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
     assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
     assert_eq!(summary.number("time"), 1.0);
+    // |zeta_dmu| c0 R0/((eta_in + eta_ext) D), and the cost.
+    assert_eq!(summary.number("peclet"), setup.numbers(&setup.droplets[0]).unwrap().unwrap().peclet);
+    let [steps, evaluations, longest] = ["steps", "evaluations", "dt_longest"].map(|name| summary.number(name));
+    assert!(steps >= 1.0 && evaluations >= 2.0 * steps && longest >= 1.0 / steps);
     assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
     std::fs::remove_dir_all(&directory).unwrap();
 }
@@ -94,4 +98,17 @@ fn an_unstable_step_is_refused_before_anything_is_written() {
     let refused = watch(&setup, 10.0, &output(&directory, true));
     assert!(refused.unwrap_err().to_string().contains("time step 5"));
     assert!(!directory.exists());
+}
+
+/// In unbounded fluid the picture is of a square about the start, with as many cells as the spacing gives.
+#[test]
+fn a_run_in_the_plane_is_drawn() {
+    let directory = directory("plane-run");
+    let setup = Setup { region: Region::Plane, ..Setup::default() };
+    let mut run = watch(&setup, 0.1, &output(&directory, false)).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    run.finish(&summary).unwrap();
+    assert!(directory.join("final.png").metadata().is_ok_and(|data| data.len() > 2000));
+    std::fs::remove_dir_all(&directory).unwrap();
 }

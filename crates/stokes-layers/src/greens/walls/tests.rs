@@ -22,6 +22,18 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
     (row.velocity + walls.velocity, walls)
 }
 
+/// Both the source and the target are as far from a wall as the sum decays over.
+#[test]
+fn modes_fall_with_both_distances() {
+    let mut modes = WallModes::new(6.0, 1.0, false);
+    let mut count = |source: f64, target: f64| {
+        modes.begin(source, target, 1e-12);
+        modes.modes
+    };
+    assert_eq!(count(0.5, 0.25), count(0.25, 0.5));
+    assert!(count(0.5, 0.5) < count(0.5, 0.25) && count(0.5, 0.25) < count(0.25, 0.25));
+}
+
 #[test]
 fn greens_function_of_a_channel() {
     // channel_greens_function.csv: period 4, width 2; zero flux, target, source, (Gxx, Gxy, Gyx, Gyy).

@@ -1,0 +1,152 @@
+//! Cost of the methods over the number of droplets, with and without elastic solids, at the same error.
+//!
+//! `cargo run --release -p studies -- many` prints a table, which `--write` keeps as `docs/tables/many.csv`. Droplets
+//! stand in a square lattice and swim alike, so that each errs as one alone in its cell: the error is that of the way at
+//! t = 2 against the finest settings. Costs are times of a step, measured by turns, over the time that it takes in the
+//! scene, in units of a forward and an inverse FFT of 120 x 120 values.
+
+use std::cell::RefCell;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use clap::Args;
+use motile::motile_base::Region;
+use motile::setup::{
+    Built, DropletSetup, GridMethod, Hold, IntegralMethod, LayersMethod, Material, Method, Setup, SolidOutline,
+    SolidSetup,
+};
+use motile_examples::positive;
+use motile_output::run::say;
+use motile_tests::validation::Table;
+use motile_timing::{PlainPair, Turns};
+
+use crate::tables;
+
+/// Cost of the methods over the number of droplets.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Time spent on each number and kind of scene (seconds)
+    #[arg(long, default_value_t = 4.0, value_parser = positive)]
+    seconds: f64,
+    #[command(flatten)]
+    keep: tables::Keep,
+}
+
+const ACTIVITY: f64 = -2.0;
+/// Side of a droplet's cell of the lattice (length).
+const CELL: f64 = 3.6;
+/// Droplets along a side.
+const SIDES: [usize; 4] = [1, 2, 4, 8];
+const TIME: f64 = 2.0;
+/// Radius (length) and shear modulus (force per area) of the elastic nucleus of each droplet.
+const NUCLEUS: f64 = 0.4;
+const SHEAR: f64 = 1000.0;
+
+/// A lattice of `side` x `side` droplets by a method, each with an elastic nucleus or none.
+fn setup(side: usize, method: Method, nuclei: bool) -> Setup {
+    let places = || (0..side * side).map(|k| [k % side, k / side].map(|j| CELL * (j as f64 + 0.5 - 0.5 * side as f64)));
+    let droplet = |centre| DropletSetup { centre, ..DropletSetup::active(ACTIVITY) };
+    let nucleus = |centre| SolidSetup {
+        hold: Hold::Free,
+        ..SolidSetup::new(
+            SolidOutline::Disc { centre, radius: NUCLEUS },
+            Material::NeoHookean { shear: SHEAR, bulk: 2.0 * SHEAR },
+        )
+    };
+    Setup {
+        region: Region::Box { lengths: [CELL * side as f64; 2] },
+        method,
+        droplets: places().map(droplet).collect(),
+        solids: places().filter(|_| nuclei).map(nucleus).collect(),
+        ..Setup::default()
+    }
+}
+
+/// Way of one droplet (length), and steps of that run.
+fn way(method: Method, nuclei: bool) -> Result<(f64, usize)> {
+    let Built { mut scene, droplets, .. } = setup(1, method, nuclei).build()?;
+    let droplet = *droplets.first().context("no droplet")?;
+    let before = scene.observe(droplet)?.centroid;
+    scene.run(TIME).go()?;
+    Ok(((scene.observe(droplet)?.centroid - before).length(), scene.steps()))
+}
+
+/// Methods that are compared, with their names, and the finest settings.
+fn methods(nuclei: bool) -> (Method, Vec<(String, Method)>) {
+    let layers = |spacing| Method::Layers(LayersMethod { nodes: 48, cells: 192, ..LayersMethod::of_spacing(spacing) });
+    // Solids on the grid leave no mobility correction.
+    let made = |spacing| if nuclei { GridMethod::uncorrected(spacing) } else { GridMethod::of_spacing(spacing) };
+    let grid = |spacing: f64| (format!("grid, h = {spacing}"), Method::Grid(made(spacing)));
+    let integral = |nodes: usize| Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    if nuclei {
+        let named = |spacing: f64| (format!("layers, h = {spacing}"), layers(spacing));
+        (layers(0.03), vec![named(0.1), named(0.06), grid(0.1), grid(0.06), grid(0.03)])
+    } else {
+        let named = |nodes: usize| (format!("integrals, {nodes} nodes"), integral(nodes));
+        (integral(96), vec![named(24), named(48), grid(0.1), grid(0.06)])
+    }
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    let counts = SIDES.map(|side| format!("cost of {}", side * side));
+    let columns: Vec<&str> = ["settings", "nuclei", "error in %", "steps per time"]
+        .into_iter()
+        .chain(counts.iter().map(String::as_str))
+        .collect();
+    let mut table = Table::new("FFT pairs a unit of time over the number of droplets", &columns);
+    for nuclei in [false, true] {
+        let (finest, methods) = methods(nuclei);
+        let exact = way(finest, nuclei)?.0;
+        let mut rows = Vec::new();
+        for (name, method) in &methods {
+            let (found, steps) = way(*method, nuclei)?;
+            let rate = steps as f64 / TIME;
+            let error = format!("{:.2}", 100.0 * (found / exact - 1.0).abs());
+            let nuclei = if nuclei { "elastic" } else { "none" };
+            rows.push((vec![name.clone(), nuclei.to_owned(), error, format!("{rate:.1}")], *method, rate));
+        }
+        for side in SIDES {
+            let costs = costs(side, rows.iter().map(|(_, method, rate)| (*method, *rate)), nuclei, flags.seconds)?;
+            for ((row, ..), cost) in rows.iter_mut().zip(costs) {
+                row.push(format!("{cost:.0}"));
+            }
+        }
+        for (row, ..) in rows {
+            say(row.join("  "));
+            table.push(row);
+        }
+    }
+    let inputs =
+        ["crates/boundary-integral/src", "crates/ib-core/src", "crates/elastic-solids/src", "studies/src/many.rs"];
+    flags.keep.tables("many", "many", &inputs, &[table])
+}
+
+/// Cost of a unit of time by each method, in FFT pairs: of steps by turns, once each has settled.
+fn costs(side: usize, methods: impl Iterator<Item = (Method, f64)>, nuclei: bool, seconds: f64) -> Result<Vec<f64>> {
+    let (mut scenes, mut rates) = (Vec::new(), Vec::new());
+    for (method, rate) in methods {
+        let Built { mut scene, .. } = setup(side, method, nuclei).build()?;
+        // What is kept from step to step is there.
+        for _ in 0..3 {
+            scene.step(1.0 / rate)?;
+        }
+        scenes.push(scene);
+        rates.push(rate);
+    }
+    let mut pair = PlainPair::new(120, 120);
+    let failed = RefCell::new(None);
+    let mut works: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| pair.run())];
+    for (scene, rate) in scenes.iter_mut().zip(&rates) {
+        let failed = &failed;
+        works.push(Box::new(move || {
+            if let Err(error) = scene.step(1.0 / rate) {
+                failed.replace(Some(error));
+            }
+        }));
+    }
+    let mut by_turns: Vec<&mut dyn FnMut()> = works.iter_mut().map(|work| work.as_mut() as &mut dyn FnMut()).collect();
+    let turns = Turns::measure(Duration::from_secs_f64(seconds), &mut by_turns);
+    drop(works);
+    failed.into_inner().map_or(Ok(()), Err)?;
+    Ok(rates.iter().enumerate().map(|(k, rate)| turns.least(1 + k) / turns.least(0) * rate).collect())
+}
