@@ -101,7 +101,7 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
 }
 
 /// Number of droplets from which on a grid is cheaper than boundary integrals at the same error
-/// (`docs/tables/many.csv`): 1.7 times with four, 7 times with sixteen, 15 times with sixty-four.
+/// (`docs/tables/many.csv`): 1.7 times with four, 4 times with sixteen, 14 times with sixty-four.
 const MANY: usize = 4;
 
 /// The cheapest method for a scene of so many droplets, with its settings for an error of [`recommend`].
