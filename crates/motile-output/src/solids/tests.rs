@@ -7,7 +7,7 @@ use motile::setup::{Material, SolidSetup};
 fn walls_of_a_channel() {
     let setup = Setup {
         region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
-        method: Method::Layers(LayersMethod { spacing: 0.2, ..LayersMethod::default() }),
+        method: Method::Layers(LayersMethod { spacing: 0.1, ..LayersMethod::default() }),
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
         ..Setup::default()
     };

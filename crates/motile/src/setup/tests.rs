@@ -885,7 +885,8 @@ fn numbers_of_shapes_and_shells_are_named() {
         ("solids[0].outline.ellipse.half-axes = 0", ellipse([0.0, 0.5])),
         ("droplets[0] overlaps a rigid wall by", {
             let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
-            let droplets = vec![DropletSetup { centre: [0.0, 1.0], ..DropletSetup::default() }];
+            let droplets =
+                vec![DropletSetup { centre: [0.0, 1.0], ..droplet(DropletShape::Ellipse { half_axes: [1.0; 2] }) }];
             Setup { region: channel(6.0), walls, droplets, ..Setup::default() }
         }),
     ];
