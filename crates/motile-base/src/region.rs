@@ -49,7 +49,7 @@ pub enum Region {
 
 /// Shape of the wall of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum TubeShape {
     /// Straight.
     #[default]

@@ -49,8 +49,8 @@
 //! looked for among all.
 //!
 //! Particles that are exchanged with the inside count with those there: in a well-mixed inside are those that the
-//! interface lacks. A field inside that diffuses and is carried along is the steady one of the same flow, so that states
-//! are exact but their growth rates are not known.
+//! interface lacks. A field inside that diffuses and is carried along is the steady one of the same flow, so that
+//! states are exact but their growth rates are not known.
 //!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
 //! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
