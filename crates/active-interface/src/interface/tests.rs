@@ -225,11 +225,14 @@ fn a_bent_membrane_is_at_rest_where_it_was_made() {
         Vec2::new(x, 0.4 * (std::f64::consts::TAU * x / period).sin())
     };
     let markers: Vec<Vec2> = (0..64).map(at).collect();
-    let mut membrane = super::elasticity::Elasticity::new(2.0, 0.5, &markers, period).unwrap();
+    let advance = Vec2::new(period, 0.0);
+    let mut membrane = Membrane::new([2.0, 0.5], &markers, advance).unwrap();
     let mut forces = vec![Vec2::ZERO; 64];
-    membrane.add_forces(&markers, period, &mut forces).unwrap();
+    membrane.move_to(&markers, advance).unwrap();
+    membrane.add_forces(&mut forces).unwrap();
     assert!(forces.iter().all(|force| force.length() < 1e-10), "{forces:?}");
     let pressed: Vec<Vec2> = markers.iter().map(|x| *x * Vec2::new(1.0, 0.5)).collect();
-    membrane.add_forces(&pressed, period, &mut forces).unwrap();
+    membrane.move_to(&pressed, advance).unwrap();
+    membrane.add_forces(&mut forces).unwrap();
     assert!(forces.iter().any(|force| force.length() > 1e-2));
 }
