@@ -2,12 +2,14 @@
 
 pub mod fits;
 mod flat_interface;
+mod sphere;
 mod squirmer_flow;
 
 use motile_base::{at_least, finite, not_negative, positive};
 
 use crate::InterfaceError;
 pub use flat_interface::{FlatInterface, Stratum, StratumEnd};
+pub use sphere::{Sphere, marangoni_speed, settling_speed, tube_drag};
 pub use squirmer_flow::SquirmerFlow;
 
 /// Parameters of the linear theory of a round droplet.

@@ -2,6 +2,12 @@
 
 use std::f64::consts::PI;
 
+use motile::active_interface::{
+    ActiveDroplet, ContractileTension, ExcludedVolume,
+    theory::{RoundDroplet, Sphere},
+};
+use motile::motile_base::{TubeShape, Vec2};
+use motile::motile_scene::{Scene, StepSize};
 use motile::prelude::*;
 use motile::setup::{Exclusion, RigidBodySetup};
 
@@ -35,6 +41,97 @@ fn a_droplet_in_space_swims_to_the_steady_state_of_the_reference() {
     assert!(seen.moments.stresslet()[0][0] > 0.0 && seen.squirmer.beta().unwrap() < 0.0, "a pusher");
 }
 
+/// The polynomial of Legendre of a degree.
+fn legendre(degree: u32, x: f64) -> f64 {
+    let (mut before, mut value) = (1.0, x);
+    for l in 2..=degree {
+        let l = f64::from(l);
+        (before, value) = (value, ((2.0 * l - 1.0) * x * value - (l - 1.0) * before) / l);
+    }
+    value
+}
+
+/// Concentrations with a small part of a spherical harmonic change as the matrix of linear theory has it: within .1 per
+/// cent, with the second order in the time step.
+#[test]
+fn harmonics_of_the_concentration_grow_at_their_rates() {
+    for (inside, outside, activity, time) in
+        [(100.0, 100.0, -1.0, 0.4), (100.0, 10.0, -1.0, 0.4), (1.0, 10.0, -2.0, 0.01), (1000.0, 10.0, -2.0, 0.4)]
+    {
+        for degree in 1..=4 {
+            let setup = Setup { viscosity: outside, ..scene(Region::Space, [32, 512]) };
+            let theory = Sphere::new(RoundDroplet {
+                radius: 1.0,
+                viscosity_inside: inside,
+                viscosity_outside: outside,
+                tension: 10.0 - activity * 100.0,
+                activity,
+                concentration: 100.0,
+                diffusivity: 0.1,
+            })
+            .unwrap();
+            let grown = |steps: f64| {
+                let mut parts = [0.0; 2];
+                for sign in [1.0, -1.0] {
+                    let count = 512;
+                    let angle = |k: f64| std::f64::consts::TAU * k / f64::from(count);
+                    let markers: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(angle(f64::from(k)))).collect();
+                    let wave = |k: i32| legendre(degree, angle(f64::from(k) + 0.5).cos());
+                    let length = 2.0 * (0.5 * angle(1.0)).sin();
+                    let numbers = (0..count).map(|k| 100.0 * (1.0 + sign * 1e-4 * wave(k)) * length).collect();
+                    let law = ContractileTension::new(10.0, activity, ExcludedVolume::None).unwrap();
+                    let droplet = ActiveDroplet::new(&markers, numbers, law, 0.1).unwrap();
+                    let droplet = droplet.of_revolution().unwrap().with_viscosity_inside(inside).unwrap();
+                    let mut scene = Scene::new(setup.flow().unwrap());
+                    let droplet = scene.add(droplet);
+                    // Over the sphere, not over the surface that changes.
+                    let sizes = scene.body(droplet).unwrap().segment_sizes().to_vec();
+                    let amplitude = |droplet: &ActiveDroplet| -> f64 {
+                        let parts = sizes.iter().zip(droplet.concentrations());
+                        parts.zip(0..).map(|((size, c), k)| size * c * wave(k)).sum()
+                    };
+                    parts[0] += sign * amplitude(scene.body(droplet).unwrap());
+                    scene.run(time).step_size(StepSize::Fixed(time / steps)).go().unwrap();
+                    parts[1] += sign * amplitude(scene.body(droplet).unwrap());
+                }
+                parts[1] / parts[0]
+            };
+            // exp(M t) (0, 1) by its series.
+            let [[aa, ab], [ba, bb]] = theory.growth_matrix(degree).unwrap();
+            let (mut term, mut exact) = ([0.0, 1.0], 1.0);
+            for n in 1..30 {
+                let factor = time / f64::from(n);
+                term = [factor * (aa * term[0] + ab * term[1]), factor * (ba * term[0] + bb * term[1])];
+                exact += term[1];
+            }
+            let [coarse, middle, fine] = [4.0, 8.0, 16.0].map(grown);
+            let error = (fine.ln() - exact.ln()).abs() / time;
+            let fastest = aa.abs().max(bb.abs());
+            assert!(error < 1e-3 * fastest, "{inside}/{outside} degree {degree}: {error:e} of {fastest}");
+            let order = ((coarse - middle) / (middle - fine)).abs().log2();
+            assert!((1.6..2.6).contains(&order), "{inside}/{outside} degree {degree}: order {order}");
+        }
+    }
+}
+
+/// Two droplets on an axis, one behind the other: mirror images of one another swim apart and the other way at one
+/// speed, with particles and volumes kept.
+#[test]
+fn two_droplets_on_an_axis_are_mirror_images() {
+    let mut setup = scene(Region::tube(2.0), [32, 128]);
+    setup.droplets[0].centre = [1.4, 0.0];
+    let mut other = setup.droplets[0].clone();
+    (other.centre, other.angle, other.name) = ([-1.4, 0.0], PI, "other".to_owned());
+    setup.droplets.push(other);
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    scene.run(1.0).go().unwrap();
+    let [first, second] = [0, 1].map(|k| scene.observe(droplets[k]).unwrap());
+    assert!((first.centroid.x + second.centroid.x).abs() < 1e-9 && first.centroid.x > 1.4, "{}", first.centroid.x);
+    assert!((first.speed() - second.speed()).abs() < 1e-9);
+    let gap = scene.system().gap(droplets[0], droplets[1]).unwrap().unwrap();
+    assert!((0.8..1.5).contains(&gap) && scene.system_mut().wall_gap().unwrap() < 1.0 + 1e-3, "{gap}");
+}
+
 /// A tube slows a droplet down, the more the tighter it is.
 #[test]
 fn droplets_in_tubes_are_slower() {
@@ -62,4 +159,13 @@ fn what_has_no_meaning_in_three_dimensions_is_refused() {
     refused(&|setup| setup.rigid_bodies.push(RigidBodySetup::disc(0.3)), "two dimensions");
     refused(&|setup| setup.region = Region::tube(-1.0), "region.tube.radius");
     assert!(scene(Region::tube(0.9), [48, 192]).build().is_err());
+    let tube = |shape, drive, length| Region::Tube { radius: 1.5, shape, drive, length };
+    let throat = |throat| TubeShape::Constriction { throat, throat_length: 2.0, ramp: 2.0 };
+    let shaped = |shape| tube(shape, Drive::ZeroFlux, None);
+    refused(&|setup| setup.region = shaped(throat(-1.0)), "the radius of the throat");
+    refused(&|setup| setup.region = tube(throat(0.9), Drive::ZeroGradient, None), "give zero-flux or a flux");
+    refused(&|setup| setup.region = tube(throat(0.9), Drive::ZeroFlux, Some(7.0)), "throat and ramps");
+    refused(&|setup| setup.region = shaped(TubeShape::Sinusoidal { amplitude: 1.5, period: 4.0 }), "amplitude");
+    refused(&|setup| setup.region = tube(TubeShape::Straight, Drive::Flux(f64::NAN), None), "flux");
+    assert!(scene(shaped(throat(0.8)), [48, 192]).build().is_err(), "a droplet in the throat");
 }

@@ -7,7 +7,7 @@ mod meridian;
 mod panels;
 mod ring;
 
-use std::f64::consts::PI;
+use std::{collections::HashMap, f64::consts::PI};
 
 use motile_base::{Drive, FlowSample, Region, Vec2, positive, same_length, within};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
@@ -216,7 +216,7 @@ impl AxisymmetricFlow {
     /// of another viscosity, with the flow U of Poiseuille of the flux 1, by
     ///
     /// ```text
-    /// INT f_x U dS + (eta_out - eta_in) INT (u_x n_r + u_r n_x) dU/dr dS
+    /// INT f_x U dS + (eta_out - eta_in) INT (u_x n_r + u_r n_x) dU/dr + 8 x/(pi R^4) u.n dS
     /// ```
     ///
     /// # Errors
@@ -496,9 +496,12 @@ impl AxisymmetricFlow {
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
+        // Pictures of the meridian plane hold each point and its mirror image.
+        let mut known = HashMap::new();
         for (point, out) in points.iter().zip(out) {
             let side = if point.y < 0.0 { -1.0 } else { 1.0 };
-            *out = self.flow_at(Vec2::new(point.x, point.y.abs()));
+            let place = Vec2::new(point.x, point.y.abs());
+            *out = *known.entry([place.x.to_bits(), place.y.to_bits()]).or_insert_with(|| self.flow_at(place));
             out.velocity.y *= side;
             (out.gradient[0][1], out.gradient[1][0]) = (side * out.gradient[0][1], side * out.gradient[1][0]);
         }

@@ -202,7 +202,7 @@ impl ActiveInterface {
 
     /// Makes the interface one of a body of revolution about the x axis in three dimensions, of which the markers,
     /// whose first one is on the axis, are the meridian with its mirror image. Concentrations stay and become numbers
-    /// per area; the area that is kept becomes the volume, and tensions are per length.
+    /// per area, the area that is kept becomes the volume, and tensions are per length.
     ///
     /// # Errors
     /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the
@@ -219,6 +219,12 @@ impl ActiveInterface {
         }
         if self.law.motion == Motion::WithFluid {
             return Err(InterfaceError::NotOfRevolution { x: f64::NAN, y: f64::NAN });
+        }
+        // The meridian runs from the largest x, also of a droplet that swims backwards.
+        if markers[0].x < markers[count / 2].x {
+            self.state.shape.markers.rotate_left(count / 2);
+            let carried = self.state.numbers.len();
+            self.state.numbers.rotate_left(carried / 2);
         }
         self.scheme.spectral = Some(SpectralCurve::new(count)?);
         (self.state.shape.of_revolution, self.scheme.other.of_revolution) = (true, true);

@@ -208,3 +208,72 @@ fn fits_of_simulations() {
     assert!(fits::speed_over_stiffness(0.2, f64::NAN, 1.0, 1.0).is_err());
     assert!(fits::amplitude_over_length([-1.0, 5.0], 1.0, 0.6, 18.0).is_err());
 }
+
+/// Growth matrices of degrees 1 to 4 (`axisymmetric.csv`), thresholds, the speeds of Marangoni and of Hadamard and
+/// Rybczynski, the drag in a tube (the digits beyond Haberman and Sayre from a series of multipoles and of waves along
+/// the tube).
+#[test]
+fn spheres_have_the_rates_of_the_reference() {
+    let sphere = |inside: f64, outside: f64, activity: f64| {
+        Sphere::new(RoundDroplet {
+            radius: 1.0,
+            viscosity_inside: inside,
+            viscosity_outside: outside,
+            tension: 10.0 - activity * 100.0,
+            activity,
+            concentration: 100.0,
+            diffusivity: 0.1,
+        })
+        .unwrap()
+    };
+    // Without the excluded volume of the table, 4.5e-5 of the rates.
+    let table = [
+        (100.0, 100.0, -1.0, 2, [-0.502852992101, -0.057137668815, 0.25142649605, 0.0285143569649]),
+        (100.0, 10.0, -1.0, 3, [-1.57726817238, -0.0465507078334, 0.512100055968, 0.37341392477]),
+        (1.0, 10.0, -2.0, 4, [-39.1522038048, -1.3181477269, 24.9150387849, 39.2391931701]),
+    ];
+    for (inside, outside, activity, degree, expected) in table {
+        let [[aa, ab], [ba, bb]] = sphere(inside, outside, activity).growth_matrix(degree).unwrap();
+        // There concentrations are in units of c0.
+        let largest = expected.iter().fold(0.0, |a: f64, b: &f64| a.max(b.abs()));
+        for (value, exact) in [aa, 100.0 * ab, ba / 100.0, bb].into_iter().zip(expected) {
+            assert!((value - exact).abs() < 2e-4 * largest, "{inside} {outside} {degree}: {value} for {exact}");
+        }
+    }
+    // A passive drop relaxes at the exact rates of the table, to its digits.
+    let passive = |inside: f64, degree: u32| {
+        let drop = RoundDroplet {
+            radius: 1.0,
+            viscosity_inside: inside,
+            viscosity_outside: 1.0,
+            tension: 1.0,
+            activity: 0.0,
+            concentration: 1.0,
+            diffusivity: 0.0,
+        };
+        Sphere::new(drop).unwrap().growth_matrix(degree).unwrap()[0][0]
+    };
+    for (inside, degree, exact) in [
+        (0.01, 2, -0.826280632718),
+        (0.1, 3, -1.34697804601),
+        (1.0, 4, -1.03896103896),
+        (10.0, 2, -0.0928661882651),
+        (100.0, 4, -0.0209582702164),
+    ] {
+        assert!((passive(inside, degree) / exact - 1.0).abs() < 1e-10, "{inside} {degree}");
+    }
+    for (inside, outside, exact) in [(100.0, 100.0, -0.5), (100.0, 10.0, -0.32), (1000.0, 500.0, -4.0)] {
+        let threshold = sphere(inside, outside, -1.0).activity_threshold();
+        assert!((threshold / exact - 1.0_f64).abs() < 1e-14);
+        assert!(
+            sphere(inside, outside, exact).growth_matrix(1).unwrap()[1][1].abs() < 1e-14,
+            "neutral at the threshold"
+        );
+    }
+    assert!((marangoni_speed(0.5, [10.0, 1.0]).unwrap() - 0.0104166666667).abs() < 1e-12);
+    assert!((settling_speed(1.0, 1.0, [1.0, 10.0]).unwrap() - 0.00761175814787).abs() < 1e-13);
+    for (ratio, exact, error) in [(0.1, 1.2632139053, 1e-4), (0.3, 2.3700948902, 2e-4), (0.5, 5.9473742458, 1.4e-2)] {
+        assert!((tube_drag(ratio).unwrap() / exact - 1.0).abs() < error, "{ratio}");
+    }
+    assert!(tube_drag(0.7).is_err() && sphere(1.0, 1.0, -1.0).growth_matrix(0).is_err());
+}

@@ -69,7 +69,9 @@ fn shifts_and_turns_of_swimmers_are_neutral() {
 #[test]
 fn orders_that_are_not_computed_are_refused() {
     let state = SteadyState::uniform(&setup(-1.0, [100.0, 100.0], 32)).unwrap();
-    assert!(state.spectrum_around(0).unwrap_err().to_string().contains("order"));
+    for order in [0, 2] {
+        assert!(state.spectrum_around(order).unwrap_err().to_string().contains("order"));
+    }
     let plane = Setup { region: Region::Plane, ..setup(-1.0, [100.0, 100.0], 32) };
     let error = SteadyState::uniform(&plane).unwrap().spectrum_around(1).unwrap_err().to_string();
     assert!(error.contains("two dimensions"), "{error}");

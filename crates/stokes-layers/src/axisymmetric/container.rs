@@ -282,7 +282,9 @@ impl AxisymmetricFlow {
                 let (waves, normal) = (&self.grid.waves[j], node.normal());
                 let (x, r) = (dot(&solution.cos, &waves.cos), dot(&solution.sin, &waves.sin));
                 let pull = if with_forces { meridian.force_of(waves).x * speed } else { 0.0 };
-                let jump = sides.contrast() * node.place.y * (x * normal.y + r * normal.x) * slope;
+                let shear = (x * normal.y + r * normal.x) * slope;
+                let fall = resistance(radius, 1.0) * node.place.x * (x * normal.x + r * normal.y);
+                let jump = sides.contrast() * node.place.y * (shear + fall);
                 rise += 2.0 * PI * weight * (pull + jump);
             }
         }
