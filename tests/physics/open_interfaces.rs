@@ -335,6 +335,20 @@ fn layers_in_a_shear() {
         let found = viscosity * (sample.gradient[0][1] + sample.gradient[1][0]);
         assert!((found / stress - 1.0).abs() < 0.01, "{found} {stress}");
     }
+    // One interface, with different fluids at the walls.
+    let height = 0.5;
+    let interfaces = vec![InterfaceSetup { shape: InterfaceShape::Flat, ..wall(height, Side::Above) }];
+    let Built { scene: mut single, .. } = Setup { interfaces, ..setup.clone() }.build().unwrap();
+    single.step(0.001).unwrap();
+    let stress = (walls[1] - walls[0]) / (0.5 * width + height + (0.5 * width - height) / inside);
+    single
+        .system_mut()
+        .sample(&[Vec2::new(0.3, -1.0), Vec2::new(1.0, 1.5), Vec2::new(2.0, 2.0)], &mut samples)
+        .unwrap();
+    for (sample, viscosity) in samples.iter().zip([1.0, inside, inside]) {
+        assert!((viscosity * sample.gradient[0][1] / stress - 1.0).abs() < 1e-8, "{sample:?} {stress}");
+    }
+    assert!((samples[2].velocity - Vec2::new(walls[1], 0.0)).length() < 1e-8, "{samples:?}");
     let refused = scene.system_mut().stresslets().unwrap_err().to_string();
     assert!(refused.contains("periodic along x") && refused.contains("average the stress"), "{refused}");
     let region = Region::Box { lengths: [PERIOD, width] };
