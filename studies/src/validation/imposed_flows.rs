@@ -294,7 +294,8 @@ fn migration() -> Result<Table, StudyError> {
             let corrected = ratio == 1.0;
             let method = Method::Grid(GridMethod { corrected, ..GridMethod::of_spacing(spacing) });
             let setup = Setup { method, step: StepSize::OfLimit(0.5), ..channel(32) };
-            row.push(format!("{:.4}", migrates(&setup, ratio)?));
+            // A contrast that is smeared over cells may end in an interface that crosses itself.
+            row.push(migrates(&setup, ratio).map_or("ends".to_owned(), |speed| format!("{speed:.4}")));
         }
         table.push(row);
     }
