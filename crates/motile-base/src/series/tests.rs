@@ -140,8 +140,8 @@ fn the_range_is_that_between_the_samples() {
     let f = |t: f64| (3.0 * t + 0.4).cos() + 0.5 * (5.0 * t).sin();
     let count = 24;
     let mut series = PeriodicSeries::new(count).unwrap();
-    series.analyse((0..count).map(|k| f(std::f64::consts::TAU * k as f64 / count as f64).into())).unwrap();
-    let all = (0..200_000).map(|k| f(std::f64::consts::TAU * f64::from(k) / 2e5));
+    series.analyse((0..count).map(|k| f(TAU * k as f64 / count as f64).into())).unwrap();
+    let all = (0..200_000).map(|k| f(TAU * f64::from(k) / 2e5));
     let exact = all.fold([f64::NEG_INFINITY, f64::INFINITY], |[most, least], v| [most.max(v), least.min(v)]);
     let found = series.range().unwrap();
     assert!((found[0] - exact[0]).abs() < 1e-5 && (found[1] - exact[1]).abs() < 1e-5, "{found:?} {exact:?}");
