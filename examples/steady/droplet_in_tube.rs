@@ -1,11 +1,11 @@
 //! An active droplet in three dimensions, in a tube or in unbounded fluid.
 //!
-//! `cargo run --release -p motile-steady-examples --example droplet_in_tube` lets a droplet of revolution swim along the
-//! axis of a straight tube of twice its radius, prints what was measured, and writes to `out/droplet_in_tube/` what the
-//! example `swimming_droplet` writes; pictures show the meridian plane with its mirror image, `vtk/surface.pvd` is the
-//! surface turned round. Without `--tube-radius` and with `--space` the fluid is unbounded. Shapes of the tube are
-//! `straight`, `constriction`, where the run ends when it is clear what becomes of the droplet, and `sinusoidal`; both
-//! are closed at their ends, or open for a `--flux`.
+//! `cargo run --release -p motile-steady-examples --example droplet_in_tube` lets a droplet of revolution swim along
+//! the axis of a straight tube of twice its radius, prints what was measured, and writes to `out/droplet_in_tube/`
+//! what the example `swimming_droplet` writes; pictures show the meridian plane with its mirror image,
+//! `vtk/surface.pvd` is the surface turned round. Without `--tube-radius` and with `--space` the fluid is unbounded.
+//! Shapes of the tube are `straight`, `constriction`, where the run ends when it is clear what becomes of the droplet,
+//! and `sinusoidal`; both are closed at their ends, or open for a `--flux`.
 //!
 //! With `--steady` the steady swimmer is found by Newton's method, without a run, and whether it is stable against
 //! disturbances that leave it a body of revolution (order 0) and that turn it (1). `--help` lists the flags.

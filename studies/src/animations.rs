@@ -1,8 +1,8 @@
 //! The animations of the first page, one of each scene in `examples/scenes`.
 //!
 //! `cargo run --release -p studies -- animations` runs every scene to the time in its first lines (`--time T`) and
-//! writes `out/animations/NAME.gif`; `--write` puts them into `docs/images/scenes`. `studies -- pages` puts them and the
-//! text of the scenes into `README.md`.
+//! writes `out/animations/NAME.gif`; `--write` puts them into `docs/images/scenes`. `studies -- pages` puts them and
+//! the text of the scenes into `README.md`.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -3,10 +3,10 @@
 //! `cargo run --release -p studies -- figure 3.9` makes the figure from what `studies/book/3.9.toml` says: its data
 //! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
 //! again), the curves and the numbers that its verdict rests on, as expressions of the columns. It prints them and
-//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser runs, which the ranges of verdicts are
-//! not for: it shows that a figure can be made, and decides and keeps nothing. `figures --chapter 3` makes those of a
-//! chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew. Checks of `points` are found
-//! from the points in `docs/book/figures`, whenever the pages are written (`studies -- pages`).
+//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser runs, which the ranges of verdicts
+//! are not for: it shows that a figure can be made, and decides and keeps nothing. `figures --chapter 3` makes those
+//! of a chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew. Checks of `points` are
+//! found from the points in `docs/book/figures`, whenever the pages are written (`studies -- pages`).
 
 mod data;
 mod expression;

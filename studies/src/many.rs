@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p studies -- many` prints a table, which `--write` keeps as `docs/tables/many.csv`. Droplets
 //! stand in a square lattice and swim alike, so that each errs as one alone in its cell: the error is that of the way
-//! at t = 2 against the finest settings. Costs are times of a step, measured by turns, over the time that it takes in the
-//! scene, in units of a forward and an inverse FFT of 120 x 120 values.
+//! at t = 2 against the finest settings. Costs are times of a step, measured by turns, over the time that it takes in
+//! the scene, in units of a forward and an inverse FFT of 120 x 120 values.
 
 use std::cell::RefCell;
 use std::time::Duration;

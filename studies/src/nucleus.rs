@@ -168,8 +168,8 @@ fn circle(activity: f64, shear: Option<f64>) -> Result<[f64; 3]> {
 fn elastic(keep: tables::Keep) -> Result<()> {
     let columns = ["activity", "shear modulus", "speed", "turning rate", "track radius", "aside"];
     let title = format!(
-        "Droplets with a free elastic nucleus of {RADIUS} R0, box of {SIDE} x {SIDE}, h = {SPACING}: means of t = {} to \
-         {END}; place of the nucleus in the end",
+        "Droplets with a free elastic nucleus of {RADIUS} R0, box of {SIDE} x {SIDE}, h = {SPACING}: means of t = {} \
+         to {END}; place of the nucleus in the end",
         END / 2.0
     );
     let mut table = Table::new(&title, &columns);

@@ -33,7 +33,8 @@ pub(crate) struct Flags {
     write: bool,
 }
 
-/// Cells of the box along a side and step of IB2d. Longer steps than the first of each are as accurate, shorter ones too.
+/// Cells of the box along a side and step of IB2d. Longer steps than the first of each are as accurate, shorter ones
+/// too.
 const IB2D: [(usize, f64); 5] = [(32, 0.0625), (64, 0.0625), (64, 0.0078125), (128, 0.03125), (256, 0.015625)];
 /// Density for IB2d, which has inertia: ten times as much changes the aspect ratio by 1e-4, a tenth by 1e-5.
 const DENSITY: f64 = 0.001;

@@ -143,7 +143,8 @@ fn below(path: &Path, link: &str) -> Option<PathBuf> {
     Some(found)
 }
 
-/// Checks that every page is in SUMMARY.md and has a picture, that links lead somewhere and that formulas can be typeset.
+/// Checks that every page is in SUMMARY.md and has a picture, that links lead somewhere and that formulas can be
+/// typeset.
 ///
 /// # Errors
 /// All that is wrong, a line each.

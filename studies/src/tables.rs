@@ -15,8 +15,8 @@
 //! <!-- end of scene -->
 //! ```
 //!
-//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the files whose code has changed since they were made, and the tables that
-//! still stand in their page, marked by
+//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the
+//! files whose code has changed since they were made, and the tables that still stand in their page, marked by
 //!
 //! ```text
 //! <!-- measured at COMMIT | COMMAND | depends on: PATH PATH -->

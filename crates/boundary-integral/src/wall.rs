@@ -149,9 +149,9 @@ impl RigidWall {
         Ok(self)
     }
 
-    /// Spreads the nodes so that their distance (length) is nowhere more than `wanted(place)`, or than the distance over
-    /// which the wall turns by a tenth of a right angle unless they are closer already: the number of nodes is what
-    /// that takes. The density of nodes follows smoothly, within some nodes, so that quadrature stays spectral.
+    /// Spreads the nodes so that their distance (length) is nowhere more than `wanted(place)`, or than the distance
+    /// over which the wall turns by a tenth of a right angle unless they are closer already: the number of nodes is
+    /// what that takes. The density of nodes follows smoothly, within some nodes, so that quadrature stays spectral.
     ///
     /// # Errors
     /// Distances that are not positive and finite, and those that take more than 3000 nodes.

@@ -8,8 +8,8 @@ use crate::InteriorError;
 const MOST_ENTRIES: usize = 1 << 26;
 
 /// Cholesky factor of a matrix that couples nodes along the edges of a triangulation, stored from the first entry of
-/// each row (skyline), with the inverse of the diagonal in its place. Rows are in the order of a sweep across the droplet, in which neighbours have numbers that
-/// differ little.
+/// each row (skyline), with the inverse of the diagonal in its place. Rows are in the order of a sweep across the
+/// droplet, in which neighbours have numbers that differ little.
 #[derive(Debug, Clone)]
 pub(crate) struct Factor {
     edges: Vec<[usize; 2]>,

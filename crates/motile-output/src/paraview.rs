@@ -17,8 +17,9 @@ use motile::motile_base::Vec2;
 const RECORD: &str = "files for ParaView";
 
 /// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
-/// and, where there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets
-/// (`inside.pvd`), rigid bodies and membranes (`curves.pvd`).
+/// and, where there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`),
+/// gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies and membranes
+/// (`curves.pvd`).
 ///
 /// | file | location | quantity (dimension) |
 /// |---|---|---|

@@ -22,7 +22,7 @@ struct Surface {
     slopes: [DMatrix<f64>; 2],
 }
 
-/// What is known of the undisturbed droplet at a node.
+/// Quantities of the undisturbed droplet at a node.
 struct Node {
     place: Vec2,
     tangent: Vec2,
@@ -245,10 +245,10 @@ impl System {
 }
 
 impl SteadyState {
-    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order, 1: they turn a
-    /// swimmer and push it aside. Those of m = 2, which flatten it, are refused: they do not settle as nodes are added.
-    /// Shifts across the axis and turns,
-    /// which neither grow nor decay in unbounded fluid, are left out; [`Spectrum::neutral`] is how fast they seem to.
+    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order, 1: they turn
+    /// a swimmer and push it aside. Those of m = 2, which flatten it, are refused: they do not settle as nodes are
+    /// added. Shifts across the axis and turns, which neither grow nor decay in unbounded fluid, are left out;
+    /// [`Spectrum::neutral`] is how fast they seem to.
     ///
     /// The equations are linearised by hand and integrated over the azimuth by quadrature. Disturbances of m = 0 are
     /// those of [`SteadyState::spectrum`].

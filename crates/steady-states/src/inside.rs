@@ -176,7 +176,7 @@ impl Field {
         Ok(())
     }
 
-    /// What the equations lack for each polynomial (1/time).
+    /// Residual of the equations for each polynomial (1/time).
     fn residual(&self, on: &DVector<f64>, lengths: &DVector<f64>) -> DVector<f64> {
         let [b, bx, by] = self.values.each_ref().map(|matrix| matrix * &self.coefficients);
         let flux = |slope: &DVector<f64>, along: fn(&Vec2) -> f64| -> DVector<f64> {

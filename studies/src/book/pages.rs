@@ -23,12 +23,13 @@ const CHAPTERS: [(&str, &str); 5] = [
 
 const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
                      what converged results say. All of it is written by `cargo run --release -p studies -- figures \
-                     --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
-                     chapter; with `--quick` runs are fewer, shorter and coarser, and decide nothing. A figure that was \
-                     not computed says so; a verdict whose numbers came out otherwise than it needs is shown as open, with the number. Every \
-                     verdict but 'cannot tell' and 'no claim' rests on ranges that the number of the contrary \
-                     statement is outside of; a test refuses one without. Where older numbers were known when a range \
-                     was stated, as in chapter 4 and parts of chapter 3, it was chosen from the claim.";
+                     --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` \
+                     a chapter; with `--quick` runs are fewer, shorter and coarser, and decide nothing. A figure that \
+                     was not computed says so; a verdict whose numbers came out otherwise than it needs is shown as \
+                     open, with the number. Every verdict but 'cannot tell' and 'no claim' rests on ranges that the \
+                     number of the contrary statement is outside of; a test refuses one without. Where older numbers \
+                     were known when a range was stated, as in chapter 4 and parts of chapter 3, it was chosen from \
+                     the claim.";
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")

@@ -1,5 +1,5 @@
-//! Drops, capsules, bubbles and rigid ellipses in imposed flows; emulsions, migration, and the viscosity of a box with a
-//! swimmer in it.
+//! Drops, capsules, bubbles and rigid ellipses in imposed flows; emulsions, migration, and the viscosity of a box with
+//! a swimmer in it.
 
 use std::f64::consts::PI;
 

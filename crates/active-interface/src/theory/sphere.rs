@@ -17,7 +17,7 @@ use crate::InterfaceError;
 /// let theory = Sphere::new(droplet)?;
 /// println!("threshold {:.2}", theory.activity_threshold()); // -0.50, in two dimensions -0.40
 /// assert!((theory.activity_threshold() + 0.5).abs() < 1e-15);
-/// assert!(theory.onset(10.0)? < 1.0); // swimmers of small amplitude are on the side where the droplet at rest is stable
+/// assert!(theory.onset(10.0)? < 1.0); // small swimmers exist where the droplet at rest is stable
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,9 +131,9 @@ pub fn settling_speed(force: f64, radius: f64, [inside, outside]: [f64; 2]) -> R
 }
 
 /// Drag on a rigid sphere along the axis of a closed tube over that in unbounded fluid, for a radius of the sphere over
-/// that of the tube up to 0.6, to 1e-4 at 0.1, 2e-4 at 0.3, 1.4e-2 at 0.5 (Haberman and Sayre, Motion of rigid and fluid
-/// spheres in stationary and moving liquids inside cylindrical tubes, 1958, their approximation); tighter tubes and more
-/// digits are computed by `stokes_layers::axisymmetric`.
+/// that of the tube up to 0.6, to 1e-4 at 0.1, 2e-4 at 0.3, 1.4e-2 at 0.5 (Haberman and Sayre, Motion of rigid and
+/// fluid spheres in stationary and moving liquids inside cylindrical tubes, 1958, their approximation); tighter tubes
+/// and more digits are computed by `stokes_layers::axisymmetric`.
 ///
 /// # Errors
 /// A ratio below 0 or above 0.6.

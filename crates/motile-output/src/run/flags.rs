@@ -124,8 +124,8 @@ pub struct OutputFlags {
     /// Show no progress
     #[arg(long)]
     pub quiet: bool,
-    /// Most rows of the tables of a run, at equal times; without it 1000. What a summary says of a whole run (amplitude,
-    /// period, mean speed) comes from them
+    /// Most rows of the tables of a run, at equal times; without it 1000. What a summary says of a whole run
+    /// (amplitude, period, mean speed) comes from them
     #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub rows: Option<u32>,
     /// Directory of the results; without it that of the example in out/

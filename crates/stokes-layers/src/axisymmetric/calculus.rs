@@ -66,8 +66,8 @@ impl MeridianCalculus {
         self.curve.write_vectors(&mut self.tangents)?;
         self.curve.analyse_vectors(positions)?;
         self.curve.shift(shift);
-        // The part along the meridian is sin(t) times a function h whose series is differentiated, so that no force comes
-        // out of the poles: there r/sin(t) is the slope of r.
+        // The part along the meridian is sin(t) times a function h whose series is differentiated, so that no force
+        // comes out of the poles: there r/sin(t) is the slope of r.
         let angle = |k: usize| 2.0 * PI * k as f64 / len as f64;
         let points = self.curve.values().iter().zip(&self.tangents).zip(tension).enumerate();
         let pull = |(k, ((place, tangent), tension)): (usize, ((&Complex64, &Vec2), &f64))| {

@@ -45,7 +45,7 @@ struct Rows {
     shape: [Vec<f64>; 3],
 }
 
-/// What of the points of a layer and of its target is displaced.
+/// Points of a layer and of its target that are displaced.
 #[derive(Debug, Clone, Copy)]
 enum Displaced<'a> {
     /// Points and target on the same surface, the waves of the target.
@@ -342,8 +342,8 @@ impl Disturbances {
         Ok(())
     }
 
-    /// The same of the order 0 for displacements (length) and forces (force) at the points that the interface was given
-    /// by, closed curves with forces on halves of rings as in [`AxisymmetricFlow::load`].
+    /// Velocities of the order 0 for displacements (length) and forces (force) at the points that the interface was
+    /// given by, closed curves with forces on halves of rings as in [`AxisymmetricFlow::load`].
     ///
     /// # Errors
     /// Lists of another length than the number of points.

@@ -124,7 +124,8 @@ impl Ring {
         (velocity, pressure, gradient)
     }
 
-    /// Velocity, pressure and gradient of the double layer of velocities on the ring with the outward normal n (of any length).
+    /// Velocity, pressure and gradient of the double layer of velocities on the ring with the outward normal n (of any
+    /// length).
     pub(super) fn double_flow(&self, normal: Vec2, density: Vec2) -> ([f64; 2], f64, [[f64; 2]; 2]) {
         let [[xx, xr], [rx, rr]] = self.double(normal);
         let velocity = [xx * density.x + xr * density.y, rx * density.x + rr * density.y];
