@@ -51,6 +51,9 @@ pub(crate) struct Multipoles {
     links: Vec<Link>,
     /// Number of links in use; the others keep their memory.
     used: usize,
+    /// Numbers of the links in use, those of each target together, and where those of each target begin.
+    by_target: Vec<usize>,
+    starts: Vec<usize>,
     /// Unit of length of all series (length), the largest radius of a curve.
     unit: f64,
     /// Largest degree of a series in use.
@@ -78,6 +81,8 @@ impl Multipoles {
             moments: Vec::new(),
             links: Vec::new(),
             used: 0,
+            by_target: Vec::new(),
+            starts: Vec::new(),
             unit: 1.0,
             degree: 0,
             products: Vec::new(),
@@ -130,6 +135,27 @@ impl Multipoles {
                     self.divide_pair(curves, ends, pairs);
                 }
             }
+        }
+        self.sort_by_target(curves.len());
+    }
+
+    /// Lists the links by their targets, those of a target in the order in which they were found.
+    fn sort_by_target(&mut self, curves: usize) {
+        let Self { links, used, by_target, starts, .. } = self;
+        starts.clear();
+        starts.resize(curves + 1, 0);
+        for link in &links[..*used] {
+            starts[link.target] += 1;
+        }
+        let mut end = 0;
+        for start in starts.iter_mut() {
+            end += *start;
+            *start = end;
+        }
+        by_target.resize(*used, 0);
+        for (index, link) in links[..*used].iter().enumerate().rev() {
+            starts[link.target] -= 1;
+            by_target[starts[link.target]] = index;
         }
     }
 
@@ -266,15 +292,16 @@ impl Multipoles {
 
     fn add_flow(&mut self, curves: &[Curve], degree: usize, out: &mut [Vectors]) {
         for (target, (curve, out)) in curves.iter().zip(out).enumerate() {
+            let links = &self.by_target[self.starts[target]..self.starts[target + 1]];
+            if links.is_empty() {
+                continue;
+            }
             self.expansion.begin(degree);
-            let mut any = false;
-            for link in self.links[..self.used].iter().filter(|link| link.target == target) {
+            for &index in links {
+                let link = &self.links[index];
                 self.expansion.add(&link.series, &self.moments[link.source], self.unit);
-                any = true;
             }
-            if any {
-                self.expansion.add_flow(&curve.nodes.position, self.unit, self.images.area(), out);
-            }
+            self.expansion.add_flow(&curve.nodes.position, self.unit, self.images.area(), out);
         }
     }
 }
