@@ -10,7 +10,7 @@ pub(crate) mod geometry;
 mod limits;
 mod redistribution;
 mod shape;
-mod spectral;
+pub(crate) mod spectral;
 
 use std::sync::Arc;
 

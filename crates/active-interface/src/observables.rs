@@ -149,8 +149,12 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     for body in enclosed {
         moments.add_body(body, convention, &frame)?;
     }
+    let surface = of_revolution.then(|| revolution::surface(markers)).transpose()?;
     // In three dimensions the numbers that segments would have in the plane at the same concentrations.
-    let in_plane = of_revolution.then(|| revolution::numbers_in_plane(markers, numbers));
+    let in_plane: Option<Vec<f64>> = surface.as_ref().map(|surface| {
+        let sizes = edges(markers).map(|(a, b)| (b - a).length()).zip(&surface.rings.areas);
+        numbers.iter().zip(sizes).map(|(number, (length, area))| number * length / area).collect()
+    });
     let numbers = in_plane.as_deref().unwrap_or(numbers);
     let mut record = Observables {
         centroid: area.centroid,
@@ -187,8 +191,8 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         record.active_region = active_region(&lengths, numbers)?;
         record.active_curvature = record.active_region.and_then(|region| active_curvature(markers, &region).ok());
     }
-    if of_revolution {
-        revolution::observe_in_space(state, &mut record)?;
+    if let Some(surface) = &surface {
+        revolution::observe_in_space(state, surface, &mut record)?;
     }
     Ok(record)
 }

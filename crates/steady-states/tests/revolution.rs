@@ -31,7 +31,7 @@ fn swimmers_in_space_are_those_of_the_reference() {
         assert!((value / exact - 1.0_f64).abs() < limit, "{values:?}");
     }
     assert!(state.residual() < 1e-7);
-    // Those of a run, of second order in the spacing of 1536 markers.
+    // Those of a run; concentrations are the means of 1536 segments.
     let run = state.observables().unwrap();
     let [largest, _] = run.concentration_range.unwrap();
     let values =

@@ -283,8 +283,16 @@ impl ActiveInterface {
     }
 
     /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second
-    /// time for the quadratic part).
+    /// time for the quadratic part), or scales a body of revolution to its volume: that adds no waves which the flow
+    /// does not see, and keeps equal spacing.
     fn restore_area(&mut self) {
+        if self.state.shape.of_revolution {
+            let factor = (self.account.area / self.area()).cbrt();
+            let markers = &mut self.state.shape.markers;
+            let middle = 0.5 * (markers[0] + markers[markers.len() / 2]);
+            markers.iter_mut().for_each(|marker| *marker = middle + factor * (*marker - middle));
+            return self.update();
+        }
         for _ in 0..2 {
             let missing = self.account.area - self.area();
             let total = self.geometry().total_weight();

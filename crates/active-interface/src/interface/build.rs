@@ -6,7 +6,6 @@ use motile_base::{InputError, Membrane, Vec2, all_finite, finite, not_negative, 
 
 use super::{
     Account, ActiveInterface, Bending, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
-    geometry::Geometry,
 };
 use crate::{
     Flux, InterfaceError, Tension,
@@ -202,7 +201,8 @@ impl ActiveInterface {
 
     /// Makes the interface one of a body of revolution about the x axis in three dimensions, of which the markers,
     /// whose first one is on the axis, are the meridian with its mirror image. Concentrations stay and become numbers
-    /// per area, the area that is kept becomes the volume, and tensions are per length.
+    /// per area, and tensions are per length. The area becomes the volume, which is restored after each step: the
+    /// truncation of the motion to the modes of the flow does not keep it.
     ///
     /// # Errors
     /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the
@@ -226,12 +226,16 @@ impl ActiveInterface {
             let carried = self.state.numbers.len();
             self.state.numbers.rotate_left(carried / 2);
         }
+        // Those over the polygon, which the numbers are given for.
+        self.update();
+        let concentrations = self.derived.concentrations.clone();
         self.scheme.spectral = Some(SpectralCurve::new(count)?);
         (self.state.shape.of_revolution, self.scheme.other.of_revolution) = (true, true);
+        self.law.keeps_area = true;
         self.update();
-        let Geometry { lengths, rings, .. } = &self.state.shape.geometry;
-        for ((number, area), length) in self.state.numbers.iter_mut().zip(&rings.areas).zip(lengths) {
-            *number *= area / length;
+        let areas = &self.state.shape.geometry.rings.areas;
+        for ((number, area), concentration) in self.state.numbers.iter_mut().zip(areas).zip(concentrations) {
+            *number = concentration * area;
         }
         self.update();
         (self.account.area, self.account.number) = (self.area(), self.number());

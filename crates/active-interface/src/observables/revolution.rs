@@ -1,18 +1,21 @@
 //! Observables of bodies of revolution in three dimensions.
 
-use std::f64::consts::PI;
+use motile_base::{InputError, Vec2};
 
-use motile_base::Vec2;
-
-use super::frame::{Frame, weighted_normals};
-use super::polar::{Polar, PolarMarkers};
-use super::{ForceMoments, InterfaceState, Observables, SquirmerFit};
+use super::{ForceMoments, Frame, InterfaceState, Observables, SquirmerFit};
 use crate::InterfaceError;
-use crate::curve::polygon::edges;
+use crate::interface::geometry::{Geometry, Rings, outward};
+use crate::interface::spectral::SpectralCurve;
 
-/// Numbers of particles that segments would have in the plane at the concentrations of halves of rings.
-pub(super) fn numbers_in_plane(markers: &[Vec2], numbers: &[f64]) -> Vec<f64> {
-    edges(markers).zip(numbers).map(|((a, b), number)| number / (0.5 * PI * (a.y + b.y).abs())).collect()
+/// Geometry of the smooth surface whose meridian, with its mirror image, goes through these markers.
+///
+/// # Errors
+/// More markers than a Fourier transform takes.
+pub(super) fn surface(markers: &[Vec2]) -> Result<Geometry, InputError> {
+    let (mut curve, mut geometry) = (SpectralCurve::new(markers.len())?, Geometry::default());
+    curve.update(markers, 0.0, &mut geometry);
+    curve.update_rings(markers, &mut geometry);
+    Ok(geometry)
 }
 
 /// Replaces what differs in three dimensions: centroid, velocity, volume (as the area), area (as the perimeter),
@@ -23,41 +26,55 @@ pub(super) fn numbers_in_plane(markers: &[Vec2], numbers: &[f64]) -> Vec<f64> {
 /// B1 = 3/4 INT u_theta sin^2 dtheta      B2 = 15/4 INT u_theta sin^2 cos dtheta
 /// ```
 ///
-/// Sums over halves of rings, of second order in the spacing of markers.
-pub(super) fn observe_in_space(state: &InterfaceState<'_>, record: &mut Observables) -> Result<(), InterfaceError> {
+/// Integrals over the smooth surface through the markers, as accurate as its series; the volume is the one that the
+/// motion keeps.
+pub(super) fn observe_in_space(
+    state: &InterfaceState<'_>,
+    surface: &Geometry,
+    record: &mut Observables,
+) -> Result<(), InterfaceError> {
     let InterfaceState { markers, forces, velocities, numbers, viscosities, .. } = *state;
-    let rings = || markers.iter().zip(weighted_normals(markers)).map(|(x, n)| (*x, PI * x.y.abs() * n));
-    let integral = |of: &dyn Fn(Vec2, Vec2) -> f64| -> f64 { rings().map(|(x, n)| of(x, n)).sum() };
-    let volume = integral(&|x, n| x.dot(n) / 3.0);
+    let Geometry { tangents, weights: lengths, rings, .. } = surface;
+    // Relative to a marker on the axis, so that droplets that have travelled far lose no digits.
+    let pole = Vec2::new(markers[0].x, 0.0);
+    let parts = || {
+        let normals = tangents.iter().zip(&rings.weights).map(|(tau, weight)| *weight * outward(*tau));
+        markers.iter().map(move |x| *x - pole).zip(normals)
+    };
+    let integral = |of: &dyn Fn(Vec2, Vec2) -> f64| -> f64 { parts().map(|(x, n)| of(x, n)).sum() };
+    let volume = surface.volume(markers);
     let centre = integral(&|x, n| 0.5 * x.x * x.x * n.x) / volume;
     let along = integral(&|x, n| (x.x - centre).powi(3) / 3.0 * n.x);
     let across = 0.5 * integral(&|x, n| 0.25 * x.y.powi(3) * n.y);
-    let flux = rings().zip(velocities).map(|((x, n), u)| (x.x - centre) * u.dot(n));
+    let flux = parts().zip(velocities).map(|((x, n), u)| (x.x - centre) * u.dot(n));
     let velocity = flux.sum::<f64>() / volume;
     let ratio = along / across;
     if !(ratio > 0.0 && ratio.is_finite()) {
         return Err(InterfaceError::Crossed);
     }
-    (record.centroid, record.velocity) = (Vec2::new(centre, 0.0), Vec2::new(velocity, 0.0));
-    (record.area, record.perimeter) = (volume, integral(&|_, n| n.length()));
+    (record.centroid, record.velocity) = (pole + Vec2::new(centre, 0.0), Vec2::new(velocity, 0.0));
+    (record.area, record.perimeter) = (volume, surface.total_weight());
     record.aspect_ratio_moments = ratio.sqrt();
     record.particle_number = numbers.iter().sum();
 
     let factor = record.convention.factor(viscosities)?;
     let mut moments = ForceMoments { in_space: true, ..ForceMoments::default() };
-    for (((x, n), f), u) in rings().zip(forces).zip(velocities) {
+    let quadrature = Rings::quadrature(markers.len());
+    for ((((x, n), f), u), weight) in parts().zip(forces).zip(velocities).zip(&quadrature) {
         moments.force[0] += f.x;
-        moments.dipole[0][0] += f.x * (x.x - centre) + 2.0 * factor * u.x * n.x;
-        moments.dipole[1][1] += 0.5 * (f.y * x.y + 2.0 * factor * u.y * n.y);
+        moments.dipole[0][0] += weight * f.x * (x.x - centre) + 2.0 * factor * u.x * n.x;
+        moments.dipole[1][1] += 0.5 * (weight * f.y * x.y + 2.0 * factor * u.y * n.y);
     }
     record.moments = moments;
     let frame = Frame::of_motion(record.centroid, record.velocity)?;
-    let polar = PolarMarkers::new(markers, &frame);
     let fit = |drift: f64| {
         let mut fit = SquirmerFit::default();
-        for ((Polar { direction, .. }, weight), u) in polar.weighted().zip(velocities) {
-            let seen = frame.components(*u - Vec2::new(drift, 0.0));
-            let part = weight * direction.perp_dot(seen) * direction.y * direction.y.abs();
+        for (k, (x, u)) in markers.iter().zip(velocities).enumerate() {
+            let from = frame.coordinates(*x);
+            let (distance, seen) = (from.length(), frame.components(*u - Vec2::new(drift, 0.0)));
+            let direction = from / distance;
+            let turn = quadrature[k] * lengths[k] * direction.perp_dot(frame.components(tangents[k])) / distance;
+            let part = turn * direction.perp_dot(seen) * direction.y * direction.y.abs();
             fit.b1 += 0.375 * part;
             fit.b2 += 1.875 * part * direction.x;
         }
