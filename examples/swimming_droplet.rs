@@ -13,10 +13,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 use clap::Parser;
-use motile::setup::Setup;
-use motile_examples::{BoxFlags, SceneFlags};
+use motile_examples::{BoxFlags, SceneFlags, scene_file};
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
@@ -36,15 +35,8 @@ fn main() -> ExitCode {
 fn swim(Flags { file, scene: flags }: &Flags) -> Result<()> {
     flags.output.check("swimming_droplet", file.as_deref())?;
     // The scene: a droplet in a box, or what the file says.
-    let file = file.as_ref().map(|path| -> Result<Setup> {
-        let read = || {
-            // A device could go on for ever.
-            ensure!(!path.exists() || path.is_file(), "it is no regular file");
-            Ok(Setup::from_toml(&std::fs::read_to_string(path)?)?)
-        };
-        read().with_context(|| format!("--scene {}", path.display()))
-    });
-    let mut setup = flags.method.setup(&flags.droplet, file.transpose()?)?;
+    let file = file.as_deref().map(scene_file).transpose()?;
+    let mut setup = flags.method.setup(&flags.droplet, file)?;
     flags.region.apply(&mut setup)?;
 
     // The run, with all that watches it.

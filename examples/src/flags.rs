@@ -32,7 +32,7 @@ const DRIVES: [(&str, &str, Drive); 2] = [
 ];
 
 /// The droplet, the first one of a scene. What is not given stays as it is in the scene, by default as listed.
-#[derive(Debug, Clone, PartialEq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DropletFlags {
     /// Activity zeta delta-mu, negative: contractile [default: -2]
     #[arg(long, value_parser = activity, allow_hyphen_values = true)]

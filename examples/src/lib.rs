@@ -23,7 +23,7 @@ pub use command_line::run;
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, RegionFlags, SceneFlags};
 pub use gel_flags::GelFlags;
 pub use method_flags::{MethodFlags, Preset};
-pub use parse::{activity, not_negative, pair, positive};
+pub use parse::{activity, distribution, not_negative, pair, positive, scene_file};
 pub use passage::{Passage, Verdict};
 pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use track::{mean_speed, turning_rate};

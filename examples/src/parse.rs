@@ -1,11 +1,12 @@
 //! Values of command line flags: from text to numbers, or a reason why not.
 
-use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
+use std::{fmt::Display, ops::RangeInclusive, path::Path, str::FromStr};
 
+use anyhow::{Context as _, ensure};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::motile_scene::StepSize;
-use motile::setup::IntegralMethod;
+use motile::setup::{Distribution, IntegralMethod, Setup};
 
 /// Automatic time steps, as a fraction of the stability limit.
 const OF_LIMIT: f64 = 0.5;
@@ -111,6 +112,27 @@ pub fn pair(text: &str) -> Result<[f64; 2], String> {
     let (x, y) = text.split_once(',').ok_or("must be two numbers with a comma between them")?;
     let part = |name: &str, text: &str| finite(text).map_err(|rule| format!("the {name} number {rule}"));
     Ok([part("first", x)?, part("second", y)?])
+}
+
+/// A number, or the least and the largest one with a comma between them.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn distribution(text: &str) -> Result<Distribution, String> {
+    if text.contains(',') { pair(text).map(Distribution::Between) } else { finite(text).map(Distribution::Value) }
+}
+
+/// The scene of a file.
+///
+/// # Errors
+/// A file that cannot be read or describes no scene.
+pub fn scene_file(path: &Path) -> anyhow::Result<Setup> {
+    let read = || {
+        // A device could go on for ever.
+        ensure!(!path.exists() || path.is_file(), "it is no regular file");
+        Ok(Setup::from_toml(&std::fs::read_to_string(path)?)?)
+    };
+    read().with_context(|| format!("--scene {}", path.display()))
 }
 
 /// A regularised delta function by its name.

@@ -75,6 +75,7 @@ mod error;
 mod exchange;
 mod interface;
 pub mod observables;
+pub mod suspension;
 mod tension;
 pub mod theory;
 pub mod trajectory;

@@ -51,6 +51,7 @@ pub mod run;
 mod snapshot;
 mod solids;
 mod streamlines;
+mod suspension;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 mod table;
@@ -70,5 +71,6 @@ pub use raster::{Raster, Samples};
 pub use snapshot::{DropletOutline, GelField, InteriorField, Snapshot};
 pub use solids::SolidMeter;
 pub use streamlines::streamlines;
+pub use suspension::SuspensionCsv;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -102,11 +102,14 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
         for (time, warning) in self.warnings.look(system) {
             self.progress.note(&format!("warning: at t = {time:.3}, {warning}"));
         }
-        let mut speed = None;
-        for (handle, _) in system.bodies::<ActiveDroplet>() {
+        let first = system.bodies::<ActiveDroplet>().next().map(|(handle, _)| handle);
+        let speed = first.map(|handle| {
             let state = InterfaceState::of(system, handle)?;
-            speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.length()));
-        }
+            Ok::<_, Box<dyn std::error::Error + Send + Sync>>(
+                centroid_velocity(state.markers, state.velocities)?.length(),
+            )
+        });
+        let speed = speed.transpose()?;
         let (time, end, steps, seconds) = (system.time(), self.end, system.steps(), self.progress.seconds());
         self.progress.update(time / end, || {
             let pace = steps as f64 / seconds.max(1e-9);

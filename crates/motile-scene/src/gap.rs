@@ -192,6 +192,20 @@ impl Surfaces {
         self.gaps(view, bound.max(REACH * self.contact_scale(view)), |_| true)
     }
 
+    /// The narrowest gap, however wide: looked for in a reach that grows until there is one.
+    pub(crate) fn narrowest(&self, view: &FluidView) -> Option<Gap> {
+        let size = self.tree.frame()?.size();
+        let mut reach = REACH * self.contact_scale(view);
+        while reach > 0.0 && reach < size {
+            let found = self.gaps(view, reach, |_| true).narrowest;
+            if found.is_some() {
+                return found;
+            }
+            reach *= 4.0;
+        }
+        self.gaps(view, f64::INFINITY, |_| true).narrowest
+    }
+
     /// The gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies, and from
     /// the corners of other bodies to interfaces.
     pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool) -> Gaps {
@@ -206,6 +220,26 @@ impl Surfaces {
             });
         }
         gaps
+    }
+
+    /// The pairs of bodies, at least one of them an interface, whose gap is below `reach` (length), each once, and the
+    /// gaps (length); a body and its own image are a pair of one number.
+    pub(crate) fn pairs_near(&self, view: &FluidView, reach: f64) -> Vec<([usize; 2], f64)> {
+        let mut pairs = Vec::new();
+        for (body, from) in self.boundaries.iter().enumerate() {
+            let Some(frame) = from.frame() else { continue };
+            self.each_near(&frame, view.domain.periods, reach, &mut |other| {
+                if other > body || !(self.kinds[body].is_curve() || self.kinds[other].is_curve()) {
+                    return;
+                }
+                let mut gaps = Gaps::default();
+                self.add_gaps([body, other], &view.domain, [reach, f64::INFINITY], &mut gaps);
+                self.add_gaps([other, body], &view.domain, [reach, f64::INFINITY], &mut gaps);
+                pairs.extend(gaps.narrowest.map(|gap| ([other, body], gap.width)));
+            });
+        }
+        pairs.sort_by_key(|(bodies, _)| *bodies);
+        pairs
     }
 
     /// Looks at the gaps from the corners of one body to the boundary of another one or of its own images, below

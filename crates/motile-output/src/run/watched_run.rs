@@ -79,6 +79,7 @@ impl WatchedRun {
     /// Those of [`Job::new`]; a first droplet without particles.
     pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, view: &View) -> Result<Self> {
         let Built { mut scene, droplets, .. } = built;
+        let (described, setup) = (setup, &setup.placed()?);
         let (Some(&droplet), Some(&DropletSetup { centre: [x, y], angle, particles: Some(particles), .. })) =
             (droplets.first(), setup.droplets.first())
         else {
@@ -88,7 +89,7 @@ impl WatchedRun {
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         let area = body.initial_area();
         let numbers = setup.numbers(&setup.droplets[0])?;
-        let job = Job::new(&mut scene, setup, end, output, name)?;
+        let job = Job::new(&mut scene, described, end, output, name)?;
         let raster = |spacing: f64| match setup.region {
             Region::Tube { radius, .. } => {
                 let half = setup.region.half_length().map_or(0.5 * VIEW.max(4.0 * radius), |half| half);

@@ -3,7 +3,11 @@
 use super::{Observer, System};
 use crate::{Hydrodynamics, Warning};
 
-/// The warnings of a scene's runs ([`System::warnings`]): of each body and cause the worst, and when it was.
+/// Bodies of a scene above which their warnings of one cause are one.
+const MANY: usize = 8;
+
+/// The warnings of a scene's runs ([`System::warnings`]): of each body and cause the worst, and when it was; in scenes
+/// of more than eight bodies of each cause, with the body that it was worst of.
 /// Checkpoints hold them, so that a run that goes on from one tells those from before it too.
 ///
 /// ```no_run
@@ -34,10 +38,12 @@ impl Warnings {
     /// Looks at the present state; returns what was not warned of before.
     pub fn look<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> &[(f64, Warning)] {
         let (found, time) = (system.warnings(), system.time());
+        let many = system.all_bodies().len() > MANY;
         let all = &mut system.findings.warnings;
         let known = all.len();
         for warning in found {
-            let same = |(_, other): &&mut (f64, Warning)| other.body == warning.body && other.cause == warning.cause;
+            let same =
+                |(_, other): &&mut (f64, Warning)| other.cause == warning.cause && (many || other.body == warning.body);
             match all.iter_mut().find(same) {
                 Some((_, worst)) if warning.excess <= worst.excess => {}
                 Some(worst) => *worst = (time, warning),

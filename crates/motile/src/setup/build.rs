@@ -58,6 +58,9 @@ impl Setup {
     /// cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
+        if !self.suspension.is_empty() {
+            return self.placed()?.build();
+        }
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
         let plans = self.bodies().enumerate().map(|(k, (_, body))| body.plan(self).map_err(keyed(k)));
         let (plans, flow) = (plans.collect::<Result<Vec<_>, _>>()?, self.flow()?);
@@ -213,9 +216,12 @@ impl Setup {
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
         Ok(match &self.method {
             Method::Integral(method) => self.integrals(method)?,
-            Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => {
-                Box::new(ImmersedLayers::new(self.solver(*spacing)?, *kernel, *nodes, LAYER_TOLERANCE)?)
-            }
+            Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => Box::new(ImmersedLayers::new(
+                self.solver(*spacing)?,
+                *kernel,
+                *nodes,
+                self.tolerance.unwrap_or(LAYER_TOLERANCE),
+            )?),
             Method::Grid(grid) => {
                 let solver = self.solver(grid.spacing)?;
                 if grid.corrected {
@@ -240,7 +246,8 @@ impl Setup {
     }
 
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod) -> Result<AnyFlow, SetupError> {
-        let settings = Settings { nodes, ..Settings::default() };
+        let usual = Settings::default();
+        let settings = Settings { nodes, tolerance: self.tolerance.unwrap_or(usual.tolerance), ..usual };
         if self.region.is_of_revolution() {
             let perimeter = self.shortest_perimeter()?.unwrap_or(TAU);
             return Ok(Box::new(RevolutionIntegral::new(self.region, self.viscosity, settings, perimeter)?));

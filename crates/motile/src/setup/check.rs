@@ -11,6 +11,9 @@ use crate::SetupError;
 /// Most cells of a grid in a direction, and in all.
 const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
 
+/// Least and largest relative accuracy of layers.
+const TOLERANCES: [f64; 2] = [1e-15, 1e-3];
+
 impl Setup {
     /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What
     /// only shows when shapes are made is refused by [`Setup::build`].
@@ -48,6 +51,13 @@ impl Setup {
             Method::Layers(layers) => self.check_layers(layers)?,
             Method::Grid(grid) => self.check_grid(grid)?,
         }
+        if let Some(tolerance) = self.tolerance {
+            let [least, most] = TOLERANCES;
+            let remedy = format!("give a number from {least:e} to {most:e}");
+            let holds = (least..=most).contains(&tolerance);
+            top.require(holds, "tolerance", tolerance, &remedy)?;
+            self.computed("accuracy of its own", &[MethodKind::Integral, MethodKind::Layers])?;
+        }
         self.flow.check(self)?;
         if !self.flow.is_none() {
             self.computed("imposed flows", &[MethodKind::Integral])?;
@@ -76,6 +86,7 @@ impl Setup {
             self.able(body)?;
             body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
         }
+        self.check_suspensions()?;
         for (number, wall) in self.walls.iter().enumerate() {
             wall.check(&format!("walls[{number}]"), self)?;
         }

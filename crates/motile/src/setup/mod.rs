@@ -7,7 +7,6 @@ mod checked;
 mod droplet;
 #[cfg(feature = "toml")]
 mod file;
-mod fill;
 mod flow;
 mod gel;
 mod gel_in_box;
@@ -19,6 +18,7 @@ mod places;
 mod rigid_body;
 mod shell;
 mod solid;
+mod suspension;
 mod wall;
 
 pub use build::{AnyFlow, Built};
@@ -32,6 +32,7 @@ pub use numbers::Numbers;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
 pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup};
+pub use suspension::{Arrangement, Distribution, Headings, SuspensionSetup};
 pub use wall::WallSetup;
 
 use body::{BodySetup, numbered};
@@ -76,6 +77,10 @@ pub struct Setup {
     pub region: Region,
     /// Method of the flow.
     pub method: Method,
+    /// Relative accuracy of the flow by boundary integrals and layers, from 1e-15 to 1e-3 (no dimension); `None` for
+    /// 1e-8, and 1e-6 with layers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
     /// A flow that is imposed from outside.
@@ -97,6 +102,9 @@ pub struct Setup {
     /// The droplets; a file that names none has none.
     #[serde(default)]
     pub droplets: Vec<DropletSetup>,
+    /// Suspensions: many droplets at places that are found for them ([`Setup::placed`]).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub suspension: Vec<SuspensionSetup>,
     /// The elastic solids: walls, islands, nuclei.
     #[serde(default)]
     pub solids: Vec<SolidSetup>,
@@ -123,6 +131,7 @@ impl Default for Setup {
         Self {
             region: Region::Box { lengths: [6.0, 6.0] },
             method: Method::default(),
+            tolerance: None,
             viscosity: 100.0,
             flow: FlowSetup::default(),
             step: StepSize::default(),
@@ -131,6 +140,7 @@ impl Default for Setup {
             least_gap: None,
             mirror_symmetric: false,
             droplets: vec![DropletSetup::default()],
+            suspension: Vec::new(),
             solids: Vec::new(),
             rigid_bodies: Vec::new(),
             shells: Vec::new(),

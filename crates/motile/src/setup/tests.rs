@@ -67,6 +67,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let cases = [
             ("viscosity =", Setup { viscosity: bad, ..Setup::default() }),
+            ("tolerance =", Setup { tolerance: Some(bad), ..Setup::default() }),
             ("region.box.lengths[1] =", Setup { region: Region::Box { lengths: [6.0, bad] }, ..Setup::default() }),
             ("region.channel.width =", Setup { region: channel(bad), ..Setup::default() }),
             ("step.fixed =", Setup { step: StepSize::Fixed(bad), ..Setup::default() }),
@@ -617,42 +618,6 @@ fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
 }
 
 #[test]
-fn droplets_fill_a_part_of_the_area_without_touching() {
-    let small = DropletSetup::active(-2.0).with_radius(0.5);
-    for region in
-        [Region::Box { lengths: [9.0, 7.0] }, Region::Channel { length: 9.0, width: 7.0, drive: Drive::ZeroFlux }]
-    {
-        let droplets = small.filling(&region, 0.6, 3).unwrap();
-        assert_eq!(droplets.len(), (0.6 * 63.0 / (0.25 * std::f64::consts::PI)).round() as usize);
-        assert!(
-            droplets == small.filling(&region, 0.6, 3).unwrap() && droplets != small.filling(&region, 0.6, 4).unwrap()
-        );
-        let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
-        let setup = Setup { region, method, droplets, ..Setup::default() };
-        let Built { scene, droplets, .. } = setup.build().unwrap();
-        let areas = droplets.iter().map(|&droplet| scene.body(droplet).unwrap().initial_area());
-        assert!((areas.sum::<f64>() / 63.0 - 0.6).abs() < 0.01);
-        // A film of a twentieth of the radius, but for the 0.0016 by which the corners of 32 markers stand out.
-        let gaps = [scene.system().minimum_gap(), scene.system().minimum_wall_gap()];
-        assert!(gaps.iter().flatten().all(|gap| *gap > 0.023), "{gaps:?}");
-    }
-    let refused = |droplet: &DropletSetup, lengths, fraction| {
-        droplet.filling(&Region::Box { lengths }, fraction, 1).unwrap_err().to_string()
-    };
-    let bent = DropletSetup { shape: DropletShape::Ellipse { half_axes: [1.0, 2.0] }, ..small.clone() };
-    for (error, start) in [
-        (refused(&small, [6.0, 6.0], 0.9), "area fraction = 0.9: no places were found for 41 droplets of radius 0.5"),
-        (refused(&small, [6.0, 6.0], f64::NAN), "area fraction = NaN: it makes NaN droplets"),
-        (refused(&small, [6.0, 6.0], -0.5), "area fraction = -0.5: it makes -"),
-        (refused(&small, [1e9, 1e9], 0.5), "area fraction = 0.5: it makes"),
-        (refused(&bent, [6.0, 6.0], 0.5), "shape = not round"),
-        (small.filling(&Region::Plane, 0.5, 1).unwrap_err().to_string(), "region = plane"),
-    ] {
-        assert!(error.starts_with(start), "{error}");
-    }
-}
-
-#[test]
 fn fingerprints_tell_scenes_apart_but_not_steps() {
     let setup = Setup::default();
     assert_eq!(setup.fingerprint(), Setup { step: StepSize::Fixed(1e-3), ..Setup::default() }.fingerprint());
@@ -722,9 +687,21 @@ mod file {
         layers.rigid_bodies.push(RigidBodySetup { torque: 0.1, ..RigidBodySetup::disc(0.2) });
         layers.solids.iter_mut().for_each(|solid| solid.mesh_spacing = None);
         layers.method = super::layers();
+        let distributed = SuspensionSetup {
+            count: Some(7),
+            radius: Some(Distribution::Normal { mean: 1.0, deviation: 0.1 }),
+            activity: Some(Distribution::Between([-3.0, -2.0])),
+            viscosity: Some(Distribution::Value(1000.0)),
+            headings: Headings::Aligned(0.5),
+            arrangement: Arrangement::Lattice,
+            ..SuspensionSetup::default()
+        };
+        let suspended = Setup { droplets: vec![], suspension: vec![distributed], ..Setup::default() };
         let filled =
             Setup { method: plain(), droplets: vec![], gels: vec![GelInBoxSetup::default()], ..Setup::default() };
-        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, plain()), varied(), layers, filled] {
+        for setup in
+            [Setup::default(), passive, Setup::thesis(), elastic(2.0, plain()), varied(), layers, filled, suspended]
+        {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
         }

@@ -76,12 +76,18 @@ impl<H: Hydrodynamics> System<H> {
     /// bodies overlap; `None` where there is no such gap. Needs no evaluation, but memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
-        let present = self
-            .surfaces()
-            .gaps(&self.hydrodynamics.fluid_view(), f64::INFINITY, |_| true)
-            .narrowest
-            .map(|gap| gap.width);
+        let present = self.surfaces().narrowest(&self.hydrodynamics.fluid_view()).map(|gap| gap.width);
         [self.findings.gap, present].into_iter().flatten().reduce(f64::min)
+    }
+
+    /// The pairs of bodies, at least one of them an interface, whose surfaces are closer than `reach` (length) at the
+    /// present state, each once, with the narrowest gap between them (length; negative where they overlap); a body and
+    /// its own image are a pair too. Needs no evaluation.
+    #[must_use]
+    pub fn pairs_within(&self, reach: f64) -> Vec<([Handle<dyn Body>; 2], f64)> {
+        let pairs = self.surfaces().pairs_near(&self.hydrodynamics.fluid_view(), reach);
+        let handle = |body: usize| Handle::new(self.bodies.scene, body);
+        pairs.into_iter().map(|(bodies, gap)| (bodies.map(handle), gap)).collect()
     }
 
     /// The surfaces of the bodies in the present state, laid out anew where that is not known.

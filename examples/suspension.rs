@@ -1,0 +1,233 @@
+//! Many active droplets in a periodic box or a channel.
+//!
+//! `cargo run --release --example suspension` puts sixteen droplets at random places, lets them swim through their
+//! collisions, prints what they do together, and writes to `out/suspension/`:
+//!
+//! * `summary.json`, the results, and `suspension.csv`, the observables of all droplets over time;
+//! * `members.csv`, place, heading and velocity of each droplet over time;
+//! * `pairs.csv`, pair correlation and correlation of velocities over the distance, `diffusion.csv`, mean square
+//!   displacement and correlation of headings over the time between two states, both of the second half of the run;
+//! * `final.png`, a picture of the final state.
+//!
+//! `--help` lists the flags; `--count 1000` takes no other ones. Several threads: `--features rayon`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::{Parser, ValueEnum};
+use motile::active_interface::suspension::rotational_diffusion;
+use motile::motile_base::{Drive, Region};
+use motile::motile_scene::Every;
+use motile::motile_scene::gap::Repulsion;
+use motile::setup::{Arrangement, Built, Distribution, Headings, Setup, SuspensionSetup};
+use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
+use motile_output::run::{Job, OutputFlags, Summary};
+use motile_output::{CsvTable, Look, Raster, Snapshot, SuspensionCsv};
+
+/// Region of the suspension.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// Square and periodic.
+    Box,
+    /// Between rigid walls, periodic along them.
+    Channel,
+}
+
+/// Many active droplets in a periodic box or a channel.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// Scene file (TOML) to start from, with suspensions or droplets; flags of the suspension and of the region are
+    /// then left out
+    #[arg(long = "scene", value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Number of droplets [default: 16]
+    #[arg(long)]
+    count: Option<usize>,
+    /// Part of the region's area that they fill, which sets its size [default: 0.3]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    area_fraction: Option<f64>,
+    /// Region [default: box]
+    #[arg(long, value_enum)]
+    region: Option<Kind>,
+    /// Distance of the walls of a channel (R0) [default: 10]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    width: Option<f64>,
+    /// Radius, or the least and the largest one (R0) [default: 1]
+    #[arg(long, value_name = "RADIUS[,MOST]", value_parser = distribution, allow_hyphen_values = true)]
+    radius: Option<Distribution>,
+    /// Activity, or the least and the largest one [default: -2]
+    #[arg(long, value_name = "ACTIVITY[,MOST]", value_parser = distribution, allow_hyphen_values = true)]
+    activity: Option<Distribution>,
+    /// Viscosity of the droplets, or the least and the largest one [default: that of the fluid]
+    #[arg(long, value_name = "VISCOSITY[,MOST]", value_parser = distribution, allow_hyphen_values = true)]
+    viscosity_in: Option<Distribution>,
+    /// Viscosity of the exterior fluid [default: 100]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    viscosity: Option<f64>,
+    /// All of them start in this direction (degrees from the x axis); without it in random ones
+    #[arg(long, allow_hyphen_values = true)]
+    aligned: Option<f64>,
+    /// Start on a lattice
+    #[arg(long)]
+    lattice: bool,
+    /// Least gap at the start (R0) [default: 0.05]
+    #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
+    gap: Option<f64>,
+    /// Seed of places, headings and values [default: 1]
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Relative accuracy of the flow [default: 1e-6]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Gap below which droplets are in contact (R0)
+    #[arg(long, default_value_t = 0.1, value_parser = positive, allow_hyphen_values = true)]
+    contact: f64,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+/// Rows of the tables of a run.
+const ROWS: f64 = 200.0;
+/// Bins of pair correlations, and their reach (R0).
+const BIN: f64 = 0.1;
+const REACH: f64 = 20.0;
+/// Accuracy of the flow.
+const TOLERANCE: f64 = 1e-6;
+/// Usual repulsion: strength (force per length squared) and range (R0).
+const REPULSION: [f64; 2] = [1000.0, 0.1];
+
+fn main() -> ExitCode {
+    motile_examples::run(simulate)
+}
+
+fn simulate(flags: &Flags) -> Result<()> {
+    flags.output.check("suspension", flags.file.as_deref())?;
+    let setup = scene(flags)?;
+    let Built { mut scene, .. } = setup.build()?;
+
+    // The run, observed.
+    let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "suspension")?;
+    let mut tables = SuspensionCsv::create(&job.directory, scene.system_mut(), flags.contact)?;
+    job.go(&mut scene, vec![(Every::StepAfter(job.end / ROWS), &mut tables)])?;
+
+    // The results, also of a run that broke off.
+    let half = 0.5 * scene.time();
+    let diffusion = tables.diffusion(half);
+    let mut table = CsvTable::create(
+        job.directory.join("diffusion.csv"),
+        &["lag", "mean_square_displacement", "heading_correlation"],
+    )?;
+    diffusion.iter().try_for_each(|row| table.push(row))?;
+    let pairs = tables.pairs(&setup.region, half, BIN, REACH);
+    let mut table =
+        CsvTable::create(job.directory.join("pairs.csv"), &["distance", "pair_correlation", "velocity_correlation"])?;
+    for (k, distance) in pairs.distances.iter().enumerate() {
+        table.push(&[*distance, pairs.pairs[k], pairs.velocities[k]])?;
+    }
+    let correlation: Vec<f64> = diffusion.iter().map(|row| row[2]).collect();
+    let interval = diffusion.get(1).map_or(0.0, |row| row[0]);
+    let evaluations = scene.system().work().evaluations;
+    let mut summary = Summary::default();
+    summary.put("droplets", setup.placed()?.droplets.len(), "");
+    for (name, column, about) in [
+        ("polar_order", "polar_order", "of their headings, in the end"),
+        ("nematic_order", "nematic_order", "of their headings, in the end"),
+        ("speed", "speed", "mean, in the end (R0 per time)"),
+        ("mean_square_displacement", "square_displacement", "since the start (R0^2)"),
+        ("contacts", "contacts", "pairs closer than --contact, in the end"),
+        ("largest_cluster", "largest_cluster", "droplets in contact, in the end"),
+        ("largest_area_change", "area_change", "of a droplet, relative, since the start"),
+        ("largest_particle_change", "particle_change", "of a droplet, relative, since the start"),
+    ] {
+        summary.put(name, tables.last(column), about);
+    }
+    summary.put("rotational_diffusion", rotational_diffusion(&correlation, interval), "second half (1/time)");
+    summary.put("smallest_gap", scene.system().minimum_gap(), "between interfaces, over the run (R0)");
+    let repulsion = setup.repulsion.map(|repulsion| vec![repulsion.strength(), repulsion.range()]);
+    summary.put("repulsion", repulsion, "strength and range, if there was one");
+    summary.put("time", scene.time(), "simulated");
+    summary.put("steps", scene.steps(), "");
+    summary.put("rejected_steps", scene.step_report().rejections + scene.step_report().failures, "");
+    let limiting = scene.step_report().most_limiting().map(|limiting| limiting.reason.clone());
+    summary.put("steps_set_by", limiting, "mostly");
+    summary.put("evaluations", evaluations, "of the flow");
+    summary.put("seconds", job.seconds, "of computation");
+    summary.put("seconds_per_evaluation", job.seconds / evaluations as f64, "all that a run does included");
+    summary.put("warnings", job.warnings.clone(), "");
+    summary.put("finished", job.failure().is_none(), "");
+    summary.put("failure", job.failure(), "if the run broke off");
+    let (draws, picture) = (job.draws(), job.directory.join("final.png"));
+    job.finish(&summary, || {
+        if draws {
+            let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
+            let seen = Snapshot::take(scene.system_mut(), raster)?;
+            let concentration = setup.placed()?.droplets[0].particles.map(|particles| particles.concentration);
+            Look { concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
+        }
+        Ok(())
+    })
+}
+
+/// The scene of the file, or that which the flags describe.
+fn scene(flags: &Flags) -> Result<Setup> {
+    let own = [
+        ("count", flags.count.is_some()),
+        ("area-fraction", flags.area_fraction.is_some()),
+        ("region", flags.region.is_some()),
+        ("width", flags.width.is_some()),
+        ("radius", flags.radius.is_some()),
+        ("activity", flags.activity.is_some()),
+        ("viscosity-in", flags.viscosity_in.is_some()),
+        ("aligned", flags.aligned.is_some()),
+        ("lattice", flags.lattice),
+        ("gap", flags.gap.is_some()),
+        ("seed", flags.seed.is_some()),
+    ];
+    let file = flags.file.as_deref().map(scene_file).transpose()?;
+    let given = file.is_some();
+    if let (true, Some((name, _))) = (given, own.iter().find(|(_, given)| *given)) {
+        bail!("--{name} and --scene say how the suspension starts: give one of them");
+    }
+    let base = file.unwrap_or_else(|| Setup { droplets: Vec::new(), ..Setup::default() });
+    let viscosity = DropletFlags { viscosity: flags.viscosity, ..DropletFlags::default() };
+    let mut setup = flags.method.setup(&viscosity, Some(base))?;
+    setup.tolerance = flags.tolerance.or(setup.tolerance).or((!given).then_some(TOLERANCE));
+    if given {
+        return Ok(setup);
+    }
+    if setup.repulsion.is_none() {
+        setup.repulsion = Some(Repulsion::new(REPULSION[0], REPULSION[1])?);
+    }
+    let usual = SuspensionSetup::default();
+    let suspension = SuspensionSetup {
+        count: flags.count.or(Some(16)),
+        radius: flags.radius,
+        activity: flags.activity,
+        viscosity: flags.viscosity_in,
+        headings: flags.aligned.map_or(usual.headings, |angle| Headings::Aligned(angle.to_radians())),
+        arrangement: if flags.lattice { Arrangement::Lattice } else { usual.arrangement },
+        gap: flags.gap.unwrap_or(usual.gap),
+        seed: flags.seed.unwrap_or(usual.seed),
+        ..usual
+    };
+    // The region has the size that the part of its area asks for.
+    let fraction = flags.area_fraction.unwrap_or(0.3);
+    ensure!(fraction < 0.9, "--area-fraction {fraction}: no places are found for so many, give at most 0.6 or so");
+    let area = suspension.count.unwrap_or_default() as f64 * suspension.mean_area() / fraction;
+    setup.region = match flags.region.unwrap_or(Kind::Box) {
+        Kind::Box => {
+            ensure!(flags.width.is_none(), "--width is that of a channel: leave it out, or give --region channel");
+            Region::Box { lengths: [area.sqrt(); 2] }
+        }
+        Kind::Channel => {
+            let width = flags.width.unwrap_or(10.0);
+            Region::Channel { length: area / width, width, drive: Drive::ZeroGradient }
+        }
+    };
+    setup.suspension = vec![suspension];
+    setup.check().context("the suspension")?;
+    Ok(setup)
+}
