@@ -75,6 +75,11 @@ impl ActiveDroplet {
         self.map(|interface| interface.with_name(name))
     }
 
+    /// See [`ActiveInterface::set_tension`].
+    pub fn set_tension(&mut self, law: impl Tension + 'static) {
+        self.interface.set_tension(law);
+    }
+
     /// See [`ActiveInterface::with_motion`].
     #[must_use]
     pub fn with_motion(self, motion: Motion) -> Self {

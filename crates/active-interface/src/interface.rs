@@ -199,7 +199,7 @@ impl ActiveInterface {
         self.update_tensions();
     }
 
-    fn update_tensions(&mut self) {
+    pub(crate) fn update_tensions(&mut self) {
         let sizes = self.state.shape.geometry.cells().sizes;
         let Derived { concentrations, tensions, .. } = &mut self.derived;
         concentrations.resize(sizes.len(), 0.0);

@@ -47,7 +47,7 @@ impl DropletsCsv {
     pub fn create<H: Hydrodynamics>(path: impl AsRef<Path>, system: &mut System<H>) -> Result<Self, OutputError> {
         let first = system.bodies::<ActiveDroplet>().next().map(|(handle, _)| handle);
         let first = first.ok_or(OutputError::Empty("a table of a scene without droplets"))?;
-        let mut names = DropletMeter::of(system, first)?.names;
+        let mut names = DropletMeter::of(system, first)?.names().to_vec();
         names.insert(1, "droplet");
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of all droplets")? })
     }

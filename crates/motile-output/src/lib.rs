@@ -27,7 +27,7 @@
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
-//! | tables | [`CsvTable`], [`SolidMeter`] |
+//! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
 //! | whole runs, parameter sweeps | the modules `run` and `sweep` of the feature `sweep` |
@@ -73,4 +73,4 @@ pub use solids::SolidMeter;
 pub use streamlines::streamlines;
 pub use suspension::SuspensionCsv;
 pub use table::CsvTable;
-pub use trajectory::TrajectoryCsv;
+pub use trajectory::{TrajectoryCsv, meter::DropletMeter};

@@ -9,6 +9,8 @@ use motile::motile_base::Vec2;
 
 /// Largest number of cells in a direction.
 const MOST_CELLS: usize = 4096;
+/// Object of a spacing, for errors.
+const CELLS_OF_A_WIDTH: &str = "a raster of cells of a width";
 /// Largest number of cells in a direction of a raster that is made to fit a scene.
 const MOST_OF_SCENE: f64 = 512.0;
 
@@ -48,8 +50,9 @@ impl Raster {
     /// that there are at most 512 in a direction.
     ///
     /// # Errors
-    /// [`OutputError::Unbounded`]; a spacing that is not positive, as [`Raster::new`].
+    /// [`OutputError::Unbounded`]; [`OutputError::Size`] with a spacing that is not positive.
     pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, OutputError> {
+        OutputError::check_size(CELLS_OF_A_WIDTH, spacing, f64::MIN_POSITIVE, f64::INFINITY)?;
         let domain = system.hydrodynamics().fluid_view().domain;
         let [x, y] = domain.origin;
         let walls = domain.walls.map(|[below, above]| above - below);
@@ -64,6 +67,23 @@ impl Raster {
         let tilt = domain.periods[1].filter(|_| moves).map(|_| domain.periods.tilt);
         let periodic = [domain.periods[0].is_some(), domain.periods[1].is_some() && tilt.is_none()];
         Ok(Self { tilt, ..Self::new(origin, [width, height], cells, periodic)? })
+    }
+
+    /// Raster over all bodies of a scene and a margin around them (length), with cells as [`Raster::of`] has: for
+    /// unbounded fluid.
+    ///
+    /// # Errors
+    /// [`OutputError::Empty`] for a scene without bodies; [`OutputError::Size`] with a spacing that is not positive;
+    /// [`OutputError::Rectangle`] with a margin that is not finite.
+    pub fn around<H: Hydrodynamics>(system: &System<H>, margin: f64, spacing: f64) -> Result<Self, OutputError> {
+        OutputError::check_size(CELLS_OF_A_WIDTH, spacing, f64::MIN_POSITIVE, f64::INFINITY)?;
+        let markers = system.markers().positions();
+        let first = *markers.first().ok_or(OutputError::Empty("a raster around a scene without bodies"))?;
+        let [low, high] = markers.iter().fold([first; 2], |[low, high], place| [low.min(*place), high.max(*place)]);
+        let size = (high - low + Vec2::splat(2.0 * margin)).to_array();
+        let coarsening = (size[0].max(size[1]) / spacing / MOST_OF_SCENE).max(1.0);
+        let cells = size.map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
+        Self::new((low - Vec2::splat(margin)).to_array(), size, cells, [false; 2])
     }
 
     /// Raster over the same rectangle with at most `most` cells in a direction.

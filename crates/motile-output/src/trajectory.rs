@@ -60,7 +60,7 @@ impl TrajectoryCsv {
         let walls = system.hydrodynamics().fluid_view().domain.walls;
         let centre_line = walls.map(|[bottom, top]| 0.5 * (bottom + top));
         let (solids, meter) = (SolidMeter::of(system), DropletMeter::of(system, droplet)?);
-        let mut names = meter.names.clone();
+        let mut names = meter.names().to_vec();
         let inside = system.bodies::<ParticlesInDroplet>().find(|(_, body)| body.droplet() == droplet);
         let inside = inside.map(|(handle, _)| handle);
         names.extend(inside.iter().flat_map(|_| INSIDE));

@@ -135,6 +135,12 @@ impl ActiveInterface {
         self
     }
 
+    /// Gives the interface another tension law from now on, in place of the one that it was made with.
+    pub fn set_tension(&mut self, law: impl Tension + 'static) {
+        self.law.tension = Arc::new(law);
+        self.update_tensions();
+    }
+
     /// Moves the markers in another way than [`Motion::default`].
     #[must_use]
     pub fn with_motion(mut self, motion: Motion) -> Self {

@@ -165,6 +165,16 @@ fn laws_chosen_at_run_time_are_laws() {
     assert!(constant.unwrap().tensions().iter().all(|&tension| tension == 7.0));
 }
 
+#[test]
+fn a_law_given_later_is_the_law_from_then_on() {
+    let mut changed = droplet(Motion::default());
+    let before = changed.tensions().to_vec();
+    changed.set_tension(ContractileTension::thesis(10.0, -3.0, 10.0, 100.0).unwrap());
+    let law = ContractileTension::thesis(10.0, -3.0, 10.0, 100.0).unwrap();
+    assert!(changed.tensions().iter().zip(changed.concentrations()).all(|(tension, c)| *tension == law.value(*c)));
+    assert_ne!(changed.tensions(), before);
+}
+
 /// h c max(-d gamma/dc, 0) / (4 eta): c = 4 is far above the step of B, of 2 at c_T = 2, so that d gamma/dc = 1/2 - 2
 /// there; at c = 1 the tension rises.
 #[test]

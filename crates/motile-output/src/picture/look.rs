@@ -165,6 +165,18 @@ impl Look {
     /// pressure that is empty or not finite; [`OutputError::Write`]; [`OutputError::Streamlines`];
     /// [`OutputError::Count`]: a snapshot with other than one sample for each cell.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
+        self.picture(seen, tracks)?.write(path.as_ref(), 1.0)
+    }
+
+    /// Text of the SVG file that [`Look::write_picture`] writes.
+    ///
+    /// # Errors
+    /// As there, but for those of the file.
+    pub fn svg(&self, seen: &Snapshot, tracks: &[Track]) -> Result<String, OutputError> {
+        Ok(self.picture(seen, tracks)?.svg())
+    }
+
+    fn picture(&self, seen: &Snapshot, tracks: &[Track]) -> Result<Drawing, OutputError> {
         OutputError::check_size("a picture with a width (cm)", self.width, 1.0, 100.0)?;
         OutputError::check_size("type of a size (pt)", self.font_size, 1.0, 72.0)?;
         OutputError::check_size("a picture with a resolution (pixels per cm)", self.resolution, 10.0, 1000.0)?;
@@ -182,7 +194,7 @@ impl Look {
             follows: true,
         };
         let legends = self.legends(std::slice::from_ref(seen));
-        self.draw(seen, &legends, tracks, &still)?.write(path.as_ref(), 1.0)
+        self.draw(seen, &legends, tracks, &still)
     }
 }
 

@@ -14,13 +14,12 @@ const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 /// Columns that channels of curved walls do not have.
 const BETWEEN_STRAIGHT_WALLS: [&str; 2] = ["net_flux", "retrograde_flow"];
 
-/// Measurement of a droplet: the entries of [`TrajectoryRecord`] that its scene has.
+/// Measurement of a droplet: the entries of [`TrajectoryRecord`] that its scene has, as rows of tables have them.
 #[derive(Debug, Clone)]
-pub(crate) struct DropletMeter {
+pub struct DropletMeter {
     recorder: TrajectoryRecorder,
     columns: Vec<usize>,
-    /// Names of the values, the time first.
-    pub(crate) names: Vec<&'static str>,
+    names: Vec<&'static str>,
 }
 
 impl DropletMeter {
@@ -28,10 +27,7 @@ impl DropletMeter {
     ///
     /// # Errors
     /// [`OutputError::Observer`]: a state that cannot be measured.
-    pub(crate) fn of<H: Hydrodynamics>(
-        system: &mut System<H>,
-        droplet: Handle<ActiveDroplet>,
-    ) -> Result<Self, OutputError> {
+    pub fn of<H: Hydrodynamics>(system: &mut System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, OutputError> {
         let curved = system.hydrodynamics().walls().is_some();
         let walls = system.hydrodynamics().fluid_view().domain.walls.is_some();
         let solids = SolidMeter::of(system).is_some();
@@ -49,11 +45,17 @@ impl DropletMeter {
         Ok(meter)
     }
 
+    /// Names of the values, the time first.
+    #[must_use]
+    pub fn names(&self) -> &[&'static str] {
+        &self.names
+    }
+
     /// Record of the present state.
     ///
     /// # Errors
     /// A state that cannot be measured.
-    pub(crate) fn record<H: Hydrodynamics>(
+    pub fn record<H: Hydrodynamics>(
         &self,
         system: &mut System<H>,
     ) -> Result<TrajectoryRecord, Box<dyn Error + Send + Sync>> {
@@ -63,7 +65,8 @@ impl DropletMeter {
     }
 
     /// Values of a record, in the order of the names; not a number where there is none.
-    pub(crate) fn row(&self, record: &TrajectoryRecord) -> Vec<f64> {
+    #[must_use]
+    pub fn row(&self, record: &TrajectoryRecord) -> Vec<f64> {
         let entries = record.entries();
         self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect()
     }

@@ -1,0 +1,65 @@
+"""Parts of setups: short ways to write their dictionaries."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+Part = dict[str, Any]
+
+
+def box(length: float, width: float | None = None) -> Part:
+    """Periodic box of length x width (length), a square one if only one side is given, centred on the origin."""
+    return {"box": {"lengths": [length, length if width is None else width]}}
+
+
+def channel(length: float, width: float, **more: Any) -> Part:
+    """Channel of period `length` along x between rigid walls that are `width` apart (length).
+
+    Its drive is a keyword: `drive="zero-gradient"` (the default), `"zero-flux"`, `{"gradient": g}` (force per volume)
+    or `{"flux": q}` (area per time).
+    """
+    return {"channel": {"length": length, "width": width, "drive": "zero-gradient", **more}}
+
+
+def plane() -> str:
+    """Unbounded fluid."""
+    return "plane"
+
+
+def space() -> str:
+    """Unbounded fluid in three dimensions, for droplets of revolution."""
+    return "space"
+
+
+def tube(radius: float, **more: Any) -> Part:
+    """Tube of that radius (length) in three dimensions, for droplets of revolution; keywords as in scene files."""
+    return {"tube": {"radius": radius, **more}}
+
+
+def integral(**more: Any) -> Part:
+    """Boundary integrals: `nodes` of the shape and `cells` of the concentration of each droplet."""
+    return {"integral": more}
+
+
+def layers(**more: Any) -> Part:
+    """Interfaces as layers beside solids on a grid: `nodes`, `cells`, `spacing` of the grid (length), `kernel`."""
+    return {"layers": more}
+
+
+def grid(**more: Any) -> Part:
+    """Immersed boundary method: `spacing` of the grid and `marker_spacing` (length), `kernel`, `corrected`."""
+    return {"grid": more}
+
+
+def droplet(activity: float | None = -2.0, *, particles: Mapping[str, Any] | None = None, **more: Any) -> Part:
+    """Droplet of an activity (force times length), negative for particles that contract; passive if None.
+
+    `particles` has further entries of the particles (`concentration`, `diffusion`, `start`, ...), all other keywords
+    are entries of the droplet (`centre`, `angle`, `viscosity`, `tension`, `shape`, ...).
+    """
+    if activity is None:
+        if particles:
+            raise TypeError("a passive droplet has no particles: give an activity, or leave particles out")
+        return {**more, "particles": "none"}
+    return {**more, "particles": {"activity": activity, **(particles or {})}}

@@ -1,0 +1,307 @@
+"""Scenes and what is recorded of them."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time as clock
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _motile
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Array = npt.NDArray[np.float64]
+FilePath = str | os.PathLike[str]
+
+
+class Track(Mapping[str, Array]):
+    """Table of a run: `track["speed"]` is an array, an entry for each record.
+
+    With one droplet arrays have one dimension, with more droplets two, times by droplets; `track.time` always has one.
+    Centroids `x`, `y` are not wrapped: a droplet that leaves a periodic region on one side goes on beyond it. Values
+    that do not exist are not a number. `as_array` has everything, times by droplets by `names`.
+    """
+
+    def __init__(self, names: list[str], values: Array) -> None:
+        self.names = names
+        self.as_array = values
+
+    @property
+    def time(self) -> Array:
+        """Times of the records."""
+        return self.as_array[:, 0, self.names.index("time")] if self.as_array.shape[1] else np.empty(0)
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self.names:
+            raise KeyError(f"{name}: the table has {', '.join(self.names)}")
+        if name == "time":
+            return self.time
+        column = self.as_array[:, :, self.names.index(name)]
+        return column[:, 0] if column.shape[1] == 1 else column
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __repr__(self) -> str:
+        times, droplets, names = self.as_array.shape
+        return f"<track: {times} records of {droplets} droplets, {names} columns>"
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Table as a DataFrame; with more than one droplet its index is (time, droplet)."""
+        import pandas
+
+        _, droplets, names = self.as_array.shape
+        frame = pandas.DataFrame(self.as_array.reshape(-1, names), columns=self.names)
+        if droplets == 1:
+            return frame.set_index("time")
+        frame.insert(1, "droplet", np.tile(np.arange(droplets), len(self.as_array)))
+        return frame.set_index(["time", "droplet"])
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Table as a Dataset with the dimensions time and droplet."""
+        import xarray
+
+        places = {"time": self.time, "droplet": np.arange(self.as_array.shape[1])}
+        columns = {
+            name: (("time", "droplet"), self.as_array[:, :, k]) for k, name in enumerate(self.names) if name != "time"
+        }
+        return xarray.Dataset(columns, places)
+
+
+class Droplet:
+    """One of the droplets of a scene, as it is when asked. Arrays are copies."""
+
+    def __init__(self, scene: _motile.Scene, index: int) -> None:
+        self._scene = scene
+        self.index = index
+
+    @property
+    def positions(self) -> Array:
+        """Markers of the interface (length), counter-clockwise, of shape (n, 2)."""
+        return self._scene.positions(self.index)
+
+    @property
+    def concentration(self) -> Array:
+        """Concentrations of the segments that follow the markers (particles per length); empty without particles."""
+        return self._scene.concentration(self.index)
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the fluid at the markers (length per time), of shape (n, 2)."""
+        return self._scene.velocities(self.index)
+
+    def observe(self) -> dict[str, float | None]:
+        """All observables of the droplet by name; None where there is no value."""
+        return self._scene.observe(self.index)
+
+    def set_tension(
+        self,
+        law: Callable[[Array], npt.ArrayLike] | tuple[npt.ArrayLike, npt.ArrayLike],
+        up_to: float | None = None,
+        points: int = 2001,
+    ) -> None:
+        """Gives the interface a tension law of its own: a table (c, gamma) or a function of an array of c.
+
+        Concentrations c are numbers per length, tensions gamma forces. A table is joined by monotone cubic polynomials
+        and goes on straight beyond its ends. A function is tabulated at so many `points` from 0 to `up_to`, by default
+        8 times the largest concentration now; its error is of the order of the cube of their distance.
+        """
+        if callable(law):
+            if up_to is None:
+                up_to = 8.0 * float(np.max(self.concentration, initial=1.0))
+            c = np.linspace(0.0, up_to, points)
+            gamma = np.broadcast_to(np.asarray(law(c), dtype=float), c.shape)
+        else:
+            c, gamma = (np.asarray(part, dtype=float) for part in law)
+        self._scene.set_tension(self.index, c.tolist(), gamma.tolist())
+
+    def __repr__(self) -> str:
+        return f"<droplet {self.index}: {len(self.positions)} markers>"
+
+
+class Scene:
+    """Bodies in a fluid with their state: what `Setup.build` makes.
+
+    After an error, Ctrl-C, or an exception in a callback a scene holds the last good state, and `track` all that was
+    recorded up to there.
+    """
+
+    def __init__(self, scene: _motile.Scene) -> None:
+        self._scene = scene
+
+    @property
+    def time(self) -> float:
+        """Time of the present state."""
+        return self._scene.time
+
+    @property
+    def steps(self) -> int:
+        """Number of steps up to the present state."""
+        return self._scene.steps
+
+    @property
+    def droplets(self) -> list[Droplet]:
+        """Droplets in the order of the setup."""
+        return [Droplet(self._scene, k) for k in range(self._scene.droplet_count)]
+
+    @property
+    def bodies(self) -> list[tuple[str, Array]]:
+        """Names and markers (length) of all bodies, solids and walls of their own among them."""
+        return self._scene.bodies()
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of all that was recorded so far, the worst of each kind."""
+        return self._scene.warnings
+
+    @property
+    def minimum_gap(self) -> float | None:
+        """Smallest gap between an interface and another one or a wall (length); None where there is neither."""
+        return self._scene.minimum_gap
+
+    @property
+    def track(self) -> Track:
+        """Everything that was recorded since the scene was built."""
+        return Track(self._scene.names, self._scene.records())
+
+    def run(
+        self,
+        until: float,
+        every: float | None = None,
+        *,
+        step: Mapping[str, Any] | None = None,
+        progress: bool = False,
+        callback: Callable[[Scene], object] | None = None,
+        checkpoint: FilePath | None = None,
+    ) -> Track:
+        """Runs up to the time `until` and returns what was recorded on the way.
+
+        All observables of all droplets are recorded at multiples of `every` (time), after every step if None.
+        `callback` is called with the scene at the same times (at the end alone if `every` is None) and may look at
+        everything; what it raises ends the run. `step` is a step size as in a setup (`{"fixed": 0.01}`), the setup's
+        by default. With `progress` there is a bar in the terminal or notebook. `checkpoint` is saved with each call of
+        the callback and at the end.
+        """
+        first = len(self._scene.records())
+        bar = _Bar(self.time, until) if progress else None
+        try:
+            for stop in self._stops(until, every if callback or checkpoint else None):
+                self._scene.advance(stop, every, dict(step) if step else None, bar)
+                if callback:
+                    callback(self)
+                if checkpoint:
+                    self.save(checkpoint)
+        finally:
+            if bar:
+                bar.close(self.time)
+        return Track(self._scene.names, self._without_repeats(first))
+
+    def _stops(self, until: float, every: float | None) -> Iterator[float]:
+        if every is not None and every > 0:
+            reached = int(np.floor(self.time / every + 1e-9))
+            while (stop := (reached + 1) * every) < until - 1e-9 * abs(until):
+                yield stop
+                reached += 1
+        yield until
+
+    def _without_repeats(self, first: int) -> Array:
+        """Records from one on, of several at one time the last."""
+        values = self._scene.records()[first:]
+        if not values.size:
+            return values
+        times = values[:, 0, 0]
+        kept: Array = values[np.append(times[1:] != times[:-1], True)]
+        return kept
+
+    def sample(self, points: npt.ArrayLike) -> tuple[Array, Array]:
+        """Velocities (length per time, shape (..., 2)) and pressures (force per length) at points of shape (..., 2)."""
+        velocity, pressure, _ = self._sample(points)
+        return velocity, pressure
+
+    def velocity_gradient(self, points: npt.ArrayLike) -> Array:
+        """Velocity gradients [[du/dx, du/dy], [dv/dx, dv/dy]] (1/time) at points of shape (..., 2)."""
+        gradient: Array = self._sample(points)[2]
+        return gradient
+
+    def _sample(self, points: npt.ArrayLike) -> tuple[Array, Array, Array]:
+        places = np.asarray(points, dtype=float)
+        if places.ndim == 0 or places.shape[-1] != 2:
+            raise ValueError(f"points have shape {places.shape}: give an array whose last dimension is 2")
+        shape = places.shape[:-1]
+        velocity, pressure, gradient = self._scene.sample(np.ascontiguousarray(places.reshape(-1, 2)))
+        return velocity.reshape(*shape, 2), pressure.reshape(shape), gradient.reshape(*shape, 2, 2)
+
+    def picture(
+        self,
+        path: FilePath | None = None,
+        *,
+        spacing: float = 0.1,
+        width: float = 16.0,
+        caption: str = "",
+        streamlines: bool = True,
+    ) -> str | None:
+        """Picture of the present state: text of an SVG file, or a file (SVG or PNG by its name) if a path is given.
+
+        `spacing` is that of the samples of the flow (length), `width` the width on paper (cm).
+        """
+        if path is None:
+            return self._scene.svg(spacing, width, caption, streamlines)
+        self._scene.write_picture(os.fspath(path), spacing, width, caption, streamlines)
+        return None
+
+    def _repr_svg_(self) -> str:
+        return self._scene.svg()
+
+    def write_paraview(self, folder: FilePath, spacing: float = 0.1) -> None:
+        """Writes the flow on a raster of that spacing (length) and all bodies as files for ParaView."""
+        self._scene.write_paraview(os.fspath(folder), spacing)
+
+    def save(self, path: FilePath) -> None:
+        """Saves the state to a file, in place of an earlier one once it is complete."""
+        self._scene.save(os.fspath(path))
+
+    def load(self, path: FilePath) -> None:
+        """Goes on from a saved state of the same setup: the steps that follow are, bit for bit, those that would have
+        followed there."""
+        self._scene.load(os.fspath(path))
+
+    def __repr__(self) -> str:
+        return f"<scene at time {self.time:g}: {len(self.bodies)} bodies>"
+
+
+class _Bar:
+    """Progress bar on standard error, in a notebook a line of output that is replaced."""
+
+    def __init__(self, start: float, until: float) -> None:
+        self._start, self._until, self._began = start, until, clock.monotonic()
+        self._handle: Any = None
+        if "ipykernel" in sys.modules:
+            from IPython.display import display  # type: ignore[import-not-found,unused-ignore]
+
+            self._handle = display("", display_id=True)
+
+    def __call__(self, time: float) -> None:
+        span = self._until - self._start
+        part = min(max((time - self._start) / span, 0.0), 1.0) if span > 0 else 1.0
+        seconds = clock.monotonic() - self._began
+        left = seconds * (1 - part) / part if part > 0 else float("inf")
+        text = f"{'█' * round(30 * part):<30} t = {time:.4g} of {self._until:g}, {left:.0f} s left"
+        if self._handle is not None:
+            self._handle.update({"text/plain": text}, raw=True)
+        else:
+            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def close(self, time: float) -> None:
+        self(time)
+        if self._handle is None:
+            print(file=sys.stderr)

@@ -1,0 +1,125 @@
+"""Sweeps: one run for each combination of values."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import multiprocessing
+import os
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._error import Error
+from ._motile import Setup
+from ._scene import FilePath, Track
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class SweepRun:
+    """One run of a sweep."""
+
+    values: dict[str, Any]
+    """Values of the places that the sweep changes."""
+    setup: Setup
+    """Setup of the run."""
+    track: Track
+    """What was recorded, up to its end."""
+    error: str | None
+    """What ended the run early; None for one that reached its end."""
+
+
+@dataclass(frozen=True)
+class Sweep(Sequence[SweepRun]):
+    """Runs of a sweep, the last place changing fastest."""
+
+    runs: list[SweepRun]
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.runs[index]
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Last record of each droplet of each run, with the values of the places and the errors."""
+        import pandas
+
+        rows: list[dict[str, Any]] = []
+        for run in self.runs:
+            last = run.track.as_array[-1] if len(run.track.as_array) else []
+            for number, record in enumerate(last):
+                named = dict(zip(run.track.names, record))
+                rows.append({**run.values, "droplet": number, **named, "error": run.error})
+        return pandas.DataFrame(rows)
+
+
+def sweep(
+    setup: Setup,
+    changes: Mapping[str, Sequence[Any]],
+    until: float,
+    every: float | None = None,
+    *,
+    processes: int = 1,
+    folder: FilePath | None = None,
+) -> Sweep:
+    """Runs a setup to the time `until` for each combination of values at places as `droplets.0.particles.activity`.
+
+    Runs are spread over `processes`. With a `folder` each is kept there when it is done, and what is kept is not run
+    again: a sweep that was interrupted goes on, and values can be added. What a run is kept as depends on all of its
+    setup, on `until` and `every`, so that a changed sweep never takes results of another. A run that ends in an error
+    is part of the result, with all that was recorded of it. As with all of `multiprocessing`, programs that use more
+    than one process need `if __name__ == "__main__":`.
+    """
+    if every is None:
+        every = until / 100
+    combinations = [dict(zip(changes, values)) for values in itertools.product(*changes.values())]
+    # All are checked before the first run.
+    setups = [setup.replace(values) for values in combinations]
+    kept = None if folder is None else Path(folder)
+    if kept:
+        kept.mkdir(parents=True, exist_ok=True)
+    work = [(one.to_toml(), until, every, str(kept) if kept else None) for one in setups]
+    if processes > 1 and len(work) > 1:
+        # Forked copies of a process with threads may hang.
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(processes, mp_context=context) as pool:
+            results = list(pool.map(_run, work))
+    else:
+        results = list(map(_run, work))
+    return Sweep([SweepRun(v, s, Track(*table), error) for v, s, (table, error) in zip(combinations, setups, results)])
+
+
+def _run(work: tuple[str, float, float, str | None]) -> tuple[tuple[list[str], Any], str | None]:
+    text, until, every, folder = work
+    place = None
+    if folder:
+        name = hashlib.sha256(f"{text}\n{until!r}\n{every!r}".encode()).hexdigest()[:24]
+        place = Path(folder) / f"{name}.npz"
+        if place.exists():
+            with np.load(place) as known:
+                error = str(known["error"]) or None
+                return (known["names"].tolist(), known["values"]), error
+    error = None
+    names, values = ["time"], np.empty((0, 0, 1))
+    try:
+        scene = Setup.from_toml(text).build()
+        try:
+            scene.run(until, every)
+        finally:
+            names, values = scene.track.names, scene.track.as_array
+    except Error as raised:
+        error = str(raised)
+    if place:
+        part = place.with_suffix(f".{os.getpid()}.part")
+        with part.open("wb") as file:
+            np.savez(file, names=names, values=values, error=error or "", setup=text)
+        part.replace(place)
+    return (names, values), error

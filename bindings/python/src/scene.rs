@@ -1,0 +1,360 @@
+//! Scenes: runs, state and output.
+
+use std::error::Error;
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard};
+use std::time::{Duration, Instant};
+
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
+use motile::motile_base::{FlowSample, Region, Vec2};
+use motile::motile_scene::{
+    Body, Every, Handle, Observer as _, SceneError, StepSize, System, Warnings, checkpoint::Checkpoint,
+};
+use motile::setup::{AnyFlow, Built, Setup as Description};
+use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot};
+
+use crate::error::{failed, of_setup, refused};
+use crate::tension::TabulatedTension;
+use crate::value::{described, from_python};
+
+/// Fluid shown around the bodies of a region without an end, in units of length: those of the droplets' usual radius.
+const MARGIN: f64 = 2.0;
+/// Time between two looks at signals.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+
+type AnyScene = motile::motile_scene::Scene<AnyFlow>;
+
+/// A scene and what has been recorded of it.
+struct State {
+    scene: AnyScene,
+    droplets: Vec<Handle<ActiveDroplet>>,
+    meters: Vec<DropletMeter>,
+    /// Values of the droplets' meters, droplet after droplet, record after record.
+    records: Vec<f64>,
+    warnings: Warnings,
+}
+
+/// Bodies in a fluid, with their state: what `Setup.build` makes.
+#[pyclass(module = "motile._motile", frozen)]
+pub(crate) struct Scene {
+    state: Mutex<State>,
+    description: Description,
+}
+
+fn array_of<'py>(py: Python<'py>, points: &[Vec2]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let flat: Vec<f64> = points.iter().flat_map(|point| point.to_array()).collect();
+    PyArray1::from_vec(py, flat).reshape([points.len(), 2])
+}
+
+fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec2>> {
+    let points = points.as_array();
+    if points.ncols() != 2 {
+        return Err(refused(
+            &format!("points have shape ({}, {}): give an array of shape (n, 2)", points.nrows(), points.ncols()),
+            None,
+            None,
+            None,
+        ));
+    }
+    Ok(points.rows().into_iter().map(|row| Vec2::new(row[0], row[1])).collect())
+}
+
+impl Scene {
+    pub(crate) fn new(py: Python<'_>, description: &Description) -> PyResult<Self> {
+        py.detach(|| {
+            let Built { mut scene, droplets, .. } = description.build().map_err(|error| of_setup(&error))?;
+            let meters = droplets.iter().map(|&droplet| DropletMeter::of(scene.system_mut(), droplet));
+            let meters = meters.collect::<Result<_, _>>().map_err(failed)?;
+            let state = State { scene, droplets, meters, records: Vec::new(), warnings: Warnings::default() };
+            Ok(Self { state: Mutex::new(state), description: description.clone() })
+        })
+    }
+
+    /// The state, unless a run is going on.
+    fn lock(&self) -> PyResult<MutexGuard<'_, State>> {
+        self.state.try_lock().map_err(|_| {
+            let remedy = "wait for its end, or use a scene of its own for each thread";
+            refused(&format!("the scene is in use by a run: {remedy}"), None, None, Some(remedy.to_owned()))
+        })
+    }
+
+    fn droplet(state: &State, index: usize) -> PyResult<Handle<ActiveDroplet>> {
+        let count = state.droplets.len();
+        let missing = || failed(format!("there is no droplet {index}: the scene has {count}"));
+        state.droplets.get(index).copied().ok_or_else(missing)
+    }
+}
+
+impl State {
+    fn advance(&mut self, until: f64, every: Option<f64>, step: Option<StepSize>, tick: &Py<PyAny>) -> PyResult<()> {
+        let mut signal = None;
+        let mut last = Instant::now();
+        let mut look = |system: &mut System<AnyFlow>| -> Result<(), Box<dyn Error + Send + Sync>> {
+            if last.elapsed() < BETWEEN_LOOKS {
+                return Ok(());
+            }
+            last = Instant::now();
+            let looked = Python::attach(|py| {
+                py.check_signals()?;
+                if tick.is_none(py) { Ok(()) } else { tick.call1(py, (system.time(),)).map(|_| ()) }
+            });
+            looked.map_err(|error| {
+                signal = Some(error);
+                "stopped from Python".into()
+            })
+        };
+        let Self { scene, meters, records, warnings, .. } = self;
+        let mut record = |system: &mut System<AnyFlow>| -> Result<(), Box<dyn Error + Send + Sync>> {
+            warnings.look(system);
+            for meter in &*meters {
+                let record = meter.record(system)?;
+                records.extend(meter.row(&record));
+            }
+            Ok(())
+        };
+        let step = step.unwrap_or(scene.step_size());
+        let run = scene.run(until).step_size(step).observe(Every::Steps(1), &mut look);
+        let ended = match every {
+            Some(every) => run.observe(Every::Time(every), &mut record).go(),
+            None => run.observe(Every::Steps(1), &mut record).go(),
+        };
+        match (ended, signal) {
+            (_, Some(error)) => Err(error),
+            (Err(error), None) => Err(failed(error)),
+            (Ok(()), None) => Ok(()),
+        }
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// Advances the scene to a time and records all droplets every so often; `tick` is called with the time now and
+    /// then.
+    #[pyo3(signature = (until, every=None, step=None, tick=None))]
+    fn advance(
+        &self,
+        py: Python<'_>,
+        until: f64,
+        every: Option<f64>,
+        step: Option<&Bound<'_, PyAny>>,
+        tick: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let step = match step.map(|step| from_python(step, "step")).transpose()?.flatten() {
+            Some(value) => Some(described(value)?),
+            None => None,
+        };
+        let tick = tick.unwrap_or_else(|| py.None());
+        py.detach(|| self.lock()?.advance(until, every, step, &tick))
+    }
+
+    /// Names of what is recorded of a droplet, the time first.
+    #[getter]
+    fn names(&self) -> PyResult<Vec<&'static str>> {
+        let state = self.lock()?;
+        Ok(state.meters.first().map_or_else(|| vec!["time"], |meter| meter.names().to_vec()))
+    }
+
+    /// All records: an array of records by droplets by names.
+    fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let state = self.lock()?;
+        let names = state.meters.first().map_or(1, |meter| meter.names().len());
+        let droplets = state.meters.len();
+        let count = state.records.len() / (names * droplets).max(1);
+        PyArray1::from_slice(py, &state.records).reshape([count, droplets, names])
+    }
+
+    /// Time of the present state.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.scene.time())
+    }
+
+    /// Number of steps up to the present state.
+    #[getter]
+    fn steps(&self) -> PyResult<usize> {
+        Ok(self.lock()?.scene.steps())
+    }
+
+    /// Number of droplets.
+    #[getter]
+    fn droplet_count(&self) -> PyResult<usize> {
+        Ok(self.lock()?.droplets.len())
+    }
+
+    /// Warnings of the records so far, the worst of each kind.
+    #[getter]
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        Ok(self.lock()?.warnings.worst().iter().map(|(_, warning)| warning.to_string()).collect())
+    }
+
+    /// Smallest gap so far between an interface and another body or wall (length); None where there is none.
+    #[getter]
+    fn minimum_gap(&self) -> PyResult<Option<f64>> {
+        let state = self.lock()?;
+        let gaps = [state.scene.system().minimum_gap(), state.scene.system().minimum_wall_gap()];
+        Ok(gaps.into_iter().flatten().reduce(f64::min))
+    }
+
+    /// Names and markers of all bodies, droplets first.
+    fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray2<f64>>)>> {
+        let state = self.lock()?;
+        let bodies = state.scene.system().all_bodies();
+        let named = |(_, body): (_, &dyn Body)| {
+            let mut markers = vec![Vec2::ZERO; body.marker_count()];
+            body.write_markers(&mut markers);
+            Ok((body.name().to_owned(), array_of(py, &markers)?))
+        };
+        bodies.map(named).collect()
+    }
+
+    /// Markers of a droplet (length), in counter-clockwise order.
+    fn positions<'py>(&self, py: Python<'py>, droplet: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let state = self.lock()?;
+        let droplet = Self::droplet(&state, droplet)?;
+        array_of(py, state.scene.body(droplet).map_err(failed)?.markers())
+    }
+
+    /// Concentrations of the segments that follow the markers of a droplet (particles per length).
+    fn concentration<'py>(&self, py: Python<'py>, droplet: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let state = self.lock()?;
+        let droplet = Self::droplet(&state, droplet)?;
+        Ok(PyArray1::from_slice(py, state.scene.body(droplet).map_err(failed)?.concentrations()))
+    }
+
+    /// Velocities of the fluid at the markers of a droplet (length per time).
+    fn velocities<'py>(&self, py: Python<'py>, droplet: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let velocities = py.detach(|| {
+            let mut state = self.lock()?;
+            let droplet = Self::droplet(&state, droplet)?;
+            let system = state.scene.system_mut();
+            system.evaluate().map_err(failed)?;
+            Ok::<_, PyErr>(InterfaceState::of(system, droplet).map_err(failed)?.velocities.to_vec())
+        })?;
+        array_of(py, &velocities)
+    }
+
+    /// All observables of a droplet in the present state.
+    fn observe<'py>(&self, py: Python<'py>, droplet: usize) -> PyResult<Bound<'py, PyDict>> {
+        let entries = py.detach(|| {
+            let mut state = self.lock()?;
+            let droplet = Self::droplet(&state, droplet)?;
+            Ok::<_, PyErr>(state.scene.observe(droplet).map_err(failed)?.entries())
+        })?;
+        let observables = PyDict::new(py);
+        entries.into_iter().try_for_each(|(name, value)| observables.set_item(name, value))?;
+        Ok(observables)
+    }
+
+    /// Gives a droplet the tension of a table: concentrations that rise (particles per length) and tensions (force).
+    fn set_tension(&self, droplet: usize, concentrations: Vec<f64>, tensions: Vec<f64>) -> PyResult<()> {
+        let law = TabulatedTension::new(concentrations, tensions)?;
+        let mut state = self.lock()?;
+        let droplet = Self::droplet(&state, droplet)?;
+        state.scene.body_mut(droplet).map_err(failed)?.set_tension(law);
+        Ok(())
+    }
+
+    /// Velocities (length per time), pressures (force per length) and velocity gradients (1/time) at points, an array
+    /// of shape (n, 2).
+    #[allow(clippy::type_complexity)]
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let points = points_of(&points)?;
+        let samples = py.detach(|| {
+            let mut samples = vec![FlowSample::default(); points.len()];
+            self.lock()?.scene.system_mut().sample(&points, &mut samples).map_err(failed)?;
+            Ok::<_, PyErr>(samples)
+        })?;
+        let velocities: Vec<Vec2> = samples.iter().map(|sample| sample.velocity).collect();
+        let pressures: Vec<f64> = samples.iter().map(|sample| sample.pressure).collect();
+        let gradients = samples.iter().flat_map(|sample| sample.gradient).flatten().collect();
+        let gradients = PyArray1::from_vec(py, gradients).reshape([points.len(), 2, 2])?;
+        Ok((array_of(py, &velocities)?, PyArray1::from_vec(py, pressures), gradients))
+    }
+
+    /// Picture of the present state as SVG, with the flow on a raster of that spacing (length).
+    #[pyo3(signature = (spacing=0.1, width=16.0, caption="", streamlines=true))]
+    fn svg(&self, py: Python<'_>, spacing: f64, width: f64, caption: &str, streamlines: bool) -> PyResult<String> {
+        let look = Look { width, caption: caption.to_owned(), streamlines, ..Look::default() };
+        py.detach(|| {
+            let seen = self.seen(spacing)?;
+            look.svg(&seen, &[]).map_err(failed)
+        })
+    }
+
+    /// Writes a picture of the present state, as SVG where the name ends in `.svg` and as PNG otherwise.
+    #[pyo3(signature = (path, spacing=0.1, width=16.0, caption="", streamlines=true))]
+    fn write_picture(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        spacing: f64,
+        width: f64,
+        caption: &str,
+        streamlines: bool,
+    ) -> PyResult<()> {
+        let look = Look { width, caption: caption.to_owned(), streamlines, ..Look::default() };
+        py.detach(|| {
+            let seen = self.seen(spacing)?;
+            look.write_picture(&seen, &[], &path).map_err(failed)
+        })
+    }
+
+    /// Writes the flow and the bodies of the present state into a folder, as files for ParaView.
+    #[pyo3(signature = (folder, spacing=0.1))]
+    fn write_paraview(&self, py: Python<'_>, folder: PathBuf, spacing: f64) -> PyResult<()> {
+        py.detach(|| {
+            let mut state = self.lock()?;
+            let raster = self.raster(&mut state, spacing)?;
+            let mut files = ParaView::create(folder, raster).map_err(failed)?;
+            files.observe(state.scene.system_mut()).map_err(failed)
+        })
+    }
+
+    /// Saves the state to a file.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let description = self.description.fingerprint();
+        py.detach(|| self.lock()?.scene.checkpoint(description).write(&path).map_err(failed))
+    }
+
+    /// Goes on from a saved state of this scene.
+    fn load(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        py.detach(|| {
+            let saved = Checkpoint::read(&path).map_err(failed)?;
+            let mut state = self.lock()?;
+            state.scene.resume(&saved).map_err(|error: SceneError| failed(error))
+        })
+    }
+}
+
+impl Scene {
+    fn seen(&self, spacing: f64) -> PyResult<Snapshot> {
+        let mut state = self.lock()?;
+        let raster = self.raster(&mut state, spacing)?;
+        Snapshot::take(state.scene.system_mut(), raster).map_err(failed)
+    }
+
+    /// Raster over the region, or around the bodies where it has no end.
+    fn raster(&self, state: &mut State, spacing: f64) -> PyResult<Raster> {
+        let system = state.scene.system_mut();
+        let around = match self.description.region {
+            Region::Plane | Region::Space => Raster::around(system, MARGIN, spacing),
+            Region::Tube { radius, .. } if spacing > 0.0 => {
+                let places = system.markers().positions().iter().map(|place| place.x);
+                let [low, high] = places.fold([f64::INFINITY, -f64::INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+                let size = [high - low + 2.0 * MARGIN, 2.0 * radius];
+                let cells = size.map(|side| (side / spacing).ceil().max(1.0) as usize);
+                Raster::new([low - MARGIN, -radius], size, cells, [false; 2])
+            }
+            _ => Raster::of(system, spacing),
+        };
+        around.map_err(failed)
+    }
+}

@@ -1,0 +1,159 @@
+//! Descriptions of scenes.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString, PyTuple, PyType};
+
+use motile::setup::Setup as Description;
+use toml::{Table, Value};
+
+use crate::error::{failed, of_setup, refused, unreadable};
+use crate::scene::Scene;
+use crate::value::{described, from_python, to_python};
+
+/// A scene as data: what there is, where, and how it is computed.
+///
+/// Keywords are the keys of scene files with underscores (`least_gap`, `mirror_symmetric`); what is left out is as in
+/// the default scene, one droplet of activity -2 in a box of 6 x 6. Lists and dictionaries are copied: a Setup does not
+/// change.
+#[pyclass(module = "motile", frozen, eq)]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Setup {
+    pub(crate) description: Description,
+}
+
+impl Setup {
+    fn checked(description: Description) -> PyResult<Self> {
+        description.check().map_err(|error| of_setup(&error))?;
+        Ok(Self { description })
+    }
+
+    fn table(&self) -> PyResult<Table> {
+        Table::try_from(&self.description).map_err(failed)
+    }
+}
+
+/// Table of the keywords of a call.
+fn keywords(entries: Option<&Bound<'_, PyDict>>) -> PyResult<Table> {
+    match entries.map(|entries| from_python(entries.as_any(), "")).transpose()?.flatten() {
+        Some(Value::Table(table)) => Ok(table),
+        _ => Ok(Table::new()),
+    }
+}
+
+/// Entry of a list or table at a key.
+fn entry<'v>(value: &'v mut Value, key: &str) -> Option<&'v mut Value> {
+    match value {
+        Value::Array(list) => list.get_mut(key.parse::<usize>().ok()?),
+        Value::Table(table) => Some(table.entry(key.replace('_', "-")).or_insert(Value::Table(Table::new()))),
+        _ => None,
+    }
+}
+
+#[pymethods]
+impl Setup {
+    #[new]
+    #[pyo3(signature = (**entries))]
+    fn new(entries: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let given = keywords(entries)?;
+        let mut table = Table::try_from(Description::default()).map_err(failed)?;
+        table.extend(given);
+        Self::checked(described(Value::Table(table))?)
+    }
+
+    /// Setup of a dictionary of all entries. As in a scene file there are no bodies but those that it names.
+    #[classmethod]
+    fn from_dict(_class: &Bound<'_, PyType>, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
+        Self::checked(described(Value::Table(keywords(Some(entries))?))?)
+    }
+
+    /// Setup of a scene file's text (TOML).
+    #[classmethod]
+    fn from_toml(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
+        Ok(Self { description: Description::from_toml(text).map_err(|error| of_setup(&error))? })
+    }
+
+    /// Text of a scene file with all entries.
+    fn to_toml(&self) -> PyResult<String> {
+        self.description.to_toml().map_err(|error| of_setup(&error))
+    }
+
+    /// Dictionary of all entries.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &Value::Table(self.table()?))
+    }
+
+    /// Setup with some entries replaced: top-level keys as keywords, others by their places, as in
+    /// `setup.replace({"droplets.0.particles.activity": -3}, viscosity=10)`.
+    #[pyo3(signature = (places=None, /, **entries))]
+    fn replace(&self, places: Option<&Bound<'_, PyDict>>, entries: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut whole = Value::Table(self.table()?);
+        if let Value::Table(table) = &mut whole {
+            for (name, _) in entries.into_iter().flatten() {
+                table.remove(&name.extract::<String>()?.replace('_', "-"));
+            }
+            table.extend(keywords(entries)?);
+        }
+        for (place, object) in places.into_iter().flatten() {
+            let place: String = place.extract().map_err(|_| unreadable("", &place, "give places as text"))?;
+            let (above, last) = place.rsplit_once('.').unwrap_or(("", &place));
+            let missing = || refused(&format!("{place}: the setup has no such place"), Some(place.clone()), None, None);
+            let mut at = &mut whole;
+            for key in above.split('.').filter(|key| !key.is_empty()) {
+                at = entry(at, key).ok_or_else(missing)?;
+            }
+            match (from_python(&object, &place)?, at) {
+                (None, Value::Table(table)) => drop(table.remove(&last.replace('_', "-"))),
+                (Some(value), at) => *entry(at, last).ok_or_else(missing)? = value,
+                (None, _) => return Err(missing()),
+            }
+        }
+        Self::checked(described(whole)?)
+    }
+
+    /// Scene of the description.
+    fn build<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("motile._scene")?.getattr("Scene")?.call1((Scene::new(py, &self.description)?,))
+    }
+
+    /// Number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not different
+    /// time steps.
+    #[getter]
+    fn fingerprint(&self) -> String {
+        self.description.fingerprint()
+    }
+
+    /// Entry at a top-level key, as a copy.
+    fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let entries = self.to_dict(py)?.cast_into::<PyDict>()?;
+        if let Some(value) = entries.get_item(name)? {
+            return Ok(value);
+        }
+        // Entries that are none have no key in a scene file.
+        let known = ["repulsion", "least_gap", "flow"];
+        if known.contains(&name) {
+            return Ok(py.None().into_bound(py));
+        }
+        Err(pyo3::exceptions::PyAttributeError::new_err(format!("a Setup has no key {name}")))
+    }
+
+    fn __dir__<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<String>> {
+        let py = slf.py();
+        let of_class: Vec<String> = py.get_type::<Self>().call_method0("mro")?.get_item(0)?.dir()?.extract()?;
+        let keys = slf.get().to_dict(py)?.cast_into::<PyDict>()?.keys();
+        Ok(of_class.into_iter().chain(keys.extract::<Vec<String>>()?).collect())
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        Ok(format!("motile.Setup.from_toml(\"\"\"\n{}\"\"\")", self.to_toml()?))
+    }
+
+    fn __hash__(&self) -> u64 {
+        u64::from_str_radix(&self.fingerprint(), 16).unwrap_or_default()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let py = slf.py();
+        let text = PyString::new(py, &slf.get().to_toml()?);
+        Ok((py.get_type::<Self>().getattr("from_toml")?, PyTuple::new(py, [text])?))
+    }
+}

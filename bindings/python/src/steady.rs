@@ -1,0 +1,157 @@
+//! Steady states, their spectra and branches.
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
+use steady_states::{Continuation, Parameter, SteadyError};
+
+use crate::error::{failed, of_setup, refused};
+use crate::setup::Setup;
+
+fn of_steady(error: &SteadyError) -> PyErr {
+    if let SteadyError::Setup(error) = error { of_setup(error) } else { failed(error) }
+}
+
+/// Steady state of a droplet, found by Newton's method.
+#[pyclass(module = "motile", frozen)]
+#[derive(Debug)]
+pub(crate) struct SteadyState {
+    state: steady_states::SteadyState,
+}
+
+#[pymethods]
+impl SteadyState {
+    /// Setup of the state.
+    #[getter]
+    fn setup(&self) -> Setup {
+        Setup { description: self.state.setup().clone() }
+    }
+
+    /// Velocity of the centroid (length per time).
+    #[getter]
+    fn velocity(&self) -> (f64, f64) {
+        self.state.velocity().into()
+    }
+
+    /// Largest rate of change that is left (1/time).
+    #[getter]
+    fn residual(&self) -> f64 {
+        self.state.residual()
+    }
+
+    /// Speed, stresslet, aspect ratio and the like.
+    #[getter]
+    fn measured<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let seen = py.detach(|| self.state.measured()).map_err(|error| of_steady(&error))?;
+        let dict = PyDict::new(py);
+        for (name, value) in [
+            ("speed", seen.speed),
+            ("stresslet", seen.stresslet),
+            ("aspect_ratio", seen.aspect_ratio),
+            ("concentration_max", seen.concentration[0]),
+            ("concentration_min", seen.concentration[1]),
+            ("perimeter", seen.perimeter),
+            ("x", seen.centroid.x),
+            ("y", seen.centroid.y),
+            ("least_curvature", seen.least_curvature),
+        ] {
+            dict.set_item(name, value)?;
+        }
+        Ok(dict)
+    }
+
+    /// Speed (length per time).
+    #[getter]
+    fn speed(&self) -> PyResult<f64> {
+        Ok(self.state.measured().map_err(|error| of_steady(&error))?.speed)
+    }
+
+    /// Positions of the nodes (length), an array of shape (n, 2).
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = &self.state.profile().positions;
+        PyArray1::from_vec(py, points.iter().flat_map(|point| point.to_array()).collect()).reshape([points.len(), 2])
+    }
+
+    /// Eigenvalues (1/time) of small disturbances, largest growth rate first, one of each conjugate pair, and their
+    /// symmetries.
+    fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyArray1<numpy::Complex64>>, Vec<&'static str>)> {
+        let spectrum = py.detach(|| self.state.spectrum()).map_err(|error| of_steady(&error))?;
+        let values = spectrum.modes.iter().map(|mode| mode.value).collect();
+        Ok((PyArray1::from_vec(py, values), spectrum.modes.iter().map(|mode| mode.symmetry.name()).collect()))
+    }
+
+    /// True if no small disturbance grows.
+    fn is_stable(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(py.detach(|| self.state.spectrum()).map_err(|error| of_steady(&error))?.unstable() == 0)
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        Ok(format!("<steady state: speed {:.6}, residual {:.0e}>", self.speed()?, self.residual()))
+    }
+}
+
+/// Steady state of a setup with one droplet.
+#[pyfunction]
+pub(crate) fn steady(py: Python<'_>, setup: &Bound<'_, Setup>) -> PyResult<SteadyState> {
+    let description = setup.get().description.clone();
+    let state = py.detach(|| steady_states::SteadyState::find(&description)).map_err(|error| of_steady(&error))?;
+    Ok(SteadyState { state })
+}
+
+/// Branch of steady states along a parameter: values, speeds, largest growth rates, numbers of growing disturbances,
+/// special points (kind, value), the reason why it ends, and the states.
+#[pyfunction]
+#[pyo3(signature = (start, parameter, stop, largest_step=0.05, most_points=400, tick=None))]
+pub(crate) fn branch<'py>(
+    py: Python<'py>,
+    start: &Bound<'py, SteadyState>,
+    parameter: &str,
+    stop: f64,
+    largest_step: f64,
+    most_points: usize,
+    tick: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let name = parameter.replace('_', "-");
+    let known = Parameter::NAMES.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
+    let unknown = || {
+        let names: Vec<String> = Parameter::NAMES.iter().map(|(name, _)| name.replace('-', "_")).collect();
+        let remedy = format!("give one of {}", names.join(", "));
+        let message = format!("there is no parameter {parameter}: {remedy}");
+        refused(&message, Some("parameter".into()), Some(parameter.to_owned()), Some(remedy))
+    };
+    let known = known.ok_or_else(unknown)?;
+    let start = &start.get().state;
+    let from = known.get(start.setup()).unwrap_or(f64::NAN);
+    let settings = Continuation { largest_step, most_points, ..Continuation::new(known, from, stop) };
+    let mut signal = None;
+    let found = py.detach(|| {
+        settings.follow(start, |point, _| {
+            let looked = Python::attach(|py| {
+                py.check_signals()?;
+                tick.as_ref().map_or(Ok(()), |tick| tick.call1(py, (point.value,)).map(|_| ()))
+            });
+            signal = looked.err();
+            signal.is_none()
+        })
+    });
+    if let Some(signal) = signal {
+        return Err(signal);
+    }
+    let found = found.map_err(|error| of_steady(&error))?;
+    let dict = PyDict::new(py);
+    let speeds = found.points.iter().map(|point| Ok(point.state.measured()?.speed)).collect::<Result<Vec<_>, _>>();
+    let growth = |point: &steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
+    let unstable = found.points.iter().map(|point| point.spectrum.unstable() as i64).collect();
+    let special: Vec<(&str, f64)> = found.special.iter().map(|point| (point.kind.name(), point.value)).collect();
+    dict.set_item("values", PyArray1::from_vec(py, found.points.iter().map(|point| point.value).collect()))?;
+    dict.set_item("speeds", PyArray1::from_vec(py, speeds.map_err(|error: SteadyError| of_steady(&error))?))?;
+    dict.set_item("growth_rates", PyArray1::from_vec(py, found.points.iter().map(growth).collect()))?;
+    dict.set_item("unstable", PyArray1::<i64>::from_vec(py, unstable))?;
+    dict.set_item("special", special)?;
+    dict.set_item("end", found.end.to_string())?;
+    let states = found.points.into_iter().map(|point| Py::new(py, SteadyState { state: point.state }));
+    dict.set_item("states", states.collect::<PyResult<Vec<_>>>()?)?;
+    Ok(dict)
+}

@@ -1,0 +1,218 @@
+"""Scenes: runs, interruptions, state and output."""
+
+import _thread
+import json
+import multiprocessing
+import subprocess
+import threading
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import motile
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[3]
+
+
+def small(**more: object) -> motile.Setup:
+    return motile.Setup(method=motile.integral(nodes=32, cells=128), **more)
+
+
+def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
+    command = "cargo run --release --quiet --example swimming_droplet -- --time 2 --nodes 32 --no-pictures --quiet"
+    written = tmp_path / "scene.toml"
+    subprocess.run(
+        [*command.split(), "--out", str(tmp_path / "out"), "--write-scene", str(written)], cwd=ROOT, check=True
+    )
+    rows = np.genfromtxt(tmp_path / "out" / "trajectory.csv", delimiter=",", names=True)
+    scene = motile.Setup.from_toml(written.read_text()).build()
+    track = scene.run(2)
+    assert np.allclose(track.time, rows["time"], rtol=1e-12)
+    for name in rows.dtype.names:
+        if name in track:
+            assert np.allclose(track[name], rows[name], rtol=1e-12, atol=1e-12, equal_nan=True), name
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["speed"] == pytest.approx(track["speed"][-1], rel=1e-5)
+
+
+def test_a_run_in_parts_is_one_run(tmp_path: Path) -> None:
+    whole, parts, other = (small().build() for _ in range(3))
+    track = whole.run(2, every=0.5)
+    seen = []
+    parts.run(2, every=0.5, callback=lambda scene: seen.append(scene.droplets[0].observe()["speed"]))
+    assert np.array_equal(seen, track["speed"][1:])
+    assert np.array_equal(track["speed"], whole.track["speed"])
+    assert track.time.tolist() == [0, 0.5, 1, 1.5, 2]
+    assert parts.run(2.5, every=0.5).time.tolist() == [2, 2.5]
+    whole.save(tmp_path / "state")
+    other.load(tmp_path / "state")
+    assert np.array_equal(other.run(3, every=1)["speed"], whole.run(3, every=1)["speed"])
+    assert np.array_equal(other.droplets[0].positions, whole.droplets[0].positions)
+    with pytest.raises(motile.Error):
+        motile.Setup(viscosity=3).build().load(tmp_path / "state")
+    with pytest.raises(motile.Error, match="missing"):
+        other.load(tmp_path / "missing")
+
+
+def test_tables() -> None:
+    one = small().build().run(1, every=0.5)
+    assert one["speed"].shape == (3,) and set(one) == set(one.names) and len(one) == len(one.names)
+    assert one.to_pandas()["speed"].tolist() == one["speed"].tolist()
+    pair = [motile.droplet(-2, centre=(-1.4, 0)), motile.droplet(-1, centre=(1.4, 0))]
+    two = small(droplets=pair, region=motile.box(8, 6)).build().run(1, every=0.5)
+    assert two["speed"].shape == (3, 2) and two.time.shape == (3,)
+    assert two.to_pandas().loc[(1.0, 1)]["speed"] == two["speed"][-1, 1]
+    assert two.to_xarray()["speed"].sel(time=1.0, droplet=0) == two["speed"][-1, 0]
+    with pytest.raises(KeyError, match="aspect_ratio_moments"):
+        one["aspect"]
+    assert small(droplets=[]).build().run(1).time.size == 0
+
+
+def test_state_and_samples() -> None:
+    scene = small().build()
+    scene.run(0.5, every=0.5)
+    droplet = scene.droplets[0]
+    positions = droplet.positions
+    positions[:] = 0
+    assert droplet.positions.any() and len(droplet.concentration) == len(droplet.velocities) == len(positions)
+    grid = np.stack(np.meshgrid(np.linspace(-2, 2, 5), np.linspace(-2, 2, 4)), axis=-1)
+    velocity, pressure = scene.sample(grid)
+    assert velocity.shape == (4, 5, 2) and pressure.shape == (4, 5)
+    one, _ = scene.sample(grid[::2, ::2].transpose(1, 0, 2))
+    assert np.array_equal(one, velocity[::2, ::2].transpose(1, 0, 2))
+    # Incompressible, and the gradient is that of the velocity.
+    gradient = scene.velocity_gradient([0.3, 0.2])
+    assert abs(np.trace(gradient)) < 1e-9
+    h = 1e-4
+    (right, left), _ = scene.sample([[0.3 + h, 0.2], [0.3 - h, 0.2]])
+    assert np.allclose((right - left) / (2 * h), gradient[:, 0], atol=1e-6)
+    for wrong in [[1, 2, 3], 5.0, [[np.nan, 0]], "ab"]:
+        with pytest.raises((motile.Error, ValueError)):
+            scene.sample(wrong)
+
+
+def test_pictures_and_files(tmp_path: Path) -> None:
+    scene = small().build()
+    text = scene.picture(spacing=0.3, caption="a <caption>")
+    assert text is not None and text.startswith("<svg") or text.startswith("<?xml")
+    assert scene._repr_svg_()
+    scene.picture(tmp_path / "a.png", spacing=0.3)
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    scene.write_paraview(tmp_path / "vtk", spacing=0.3)
+    assert list((tmp_path / "vtk").glob("*.pvd"))
+    for wrong in [lambda: scene.picture(tmp_path / "none" / "a.png"), lambda: scene.picture(spacing=-1)]:
+        with pytest.raises(motile.Error):
+            wrong()
+
+
+def test_a_tension_of_ones_own() -> None:
+    particles = {"excluded_volume": {"quadratic": 0.02}}
+    setup = small(droplets=[motile.droplet(-2, particles=particles)], step={"fixed": 0.01})
+    known, tabulated, sampled = (setup.build() for _ in range(3))
+    # The law of the setup: gamma0 - activity c - B c^2 / 2.
+    c = np.linspace(0, 1500, 6001)
+    gamma0, activity, strength = 10.0, -2.0, 0.02
+    table = gamma0 - activity * c - strength * c**2 / 2
+    tabulated.droplets[0].set_tension((c, table))
+    sampled.droplets[0].set_tension(lambda c: gamma0 - activity * c - strength * c**2 / 2, up_to=1500, points=6001)
+    speeds = [scene.run(0.5, every=0.5)["speed"][-1] for scene in (known, tabulated, sampled)]
+    assert speeds[1] == speeds[2]
+    assert speeds[1] == pytest.approx(speeds[0], rel=1e-5)
+    for wrong in [((0, 1), (1, 2)), ((0, 2, 1), (1, 2, 3)), ((0, 1, 2), (1, np.nan, 2)), ((0, 1, 2), (1, 2))]:
+        with pytest.raises(motile.Error):
+            known.droplets[0].set_tension(wrong)
+
+
+def test_ctrl_c_ends_a_run_within_a_second() -> None:
+    scene = motile.Setup(method=motile.grid(spacing=0.05)).build()
+    threading.Timer(0.6, _thread.interrupt_main).start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        scene.run(1e5, every=1.0)
+    assert time.monotonic() - began < 5
+    reached = scene.time
+    assert reached > 0 and scene.track.time[-1] <= reached
+    scene.run(reached + 0.01)
+    assert scene.time == reached + 0.01
+
+
+def test_exceptions_of_callbacks_come_through() -> None:
+    scene = small().build()
+
+    def stop(scene: motile.Scene) -> None:
+        if scene.time > 0.7:
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        scene.run(5, every=0.5, callback=stop)
+    assert scene.time == 1.0 and scene.track.time[-1] == 1.0
+
+
+def test_errors_of_runs_keep_the_state() -> None:
+    scene = small().build()
+    for until in [float("nan"), -1.0, float("inf")]:
+        with pytest.raises(motile.Error):
+            scene.run(until)
+    with pytest.raises(motile.Error):
+        scene.run(1, every=-1.0)
+    with pytest.raises(motile.Error, match="fixd"):
+        scene.run(1, step={"fixd": 1})
+    with pytest.raises(motile.Error, match="above the stable"):
+        scene.run(1, step={"fixed": 10.0})
+    assert scene.time == 0
+    assert scene.run(0.5, step={"fixed": 0.01}).time[-1] == pytest.approx(0.5)
+
+
+def test_two_scenes_in_two_threads_and_one_scene_in_two() -> None:
+    scenes = [small().build() for _ in range(2)]
+    threads = [threading.Thread(target=scene.run, args=(1, 0.5)) for scene in scenes]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    alone = small().build().run(1, 0.5)
+    for scene in scenes:
+        assert np.array_equal(scene.track["speed"], alone["speed"])
+    busy = small().build()
+    running = threading.Thread(target=busy.run, args=(50,))
+    running.start()
+    refused = 0
+    while running.is_alive() and not refused:
+        try:
+            busy.time
+        except motile.Error as error:
+            assert "in use" in str(error)
+            refused += 1
+    running.join()
+    assert refused and busy.time == 50
+
+
+def _speed(setup: motile.Setup) -> float:
+    return float(setup.build().run(0.5, 0.5)["speed"][-1])
+
+
+def test_setups_go_to_other_processes() -> None:
+    setups = [small().replace({"droplets.0.particles.activity": a}) for a in (-1, -2)]
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
+        assert list(pool.map(_speed, setups)) == [_speed(setup) for setup in setups]
+
+
+def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
+    changes = {"droplets.0.particles.activity": [-1, -2], "viscosity": [50, 100]}
+    done = motile.sweep(small(), changes, 0.5, 0.25, processes=2, folder=tmp_path)
+    assert [run.values["viscosity"] for run in done] == [50, 100, 50, 100]
+    assert len(list(tmp_path.glob("*.npz"))) == 4 and not list(tmp_path.glob("*.part"))
+    assert done[3].track["speed"][-1] == small().build().run(0.5, 0.25)["speed"][-1]
+    stamps = {file: file.stat().st_mtime_ns for file in tmp_path.iterdir()}
+    again = motile.sweep(small(), changes, 0.5, 0.25, folder=tmp_path)
+    assert {file: file.stat().st_mtime_ns for file in tmp_path.iterdir()} == stamps
+    assert again.to_pandas().equals(done.to_pandas())
+    # Another end is another sweep, and so is another scene.
+    motile.sweep(small(), {"viscosity": [100]}, 0.25, 0.25, folder=tmp_path)
+    assert len(list(tmp_path.glob("*.npz"))) == 5
+    bad = motile.sweep(small(step={"fixed": 5.0}), {"viscosity": [100]}, 20)
+    assert bad[0].error and "step" in bad[0].error
+    with pytest.raises(motile.Error):
+        motile.sweep(small(), {"viscosity": [1, -1]}, 1)
