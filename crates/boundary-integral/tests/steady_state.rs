@@ -42,6 +42,30 @@ fn evaluations_allocate_nothing() {
 }
 
 #[test]
+fn evaluations_of_many_droplets_allocate_nothing() {
+    let lattice = |side: usize, viscosity| {
+        let droplet = pair(viscosity)[0];
+        let place = |k: usize| [2.6 * (k % side) as f64, 2.6 * (k / side) as f64];
+        let droplets: Vec<_> = (0..side * side).map(|k| Ellipse { centre: place(k), ..droplet }).collect();
+        let region = Region::Box { lengths: [2.6 * side as f64; 2] };
+        let mut solver = BoundaryIntegral::new(region, 1.0, Settings::default()).expect("a valid scene");
+        let mut markers = markers(&droplets, 64);
+        for _ in 0..3 {
+            solver.velocities(&mut markers).expect("a valid scene");
+        }
+        let counted = measure(|| {
+            for _ in 0..3 {
+                solver.velocities(&mut markers).expect("a valid scene");
+            }
+        });
+        counted.count_total
+    };
+    for viscosity in [1.0, 20.0] {
+        assert_eq!(lattice(5, viscosity), 0);
+    }
+}
+
+#[test]
 fn work_is_counted_and_equal_viscosities_iterate_never() {
     let mut solver =
         BoundaryIntegral::new(Region::Box { lengths: [6.0, 6.0] }, 1.0, Settings::default()).expect("a valid scene");

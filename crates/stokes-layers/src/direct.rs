@@ -12,8 +12,8 @@ use crate::{
     greens::{AnyPair, PairKernel, Vectors},
     plan::Plan,
 };
-pub(crate) use arrays::Dipoles;
 use arrays::NodeArrays;
+pub(crate) use arrays::{Dipoles, dipole};
 use stored::{StoredStokeslets, StoredStress};
 use sums::{PairSums, double_layer, single_layer};
 
@@ -188,7 +188,10 @@ impl DirectSums {
                 }));
             }
             if own {
-                add_dipole_at_node(&on[target], &both[0].dipoles, &mut out[target]);
+                let Dipoles { xx, s, yy } = &both[0].dipoles;
+                for i in 0..on[target].len() {
+                    add_dipole_at_node(&on[target], i, [xx[i], s[i], yy[i]], &mut out[target]);
+                }
             }
         }
     }
@@ -205,17 +208,16 @@ fn add_force_at_node<K: PairKernel>(kernel: &K, weight: f64, arrays: &NodeArrays
     }
 }
 
-/// Adds the limit of the double layer at the node itself, `-2 kappa tau (tau.v) |n ds|` with the unit tangent tau and
-/// the curvature kappa, from the dipoles there.
-fn add_dipole_at_node(curve: &Curve, dipoles: &Dipoles, out: &mut Vectors) {
-    for (i, (tangent, curvature)) in curve.nodes.tangent.iter().zip(&curve.curvature).enumerate() {
-        let speed = tangent.norm_sqr().sqrt();
-        let (tx, ty) = (tangent.re / speed, tangent.im / speed);
-        let (nx, ny) = (ty, -tx);
-        // tau.v |n ds| = tau.(P n) with the symmetric P, less the normal part that P holds twice.
-        let (px, py) = (dipoles.xx[i] * nx + 0.5 * dipoles.s[i] * ny, 0.5 * dipoles.s[i] * nx + dipoles.yy[i] * ny);
-        let along = 2.0 * (tx * px + ty * py);
-        out.x[i] -= 2.0 * curvature * along * tx;
-        out.y[i] -= 2.0 * curvature * along * ty;
-    }
+/// Adds the limit of the double layer at node i itself, `-2 kappa tau (tau.v) |n ds|` with the unit tangent tau and the
+/// curvature kappa, from the dipole there.
+pub(crate) fn add_dipole_at_node(curve: &Curve, i: usize, [xx, s, yy]: [f64; 3], out: &mut Vectors) {
+    let (tangent, curvature) = (curve.nodes.tangent[i], curve.curvature[i]);
+    let speed = tangent.norm_sqr().sqrt();
+    let (tx, ty) = (tangent.re / speed, tangent.im / speed);
+    let (nx, ny) = (ty, -tx);
+    // tau.v |n ds| = tau.(P n) with the symmetric P, less the normal part that P holds twice.
+    let (px, py) = (xx * nx + 0.5 * s * ny, 0.5 * s * nx + yy * ny);
+    let along = 2.0 * (tx * px + ty * py);
+    out.x[i] -= 2.0 * curvature * along * tx;
+    out.y[i] -= 2.0 * curvature * along * ty;
 }

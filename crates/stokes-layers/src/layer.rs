@@ -2,7 +2,8 @@
 //!
 //! A layer is the sum of four contributions: of the nodes of curves that are close to each other, summed directly; of
 //! all other curves and images, by multipoles; of what the region adds (walls, a mean flow); and of a correction at
-//! nodes that are so close to a curve that its nodes do not resolve the Green's function.
+//! nodes that are so close to a curve that its nodes do not resolve the Green's function. Many nodes in a box are
+//! summed together in place of the first two.
 
 mod close;
 mod rows;
@@ -23,6 +24,7 @@ use crate::{
     curve::{Curve, LayerCurve},
     density::{Density, StoredLayers},
     direct::DirectSums,
+    ewald::Ewald,
     greens::{GreensFunction, Vectors},
     multipole::Multipoles,
     plan::Plan,
@@ -32,6 +34,9 @@ use close::CloseCorrection;
 pub(crate) use close::Crossing;
 use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
+
+/// Nodes of a box from which on fast sums cost less than sums over pairs and series (measured).
+const MANY_NODES: usize = 1000;
 
 /// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
 #[derive(Debug, Clone)]
@@ -50,6 +55,8 @@ pub(crate) struct Layers {
     fixed: usize,
     direct: DirectSums,
     multipoles: Multipoles,
+    /// Sums over many nodes, while they are used.
+    fast: Option<Box<Ewald>>,
     pub(crate) walls: Option<Walls>,
     /// The imposed flow, without what the drive of a channel drives.
     pub(crate) imposed: ImposedFlow,
@@ -89,6 +96,7 @@ impl Layers {
             fixed: 0,
             direct: DirectSums::default(),
             multipoles: Multipoles::new(region, tolerance)?,
+            fast: None,
             walls,
             imposed: ImposedFlow::NONE,
             at_walls: [1.0; 2],
@@ -149,10 +157,27 @@ impl Layers {
             self.starts.push(self.starts[self.starts.len() - 1] + curve.len());
         }
         self.stored = StoredLayers { first: if all_stored { 0 } else { count }, mutual: all_stored };
+        self.plan_fast()?;
         match &mut self.walls {
             Some(walls) => walls.load(&mut self.curves, &mut self.plans),
             None => Ok(()),
         }
+    }
+
+    /// Prepares for fast sums where they pay: in a box with many nodes of closed curves of which none is stored.
+    fn plan_fast(&mut self) -> Result<(), LayerError> {
+        let Self { fast, images, stored, curves, starts, multipoles, .. } = self;
+        let nodes = starts[curves.len()];
+        let pays = images.area().is_finite()
+            && nodes >= MANY_NODES
+            && stored.first == curves.len()
+            && !curves.iter().any(Curve::is_open);
+        match fast {
+            _ if !pays => *fast = None,
+            Some(fast) => fast.set(images, nodes)?,
+            None => *fast = Ewald::new(images, multipoles.tolerance(), nodes)?.map(Box::new),
+        }
+        Ok(())
     }
 
     /// Entries of a curve in vectors over all nodes, x then y, curve after curve.
@@ -184,8 +209,15 @@ impl Layers {
     /// later. With `double`, prepares for [`Layers::double_layer`].
     pub(crate) fn single_layer(&mut self, double: bool) {
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, plans, flow, stored, images, .. } = self;
+        let Self { direct, multipoles, fast, walls, close, curves, plans, flow, stored, images, .. } = self;
         let stored = *stored;
+        if let Some(fast) = fast {
+            close.find(curves, plans, images, stored);
+            fast.place(curves);
+            fast.add_forces(curves, plans, flow);
+            close.add_forces(curves, plans, stored, double, flow);
+            return;
+        }
         let wave = match self.region {
             Region::Channel { length, .. } => Some(TAU / length),
             Region::Box { lengths } if curves.iter().any(Curve::is_open) => Some(TAU / lengths[0]),
@@ -282,15 +314,18 @@ impl Layers {
         }
         let mean = self.mean_flow(density);
         self.clear();
-        let Self { direct, multipoles, walls, close, curves, plans, fine, flow, stored, .. } = self;
-        for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..stored.first]).enumerate() {
-            let weight = density.contrasts[index] * curve.weight();
-            arrays.dipoles.fill(density.of(index), &curve.nodes.tangent, weight);
+        let Self { direct, multipoles, fast, walls, close, curves, plans, fine, flow, stored, .. } = self;
+        if let Some(fast) = fast {
+            fast.add_dipoles(curves, density, flow);
+        } else {
+            for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..stored.first]).enumerate() {
+                let weight = density.contrasts[index] * curve.weight();
+                arrays.dipoles.fill(density.of(index), &curve.nodes.tangent, weight);
+            }
+            direct.add_dipoles(curves, flow);
+            let dipoles = direct.curves.iter().map(|arrays| &arrays.dipoles);
+            multipoles.add_dipoles(&curves[..stored.first], dipoles, accuracy, flow);
         }
-
-        direct.add_dipoles(curves, flow);
-        let dipoles = direct.curves.iter().map(|arrays| &arrays.dipoles);
-        multipoles.add_dipoles(&curves[..stored.first], dipoles, accuracy, flow);
         if let Some(walls) = walls {
             walls.add_dipoles(curves, density, fine, accuracy, flow);
         }
@@ -376,3 +411,6 @@ impl Layers {
         Some(sum * (4.0 * PI / (lx * ly)))
     }
 }
+
+#[cfg(test)]
+mod tests;

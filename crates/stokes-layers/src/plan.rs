@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::InputError;
+use num_complex::Complex64;
 
 use crate::{close_weights::CloseWeights, transforms::Transforms};
 
@@ -14,6 +15,8 @@ pub(crate) struct Plan {
     pub(crate) weights: CloseWeights,
     /// Weights of Kress by shift.
     pub(crate) kress: Vec<f64>,
+    /// Factors of Fourier coefficients in the cyclic product with them.
+    pub(crate) kress_modes: Vec<f64>,
 }
 
 impl Plan {
@@ -22,8 +25,12 @@ impl Plan {
         if let Some(known) = plans.iter().position(|plan| plan.nodes == nodes) {
             return Ok(known);
         }
-        let (transforms, weights) = (Transforms::new(nodes)?, CloseWeights::new(nodes));
-        plans.push(Self { nodes, transforms, weights, kress: kress_weights(nodes) });
+        let (mut transforms, weights, kress) =
+            (Transforms::new(nodes)?, CloseWeights::new(nodes), kress_weights(nodes));
+        let mut modes: Vec<_> = kress.iter().map(|weight| Complex64::new(*weight, 0.0)).collect();
+        transforms.nodes.forward(&mut modes);
+        let kress_modes = modes.iter().map(|mode| mode.re * nodes as f64).collect();
+        plans.push(Self { nodes, transforms, weights, kress, kress_modes });
         Ok(plans.len() - 1)
     }
 }

@@ -65,11 +65,16 @@ impl Dipoles {
         let n = tangents.len();
         self.arrays().into_iter().for_each(|array| array.resize(2 * n, 0.0));
         for (i, t) in tangents.iter().enumerate() {
-            let (nx, ny) = (t.im * weight, -t.re * weight);
-            self.xx[i] = vx[i] * nx;
-            self.s[i] = vx[i] * ny + vy[i] * nx;
-            self.yy[i] = vy[i] * ny;
+            [self.xx[i], self.s[i], self.yy[i]] = dipole([vx[i], vy[i]], t * weight);
         }
         self.arrays().into_iter().for_each(|array| array.copy_within(..n, n));
     }
+}
+
+/// The products of velocity and normal that the stress acts on, for the derivative of the position by the parameter
+/// times the weight of the node.
+#[inline(always)]
+pub(crate) fn dipole([vx, vy]: [f64; 2], tangent: Complex64) -> [f64; 3] {
+    let (nx, ny) = (tangent.im, -tangent.re);
+    [vx * nx, vx * ny + vy * nx, vy * ny]
 }

@@ -1,0 +1,275 @@
+//! Fast sums of layers over many nodes in a periodic box, linear in their number.
+//!
+//! The Green's function is split into a part that ends at a cut-off, summed over the nodes within it ([`near`]), and a
+//! smooth part with a bounded spectrum: its sources are spread to a grid, transformed, multiplied by the spectrum,
+//! transformed back and interpolated (Ewald, Ann. Phys. 369, 253, 1921; Lindbo and Tornberg, J. Comput. Phys. 230,
+//! 8744, 2011). The [`split`] is by a prolate function (Jiang and Greengard, Commun. Pure Appl. Math. 78, 2025), which
+//! needs the fewest waves. Sums over nodes are those of [`crate::direct`] to the tolerance: the quadrature is the same,
+//! the weights of Kress one cyclic product a curve.
+
+mod cells;
+mod columns;
+mod lattice;
+mod near;
+mod polynomial;
+mod prolate;
+mod rows;
+mod shares;
+mod split;
+mod window;
+
+use std::f64::consts::PI;
+
+use motile_base::InputError;
+use num_complex::Complex64;
+
+use crate::{
+    curve::Curve,
+    density::Density,
+    direct::{add_dipole_at_node, dipole},
+    greens::Vectors,
+    images::Images,
+    plan::Plan,
+};
+use cells::{Cells, FEWEST};
+use columns::Columns;
+use lattice::Lattice;
+use near::Carried;
+use rows::Rows;
+use split::Split;
+use window::{OVERSAMPLING, Window};
+
+/// Cut-off over the mean distance of nodes, the root of area over number, at which near part and grid cost alike
+/// (measured).
+const CUTOFF: f64 = 3.0;
+/// Classes of the number of nodes in a factor of 2: all numbers of a class have the same cut-off, so that a few more
+/// nodes change neither grid nor memory.
+const CLASSES: f64 = 2.0;
+
+/// Fast sums over the nodes of closed curves in a box, with plans and working memory.
+#[derive(Debug, Clone)]
+pub(crate) struct Ewald {
+    split: Split,
+    window: Window,
+    lattice: Lattice,
+    /// Distance beyond which the smooth part is all there is (length).
+    cutoff: f64,
+    size: [usize; 2],
+    rows: Vec<Rows>,
+    columns: Vec<Columns>,
+    cells: Cells,
+    /// What the entries of the cells carry.
+    carried: [Vec<f64>; 3],
+    /// What the nodes carry, curve after curve, then the flow there.
+    nodes: [Vec<f64>; 3],
+    modes: Vec<Complex64>,
+}
+
+impl Ewald {
+    /// Sums to a relative tolerance in a box with images, for so many nodes.
+    ///
+    /// # Errors
+    /// A grid too large for a transform.
+    pub(crate) fn new(images: &Images, tolerance: f64, count: usize) -> Result<Option<Self>, InputError> {
+        let Some(lattice) = Lattice::of(images) else { return Ok(None) };
+        let (split, window) = (Split::new(tolerance), Window::new(tolerance));
+        let (rows, columns, cells, carried, nodes, modes) = Default::default();
+        let mut ewald =
+            Self { split, window, lattice, cutoff: 0.0, size: [0; 2], rows, columns, cells, carried, nodes, modes };
+        ewald.plan(count)?;
+        Ok(Some(ewald))
+    }
+
+    /// Takes over the images of a box and the number of nodes; grid and transforms are kept where they fit.
+    ///
+    /// # Errors
+    /// A grid too large for a transform.
+    pub(crate) fn set(&mut self, images: &Images, nodes: usize) -> Result<(), InputError> {
+        let before = self.lattice;
+        self.lattice = Lattice::of(images).unwrap_or(before);
+        if before.steepest != self.lattice.steepest || self.cutoff != self.cutoff_for(nodes) {
+            return self.plan(nodes);
+        }
+        if before != self.lattice {
+            self.set_symbol();
+        }
+        Ok(())
+    }
+
+    /// The cut-off for so many nodes (length), at most what keeps each node to one image within it.
+    fn cutoff_for(&self, nodes: usize) -> f64 {
+        let class = 2f64.powf((CLASSES * (nodes.max(1) as f64).log2()).ceil() / CLASSES);
+        let [lx, ly] = self.lattice.lengths;
+        let most = 2.0 / FEWEST as f64 * ly.min(lx / self.lattice.stretch());
+        (CUTOFF * (self.lattice.area() / class).sqrt()).min(most)
+    }
+
+    fn plan(&mut self, nodes: usize) -> Result<(), InputError> {
+        self.cutoff = self.cutoff_for(nodes);
+        let largest = self.split.c / self.cutoff;
+        let stretch = [1.0, self.lattice.stretch()];
+        let waves = [0, 1].map(|axis| largest * stretch[axis] * self.lattice.lengths[axis] / (2.0 * PI));
+        let points = self.window.points;
+        self.size = waves.map(|waves| smooth((2.0 * OVERSAMPLING * waves).ceil().max(2.0 * points as f64) as usize));
+        self.cells.sort(&self.lattice, self.cutoff, true, std::iter::empty());
+        self.rows = Rows::divide(self.cells.counts()[1], self.size, points)?;
+        self.columns = Columns::divide(waves[0] as usize, self.size)?;
+        self.set_symbol();
+        Ok(())
+    }
+
+    fn set_symbol(&mut self) {
+        let Self { columns, lattice, cutoff, split, window, .. } = self;
+        shares::each(columns, |share| share.set_symbol(lattice, *cutoff, split, window));
+    }
+
+    /// Takes over the nodes of curves.
+    pub(crate) fn place(&mut self, curves: &[Curve]) {
+        let points = curves
+            .iter()
+            .flat_map(|curve| curve.nodes.position.iter().map(|z| [z.re + curve.centre.re, z.im + curve.centre.im]));
+        self.cells.sort(&self.lattice, self.cutoff, true, points);
+    }
+
+    /// Adds the single layers of all curves at their nodes, that of a curve on itself by the rule of Kress.
+    pub(crate) fn add_forces(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
+        self.nodes.iter_mut().for_each(Vec::clear);
+        for force in curves.iter().flat_map(|curve| &curve.nodes.force) {
+            self.nodes[0].push(force.re);
+            self.nodes[1].push(force.im);
+        }
+        self.carry(2);
+        self.sum(false);
+        // The smooth part of a node at itself; without the logarithm of the cut-off, which is in that of each pair.
+        let own = self.split.own - self.cutoff.ln();
+        self.scatter(out);
+        for (curve, out) in curves.iter().zip(out) {
+            let Plan { transforms, kress_modes, .. } = &mut plans[curve.plan];
+            self.modes.clear();
+            let weight = curve.weight();
+            self.modes.extend(curve.force.iter().zip(&*kress_modes).map(|(force, kress)| force * (weight * kress)));
+            transforms.nodes.inverse(&mut self.modes);
+            let nodes = self.modes.iter().zip(&curve.nodes.force).zip(&curve.nodes.tangent);
+            for (i, ((kress, force), tangent)) in nodes.enumerate() {
+                let square = tangent.norm_sqr();
+                let even = -0.5 * square.ln() - own;
+                let along = tangent * ((tangent.conj() * force).re / square);
+                let flow = kress + force * even + along;
+                out.x[i] += flow.re;
+                out.y[i] += flow.im;
+            }
+        }
+    }
+
+    /// Adds the double layers of all curves at their nodes, of zero mean over the box.
+    pub(crate) fn add_dipoles(&mut self, curves: &[Curve], density: Density<'_>, out: &mut [Vectors]) {
+        self.nodes.iter_mut().for_each(Vec::clear);
+        for (index, curve) in curves.iter().enumerate() {
+            let (x, y) = density.of(index);
+            let weight = density.contrasts[index] * curve.weight();
+            for ((x, y), tangent) in x.iter().zip(y).zip(&curve.nodes.tangent) {
+                let dipole = dipole([*x, *y], tangent * weight);
+                self.nodes.iter_mut().zip(dipole).for_each(|(array, value)| array.push(value));
+            }
+        }
+        self.carry(3);
+        self.sum(true);
+        self.scatter(out);
+        for ((index, curve), out) in curves.iter().enumerate().zip(out) {
+            let (x, y) = density.of(index);
+            let weight = density.contrasts[index] * curve.weight();
+            for i in 0..curve.len() {
+                add_dipole_at_node(curve, i, dipole([x[i], y[i]], curve.nodes.tangent[i] * weight), out);
+            }
+        }
+    }
+
+    /// Distributes what the nodes carry, in the first arrays, to the entries of the cells.
+    fn carry(&mut self, parts: usize) {
+        let Self { cells, carried, nodes, .. } = self;
+        for (carried, nodes) in carried.iter_mut().zip(nodes).take(parts) {
+            carried.clear();
+            carried.extend(cells.points.iter().map(|&point| nodes[point as usize]));
+        }
+    }
+
+    /// Computes near part and smooth part at the entries.
+    fn sum(&mut self, double: bool) {
+        let Self { split, window, lattice, cutoff, rows, columns, cells, carried: [a, b, c], .. } = self;
+        let (split, window, lattice, cells) = (&*split, &*window, &*lattice, &*cells);
+        let (a, b, c) = (a.as_slice(), b.as_slice(), c.as_slice());
+        if double {
+            shares::each(rows, |share| share.spread(cells, window, |i| [a[i] + c[i], 0.0]));
+            transform(rows, columns, true);
+            shares::each(rows, |share| share.spread(cells, window, |i| [0.5 * (a[i] - c[i]), 0.5 * b[i]]));
+            transform(rows, columns, false);
+            shares::each(columns, |share| share.apply_stress(lattice));
+        } else {
+            shares::each(rows, |share| share.spread(cells, window, |i| [a[i], b[i]]));
+            transform(rows, columns, false);
+            shares::each(columns, |share| share.apply_stokeslet(lattice));
+        }
+        {
+            let columns = columns.as_slice();
+            shares::each(rows, |share| share.transform_back(columns));
+        }
+        rows::unfold(rows);
+        let (carried, factor) =
+            if double { (Carried::Dipoles([a, b, c]), 1.0 / *cutoff) } else { (Carried::Forces([a, b]), 1.0) };
+        shares::each(rows, |share| {
+            let entries = share.entries(cells);
+            for flow in &mut share.flow {
+                flow.clear();
+                flow.resize(entries.len(), 0.0);
+            }
+            let Rows { cells: range, candidates, flow, .. } = share;
+            near::add(split, [cells; 2], carried, range.clone(), candidates, entries.start, flow);
+            for flow in flow {
+                flow.iter_mut().for_each(|value| *value *= factor);
+            }
+            share.interpolate(cells, window);
+        });
+    }
+
+    /// Adds the flow at the entries to that at the nodes.
+    fn scatter(&mut self, out: &mut [Vectors]) {
+        let Self { rows, cells, nodes: [u, v, _], .. } = self;
+        for share in rows {
+            let first = share.entries(cells).start;
+            for entry in share.cells.clone().flat_map(|row| cells.row(row)) {
+                let node = cells.points[entry] as usize;
+                (u[node], v[node]) = (share.flow[0][entry - first], share.flow[1][entry - first]);
+            }
+        }
+        let mut first = 0;
+        for Vectors { x, y } in out {
+            let all = first..first + x.len();
+            x.iter_mut().zip(&u[all.clone()]).for_each(|(x, u)| *x += u);
+            y.iter_mut().zip(&v[all.clone()]).for_each(|(y, v)| *y += v);
+            first = all.end;
+        }
+    }
+}
+
+/// Transforms what has been spread to the columns of the spectrum.
+fn transform(rows: &mut [Rows], columns: &mut [Columns], traces: bool) {
+    rows::fold(rows);
+    shares::each(rows, Rows::transform);
+    let rows = &*rows;
+    shares::each(columns, |share| share.gather(rows, traces));
+}
+
+/// The least even number from a given one on without prime factors above 5, which is fast to transform.
+fn smooth(least: usize) -> usize {
+    let without = |mut number: usize, prime: usize| {
+        while number.is_multiple_of(prime) {
+            number /= prime;
+        }
+        number
+    };
+    let mut number = least.next_multiple_of(2);
+    while [2, 3, 5].into_iter().fold(number, without) != 1 {
+        number += 2;
+    }
+    number
+}
