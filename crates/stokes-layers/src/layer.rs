@@ -180,6 +180,11 @@ impl Layers {
         Ok(())
     }
 
+    /// True where the nodes are so many that all are summed together.
+    pub(crate) fn sums_fast(&self) -> bool {
+        self.fast.is_some()
+    }
+
     /// Entries of a curve in vectors over all nodes, x then y, curve after curve.
     pub(crate) fn entries(&self, curve: usize) -> Range<usize> {
         2 * self.starts[curve]..2 * self.starts[curve + 1]

@@ -69,12 +69,14 @@ pub(super) struct Equation {
     pub(super) solution: Vec<f64>,
     /// Left-hand side for the last solution.
     image: Vec<f64>,
+    /// Velocities of which rigid motions are multiplied by their factors.
+    scaled: Vec<f64>,
 }
 
 impl Equation {
     pub(super) fn new() -> Self {
-        let [right, solution, image] = Default::default();
-        Self { sides: Vec::new(), contrasts: Vec::new(), gmres: Gmres::recycling(), right, solution, image }
+        let [right, solution, image, scaled] = Default::default();
+        Self { sides: Vec::new(), contrasts: Vec::new(), gmres: Gmres::recycling(), right, solution, image, scaled }
     }
 
     pub(super) fn clear(&mut self) {
@@ -146,9 +148,21 @@ impl Equation {
         // so a residual in it counts that much more.
         let least = |sides: &Sides| tolerance * sides.outside.min(viscosity) * sides.mobility();
         let mut goal = self.sides.iter().map(least).fold(tolerance, f64::min).max(ATTAINABLE);
-        let Self { sides, contrasts, gmres, right, solution, image } = self;
+        let Self { sides, contrasts, gmres, right, solution, image, scaled } = self;
         let operator = Operator { sides, contrasts };
+        // Of few interfaces the iteration finds the rigid motions by itself.
+        let preconditioned = layers.sums_fast();
+        if preconditioned {
+            operator.scale_motions(&layers.curves, solution, f64::recip);
+        }
         let mut product = |v: &[f64], out: &mut [f64], accuracy: f64| {
+            let mut v = v;
+            if preconditioned {
+                scaled.clear();
+                scaled.extend_from_slice(v);
+                operator.scale_motions(&layers.curves, scaled, |factor| factor);
+                v = scaled;
+            }
             operator.apply(layers, walls.as_deref_mut(), v, accuracy.max(tolerance), out);
         };
         let mut outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
@@ -174,6 +188,9 @@ impl Equation {
             outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
             outcome.iterations += before;
         }
+        if preconditioned {
+            operator.scale_motions(&layers.curves, solution, |factor| factor);
+        }
         let Outcome { iterations, residual } = outcome;
         if residual <= goal {
             Ok(outcome)
@@ -190,6 +207,22 @@ pub(super) struct Operator<'a> {
 }
 
 impl Operator<'_> {
+    /// Multiplies the mean rigid motion of each interface by a function of the factor that undoes what the interface
+    /// alone does to it, `(eta_in + eta_out)/(2 eta_out)`.
+    ///
+    /// As a preconditioner this is the inverse of each interface's own block, but for its deformation: the double layer
+    /// of a circle on itself is zero apart from rigid motions, which the block multiplies by
+    /// `2 eta_out/(eta_in + eta_out)`, and from uniform growth, for which there is [`growth`].
+    fn scale_motions(&self, curves: &[Curve], values: &mut [f64], factor: impl Fn(f64) -> f64) {
+        let len = values.len() / self.sides.len().max(1);
+        for ((sides, curve), values) in self.sides.iter().zip(curves).zip(values.chunks_exact_mut(len.max(1))) {
+            if !sides.is_rigid() {
+                let own = 1.0 / (sides.outside * sides.mobility());
+                RigidMotion::of(curve, values).add(curve, factor(own) - 1.0, values);
+            }
+        }
+    }
+
     /// Left-hand side for velocities v: `out = v + mobility/(4 pi) double layer`, the response of the walls to it, the
     /// growth term of [`growth`], and twice the mean motion of a rigid body.
     pub(super) fn apply(

@@ -199,3 +199,35 @@ fn flux_along_a_wavy_interface_is_the_same_everywhere() {
         assert!(errors[2] < 1e-8 && errors[2] < 0.05 * errors[0], "{errors:?}");
     }
 }
+
+#[test]
+fn many_in_a_lattice_move_as_one_in_its_cell() {
+    let (cell, side, nodes) = ([3.1, 2.7], 4, 64);
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / nodes as f64;
+    let outline = |k: usize| Vec2::new(1.2 * angle(k).cos(), 0.9 * angle(k).sin() + 0.1 * (2.0 * angle(k)).sin());
+    let forces: Vec<Vec2> = (0..nodes).map(|k| Vec2::new(angle(k).cos() + 0.2, (3.0 * angle(k)).sin())).collect();
+    let velocities = |side: usize, viscosity: f64| {
+        let place = |i: usize| Vec2::new(cell[0] * (i % side) as f64 + 0.4, cell[1] * (i / side) as f64 - 0.3);
+        let curves: Vec<Vec<Vec2>> =
+            (0..side * side).map(|i| (0..nodes).map(|k| place(i) + outline(k)).collect()).collect();
+        let region = Region::Box { lengths: cell.map(|length| length * side as f64) };
+        let settings = Settings { nodes, tolerance: 1e-9, ..Settings::default() };
+        let mut flow = InterfaceFlow::new(region, 1.0, settings).unwrap();
+        flow.load(curves.iter().map(|curve| Interface::closed(curve, &forces, [viscosity, 1.0]))).unwrap();
+        flow.solve().unwrap();
+        assert_eq!(flow.layers.sums_fast(), side > 1);
+        let mut all = vec![Vec2::ZERO; nodes * side * side];
+        for (index, out) in all.chunks_exact_mut(nodes).enumerate() {
+            flow.velocities(index, out).unwrap();
+        }
+        all
+    };
+    for viscosity in [0.05, 1.0, 30.0] {
+        let (one, many) = (velocities(1, viscosity), velocities(side, viscosity));
+        let size = one.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let errors = many.iter().enumerate().map(|(i, v)| (*v - one[i % nodes]).length() / size);
+        let error = errors.fold(0.0, f64::max);
+        println!("{viscosity}: {error:.1e}");
+        assert!(error < 1e-8, "{viscosity}: {error:e}");
+    }
+}
