@@ -11,6 +11,7 @@
 //!
 //! `--help` lists the flags; `--count 1000` takes no other ones. Several threads: `--features rayon`.
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -20,7 +21,9 @@ use motile::active_interface::suspension::rotational_diffusion;
 use motile::motile_base::{Drive, Region};
 use motile::motile_scene::Every;
 use motile::motile_scene::gap::Repulsion;
-use motile::setup::{Arrangement, Built, Distribution, Headings, Setup, SuspensionSetup};
+use motile::setup::{
+    Arrangement, Built, Distribution, Headings, IntegralMethod, LayersMethod, Method, Setup, SuspensionSetup,
+};
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
 use motile_output::run::{Job, OutputFlags, Summary};
 use motile_output::{CsvTable, Look, Raster, Snapshot, SuspensionCsv};
@@ -80,8 +83,12 @@ struct Flags {
     /// Relative accuracy of the flow [default: 1e-6]
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Film that a repulsion holds against the capillary pressure of a droplet (R0), 0 for none [default: the distance
+    /// of nodes of the smallest droplet, which they resolve]
+    #[arg(long, value_parser = not_negative, allow_hyphen_values = true, conflicts_with = "repulsion")]
+    film: Option<f64>,
     /// Gap below which droplets are in contact (R0)
-    #[arg(long, default_value_t = 0.1, value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = 0.2, value_parser = positive, allow_hyphen_values = true)]
     contact: f64,
     #[command(flatten)]
     method: MethodFlags,
@@ -96,8 +103,6 @@ const BIN: f64 = 0.1;
 const REACH: f64 = 20.0;
 /// Accuracy of the flow.
 const TOLERANCE: f64 = 1e-6;
-/// Usual repulsion: strength (force per length squared) and range (R0).
-const REPULSION: [f64; 2] = [1000.0, 0.1];
 
 fn main() -> ExitCode {
     motile_examples::run(simulate)
@@ -128,6 +133,9 @@ fn simulate(flags: &Flags) -> Result<()> {
         table.push(&[*distance, pairs.pairs[k], pairs.velocities[k]])?;
     }
     let correlation: Vec<f64> = diffusion.iter().map(|row| row[2]).collect();
+    let most = |column: &str| {
+        Ok::<_, anyhow::Error>(tables.table().curve("time", column)?.iter().map(|row| row.1).fold(0.0, f64::max))
+    };
     let interval = diffusion.get(1).map_or(0.0, |row| row[0]);
     let evaluations = scene.system().work().evaluations;
     let mut summary = Summary::default();
@@ -139,10 +147,14 @@ fn simulate(flags: &Flags) -> Result<()> {
         ("mean_square_displacement", "square_displacement", "since the start (R0^2)"),
         ("contacts", "contacts", "pairs closer than --contact, in the end"),
         ("largest_cluster", "largest_cluster", "droplets in contact, in the end"),
-        ("largest_area_change", "area_change", "of a droplet, relative, since the start"),
-        ("largest_particle_change", "particle_change", "of a droplet, relative, since the start"),
+        ("film", "film", "mean of those that the repulsion holds, in the end (R0)"),
+        ("film_pressure", "film_pressure", "largest on one, in the end"),
+        ("contact_stress", "contact_stress", "pressure that the repulsion transmits in a box, in the end"),
     ] {
         summary.put(name, tables.last(column), about);
+    }
+    for (name, column) in [("largest_area_change", "area_change"), ("largest_particle_change", "particle_change")] {
+        summary.put(name, most(column)?, "of a droplet, relative, over the run");
     }
     summary.put("rotational_diffusion", rotational_diffusion(&correlation, interval), "second half (1/time)");
     summary.put("smallest_gap", scene.system().minimum_gap(), "between interfaces, over the run (R0)");
@@ -198,9 +210,6 @@ fn scene(flags: &Flags) -> Result<Setup> {
     if given {
         return Ok(setup);
     }
-    if setup.repulsion.is_none() {
-        setup.repulsion = Some(Repulsion::new(REPULSION[0], REPULSION[1])?);
-    }
     let usual = SuspensionSetup::default();
     let suspension = SuspensionSetup {
         count: flags.count.or(Some(16)),
@@ -227,7 +236,24 @@ fn scene(flags: &Flags) -> Result<Setup> {
             Region::Channel { length: area / width, width, drive: Drive::ZeroGradient }
         }
     };
+    if setup.repulsion.is_none() && flags.film != Some(0.0) {
+        setup.repulsion = Some(repulsion(flags.film, &suspension, &setup)?);
+    }
     setup.suspension = vec![suspension];
     setup.check().context("the suspension")?;
     Ok(setup)
+}
+
+/// The repulsion that holds a film against the capillary pressure of a droplet.
+fn repulsion(film: Option<f64>, suspension: &SuspensionSetup, setup: &Setup) -> Result<Repulsion> {
+    let bounds = |values: Option<Distribution>, usual: f64| values.map_or([usual; 2], Distribution::bounds);
+    let [radius, _] = bounds(suspension.radius, 1.0);
+    let particles = suspension.droplet.particles.unwrap_or_default();
+    let activity = bounds(suspension.activity, particles.activity).into_iter().map(f64::abs).fold(0.0, f64::max);
+    let nodes = match setup.method {
+        Method::Integral(IntegralMethod { nodes, .. }) | Method::Layers(LayersMethod { nodes, .. }) => nodes,
+        _ => IntegralMethod::default().nodes,
+    };
+    let pressure = (suspension.droplet.tension + activity * particles.concentration) / radius;
+    Ok(Repulsion::holding(film.unwrap_or(TAU * radius / nodes as f64), pressure)?)
 }

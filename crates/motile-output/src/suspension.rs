@@ -15,8 +15,8 @@ use crate::{CsvTable, OutputError};
 
 /// Names of the records of the droplets at the start.
 const START: &str = "suspension at the start";
-/// Columns of the table over time; the last three in boxes alone.
-const COLUMNS: [&str; 14] = [
+/// Columns of the table over time; the last four in boxes alone.
+const COLUMNS: [&str; 17] = [
     "time",
     "polar_order",
     "nematic_order",
@@ -26,11 +26,14 @@ const COLUMNS: [&str; 14] = [
     "contacts",
     "largest_cluster",
     "smallest_gap",
+    "film",
+    "film_pressure",
     "area_change",
     "particle_change",
     "stress_xx",
     "stress_xy",
     "stress_yy",
+    "contact_stress",
 ];
 /// Columns of the table of droplets.
 const MEMBERS: [&str; 8] = ["time", "droplet", "x", "y", "heading_x", "heading_y", "velocity_x", "velocity_y"];
@@ -41,8 +44,10 @@ const MEMBERS: [&str; 8] = ["time", "droplet", "x", "y", "heading_x", "heading_y
 /// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean (length per time);
 /// `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start; `contacts`,
 /// pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below the reach
-/// (length); `area_change` and `particle_change`, the largest relative ones of a droplet since the start; `stress_xx`,
-/// `stress_xy`, `stress_yy` of the droplets in a box, over its area (force per length). The columns of `members.csv`:
+/// (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`, the largest
+/// pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a droplet since the start; `stress_xx`,
+/// `stress_xy`, `stress_yy` of the droplets in a box, over its area, and `contact_stress`, the pressure that a repulsion
+/// transmits between them (force per length). The columns of `members.csv`:
 /// `time`, `droplet`, centroid, heading and velocity of each droplet.
 ///
 /// ```
@@ -95,7 +100,7 @@ impl SuspensionCsv {
             });
             start.numbers = numbers.collect();
         }
-        let columns = &COLUMNS[..COLUMNS.len() - if stressed { 0 } else { 3 }];
+        let columns = &COLUMNS[..COLUMNS.len() - if stressed { 0 } else { 4 }];
         let [table, members] = [("suspension", columns), ("members", &MEMBERS[..])].map(|(name, columns)| {
             let path = directory.as_ref().join(format!("{name}.csv"));
             CsvTable::of_run(path, columns, system, &format!("table {name}"))
@@ -174,6 +179,7 @@ impl<H: Hydrodynamics> Observer<H> for SuspensionCsv {
         let mean_since = |of: &dyn Fn(&Member, &[f64]) -> f64| since(of).iter().sum::<f64>() / count;
         let largest_since =
             |of: &dyn Fn(&Member, &[f64]) -> f64| since(of).iter().map(|change| change.abs()).fold(0.0, f64::max);
+        let load = system.repulsion_load()?;
         let near = system.pairs_within(self.reach);
         let places: HashMap<usize, usize> =
             members.iter().enumerate().map(|(place, member)| (member.droplet.index(), place)).collect();
@@ -189,12 +195,16 @@ impl<H: Hydrodynamics> Observer<H> for SuspensionCsv {
             near.len() as f64,
             cluster_sizes(members.len(), &pairs).first().copied().unwrap_or_default() as f64,
             near.iter().map(|(_, gap)| *gap).reduce(f64::min).unwrap_or(f64::NAN),
+            load.and_then(|load| load.mean_film).unwrap_or(f64::NAN),
+            load.map_or(f64::NAN, |load| load.largest_pressure),
             largest_since(&|member, start| member.area / start[4] - 1.0),
             largest_since(&|member, start| if start[5] > 0.0 { member.particles / start[5] - 1.0 } else { 0.0 }),
         ];
         if self.stressed {
             let [[xx, xy], [_, yy]] = system.stress()?.of_particles();
-            row.extend([xx, xy, yy]);
+            let area: f64 = system.hydrodynamics().fluid_view().domain.periods.iter().flatten().product();
+            let contact = load.map_or(0.0, |load| 0.5 * (load.virial[0][0] + load.virial[1][1]) / area);
+            row.extend([xx, xy, yy, contact]);
         }
         self.table.push_state(system, &row)?;
         let rows: Vec<[f64; 8]> = members

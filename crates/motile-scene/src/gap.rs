@@ -2,6 +2,7 @@
 
 mod boundary;
 mod films;
+mod load;
 mod overlap;
 mod repulsion;
 mod solid_gap;
@@ -10,6 +11,7 @@ mod surface_curve;
 
 pub use boundary::Boundary;
 pub(crate) use films::{Films, Surroundings};
+pub use load::RepulsionLoad;
 pub use overlap::Overlap;
 pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};

@@ -7,16 +7,16 @@ use motile_base::{Vec2, boxes::Periods};
 
 /// A corner of a surface close to a side of another one.
 #[derive(Debug, Clone, Copy)]
-struct Contact {
-    corner: usize,
+pub(super) struct Contact {
+    pub(super) corner: usize,
     /// The corners at the ends of that side; `None` for a rigid wall.
-    ends: Option<[usize; 2]>,
+    pub(super) ends: Option<[usize; 2]>,
     /// How far along the side the nearest place is, from 0 to 1.
-    part: f64,
+    pub(super) part: f64,
     /// The gradient of the gap by the place of the corner.
-    normal: Vec2,
+    pub(super) normal: Vec2,
     /// The gap (length), negative where they overlap.
-    gap: f64,
+    pub(super) gap: f64,
 }
 
 /// Where the surfaces of bodies are close to one another or to walls; keeps its memory.
@@ -26,8 +26,8 @@ struct Contact {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Films {
     /// Half of the lengths of the two sides of each corner (length).
-    weights: Vec<f64>,
-    contacts: Vec<Contact>,
+    pub(super) weights: Vec<f64>,
+    pub(super) contacts: Vec<Contact>,
     /// Bodies close to the one that is looked at.
     near: Vec<usize>,
     /// Energy per length at the corners (force).
@@ -215,7 +215,7 @@ impl Surfaces {
 
 impl Contact {
     /// Part of its gap that a contact counts for: gaps between two surfaces are measured both ways.
-    fn share(&self) -> f64 {
+    pub(super) fn share(&self) -> f64 {
         if self.ends.is_some() { 0.5 } else { 1.0 }
     }
 }

@@ -38,6 +38,25 @@ impl Repulsion {
         })
     }
 
+    /// The repulsion that holds a film of this thickness (length) against this pressure (force per length). Its range is
+    /// twice the film. Where the range is two distances of neighbouring nodes or more, nodes carry the force and no
+    /// film closes; where it is less the force has waves that they do not carry. It opens films at rates of the order
+    /// of the pressure over the viscosity, so that it does not shorten the steps of bodies whose shapes relax as fast.
+    ///
+    /// ```
+    /// use motile_scene::gap::Repulsion;
+    ///
+    /// assert_eq!(Repulsion::holding(0.1, 200.0)?.pressure(0.1), 200.0);
+    /// # Ok::<(), motile_base::InputError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Values that are not positive and finite.
+    pub fn holding(film: f64, pressure: f64) -> Result<Self, InputError> {
+        let (film, pressure) = (positive("the film", film)?, positive("the pressure on the film", pressure)?);
+        Self::new(pressure / (2.0 * film), 2.0 * film)
+    }
+
     /// Its strength (force per length squared).
     #[must_use]
     pub fn strength(&self) -> f64 {

@@ -21,3 +21,50 @@ proptest! {
         prop_assert!((wall_gap(&circle, [-1.5, 1.5]) - expected).abs() < 1e-14);
     }
 }
+
+/// Circles of radius 0.3 at places, in a box of these lengths.
+fn circles(places: &[Vec2], lengths: [f64; 2]) -> (Surfaces, FluidView) {
+    let bodies = places.iter().map(|place| {
+        let mut boundary = Boundary::default();
+        let corners: Vec<Vec2> = (0..24)
+            .map(|k| f64::from(15 * k).to_radians())
+            .map(|t| place + 0.3 * Vec2::new(t.cos(), t.sin()))
+            .collect();
+        boundary.push_loop(&corners);
+        (boundary, MarkerKind::Interface { viscosity_inside: None })
+    });
+    let domain = Domain { origin: [0.0; 2], periods: lengths.map(Some).into(), walls: None };
+    let view = FluidView {
+        domain,
+        viscosity: 1.0,
+        spacing: None,
+        second_order: true,
+        shape_modes: Some(24),
+        interface_stiffness: 1.0,
+    };
+    (Surfaces::of(bodies), view)
+}
+
+proptest! {
+    #[test]
+    fn near_pairs_and_the_narrowest_gap_are_those_of_all(
+        places in prop::collection::vec((-3.0..3.0f64, -2.0..2.0f64), 2..12), reach in 0.01..2.0f64,
+    ) {
+        let places: Vec<Vec2> = places.into_iter().map(Vec2::from).collect();
+        let (surfaces, view) = circles(&places, [6.0, 4.0]);
+        let all = surfaces.gaps(&view, f64::INFINITY, |_| true).narrowest;
+        prop_assert_eq!(surfaces.narrowest(&view), all);
+        // The narrowest gap of each pair by itself.
+        let pairs = surfaces.pairs_near(&view, reach);
+        for a in 0..places.len() {
+            for b in a..places.len() {
+                let own = surfaces.gaps(&view, f64::INFINITY, |pair| pair == [a, b] || pair == [b, a]).narrowest;
+                let expected = own.map(|gap| gap.width).filter(|width| width.abs() < reach);
+                let found: Vec<f64> = pairs.iter().filter(|(pair, _)| *pair == [a, b]).map(|pair| pair.1).collect();
+                if expected.is_some() || own.is_none_or(|gap| gap.width >= reach) {
+                    prop_assert_eq!(found, expected.into_iter().collect::<Vec<f64>>());
+                }
+            }
+        }
+    }
+}

@@ -211,3 +211,35 @@ fn images_of_ones_own_are_pushed_like_others() {
         assert!((*a - *b).length() < 1e-12, "{a} {b}");
     }
 }
+
+#[test]
+fn the_load_of_a_film_is_that_of_its_pair() {
+    // Two circles across the period of a box, the second one displaced by periods as bodies that swim are.
+    let periods = Periods { lengths: [Some(6.0), Some(5.0)], tilt: 0.0 };
+    let repulsion = Repulsion::holding(0.1, 40.0).unwrap();
+    let loads: Vec<_> = [Vec2::new(2.05, 0.0), Vec2::new(2.05 - 12.0, 5.0), Vec2::new(2.05, -5.0)]
+        .into_iter()
+        .map(|place| {
+            let mut scene = Scene::new(Domain { periods, ..PLANE });
+            circle(&mut scene.markers, Vec2::ZERO, 1.0);
+            circle(&mut scene.markers, place, 1.0);
+            let forces = scene.forces(&repulsion);
+            let (surfaces, films) = scene.films(repulsion.range());
+            let load = films.load(&repulsion, &surfaces);
+            let force = forces[..48].iter().map(|force| force.x).sum::<f64>();
+            // The force on the first one is to the left, the other one 2.05 to its right.
+            assert!((load.virial[0][0] + 2.05 * force).abs() < 0.01 * force.abs(), "{load:?} {force}");
+            assert!(load.virial[1][1].abs() < 0.01 * load.virial[0][0], "{load:?}");
+            let film = load.mean_film.unwrap();
+            assert!(film > 0.05 && film < 0.1 && load.largest_pressure <= repulsion.pressure(0.049), "{load:?}");
+            load
+        })
+        .collect();
+    assert!(loads.iter().all(|load| (load.virial[0][0] / loads[0].virial[0][0] - 1.0).abs() < 1e-9), "{loads:?}");
+    let mut apart = Scene::new(PLANE);
+    circle(&mut apart.markers, Vec2::ZERO, 1.0);
+    circle(&mut apart.markers, Vec2::new(3.0, 0.0), 1.0);
+    let (surfaces, films) = apart.films(repulsion.range());
+    let load = films.load(&repulsion, &surfaces);
+    assert_eq!((load.virial, load.mean_film, load.length), ([[0.0; 2]; 2], None, 0.0));
+}

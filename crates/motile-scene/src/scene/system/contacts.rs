@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use crate::{
     FluidView, Hydrodynamics, MarkerGroup,
     body::{StepCause, StepLimit},
-    gap::{Films, Gaps, REACH, Repulsion, Surfaces, Surroundings},
+    gap::{Films, Gaps, REACH, Repulsion, RepulsionLoad, Surfaces, Surroundings},
 };
 
 /// Thinnest gap, in units of the length that contacts are measured in, that sets a step: bodies that touch at the start
@@ -62,6 +62,11 @@ impl Contacts {
             let least = bodies.markers.groups().iter().map(mean).fold(f64::INFINITY, f64::min);
             self.opening = self.films.relaxation(repulsion, view.viscosity, view.interface_stiffness / least);
         }
+    }
+
+    /// What the repulsion carries in the present films.
+    pub(super) fn load(&self) -> Option<RepulsionLoad> {
+        self.repulsion.map(|repulsion| self.films.load(&repulsion, &self.surfaces))
     }
 
     fn find_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics, reach: f64) {

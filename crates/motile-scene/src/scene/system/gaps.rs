@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{Known, System, findings::lower};
 use crate::{
     Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
-    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, Surfaces, wall_gap},
+    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, RepulsionLoad, Surfaces, wall_gap},
 };
 use motile_base::{Drive, Vec2, told_apart};
 
@@ -170,6 +170,16 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn repulsion(&self) -> Option<&Repulsion> {
         self.contacts.repulsion.as_ref()
+    }
+
+    /// What the repulsion carries in the present state; `None` where it is off. The flow is computed if it is not known
+    /// yet.
+    ///
+    /// # Errors
+    /// Those of [`System::evaluate`].
+    pub fn repulsion_load(&mut self) -> Result<Option<RepulsionLoad>, SceneError> {
+        self.evaluate()?;
+        Ok(self.contacts.load())
     }
 
     /// Looks at how the bodies lie before anything is computed for them, unless that is known: they may not overlap by
