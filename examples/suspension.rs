@@ -7,7 +7,7 @@
 //! * `members.csv`, place, heading and velocity of each droplet over time;
 //! * `pairs.csv`, pair correlation and correlation of velocities over the distance, `diffusion.csv`, mean square
 //!   displacement and correlation of headings over the time between two states, both of the second half of the run;
-//! * `final.png`, a picture of the final state.
+//! * `final.png`, a picture of the final state, and `swim.gif`, an animation of the run.
 //!
 //! `--help` lists the flags; `--count 1000` takes no other ones. Several threads: `--features rayon`.
 
@@ -26,7 +26,7 @@ use motile::setup::{
 };
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
 use motile_output::run::{Job, OutputFlags, Summary};
-use motile_output::{CsvTable, Look, Raster, Snapshot, SuspensionCsv};
+use motile_output::{Crowd, CrowdColour, CrowdFilm, CsvTable, SuspensionCsv};
 
 /// Region of the suspension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -35,6 +35,24 @@ enum Kind {
     Box,
     /// Between rigid walls, periodic along them.
     Channel,
+}
+
+/// Colours of the pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    /// Headings of the droplets.
+    Heading,
+    /// Concentrations along the interfaces.
+    Concentration,
+}
+
+impl From<Colour> for CrowdColour {
+    fn from(colour: Colour) -> Self {
+        match colour {
+            Colour::Heading => Self::Heading,
+            Colour::Concentration => Self::Concentration,
+        }
+    }
 }
 
 /// Many active droplets in a periodic box or a channel.
@@ -90,6 +108,9 @@ struct Flags {
     /// Gap below which droplets are in contact (R0)
     #[arg(long, default_value_t = 0.2, value_parser = positive, allow_hyphen_values = true)]
     contact: f64,
+    /// Meaning of the colours of pictures
+    #[arg(long, value_enum, default_value_t = Colour::Heading)]
+    colour: Colour,
     #[command(flatten)]
     method: MethodFlags,
     #[command(flatten)]
@@ -98,6 +119,10 @@ struct Flags {
 
 /// Rows of the tables of a run.
 const ROWS: f64 = 200.0;
+/// Frames of the animation, their width and that of the picture (pixels).
+const FRAMES: f64 = 60.0;
+const FILM: f64 = 480.0;
+const PICTURE: f64 = 1200.0;
 /// Bins of pair correlations, and their reach (R0).
 const BIN: f64 = 0.1;
 const REACH: f64 = 20.0;
@@ -116,7 +141,12 @@ fn simulate(flags: &Flags) -> Result<()> {
     // The run, observed.
     let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "suspension")?;
     let mut tables = SuspensionCsv::create(&job.directory, scene.system_mut(), flags.contact)?;
-    job.go(&mut scene, vec![(Every::StepAfter(job.end / ROWS), &mut tables)])?;
+    let mut film = CrowdFilm::new(flags.colour.into(), FILM);
+    let mut observers: Vec<motile_output::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut tables)];
+    if job.draws() {
+        observers.push((Every::StepAfter(job.end / FRAMES), &mut film));
+    }
+    job.go(&mut scene, observers)?;
 
     // The results, also of a run that broke off.
     let half = 0.5 * scene.time();
@@ -171,13 +201,12 @@ fn simulate(flags: &Flags) -> Result<()> {
     summary.put("warnings", job.warnings.clone(), "");
     summary.put("finished", job.failure().is_none(), "");
     summary.put("failure", job.failure(), "if the run broke off");
-    let (draws, picture) = (job.draws(), job.directory.join("final.png"));
+    let draws = job.draws();
+    let [picture, animation] = ["final.png", "swim.gif"].map(|name| job.directory.join(name));
     job.finish(&summary, || {
         if draws {
-            let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
-            let seen = Snapshot::take(scene.system_mut(), raster)?;
-            let concentration = setup.placed()?.droplets[0].particles.map(|particles| particles.concentration);
-            Look { concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
+            Crowd::take(scene.system_mut())?.write_picture(flags.colour.into(), PICTURE, picture)?;
+            film.write(animation)?;
         }
         Ok(())
     })

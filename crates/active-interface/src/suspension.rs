@@ -12,8 +12,10 @@ pub use fluctuations::number_fluctuations;
 pub use order::{nematic_order, polar_order};
 pub use pairs::{PairAverages, PairCorrelations};
 
-use motile_base::Vec2;
-use motile_scene::{Deformation, Handle, Hydrodynamics, SceneError, System};
+use std::f64::consts::TAU;
+
+use motile_base::{PeriodicSeries, Vec2};
+use motile_scene::{Handle, Hydrodynamics, SceneError, System};
 
 use crate::observables::{InterfaceState, centroid_velocity};
 use crate::{ActiveDroplet, curve::polygon_moments};
@@ -47,9 +49,10 @@ impl Member {
         system.evaluate()?;
         let time = system.time();
         let handles: Vec<Handle<ActiveDroplet>> = system.bodies().map(|(handle, _)| handle).collect();
+        let mut series = None;
         let seen = handles.into_iter().map(|droplet| {
             let state = InterfaceState::of(system, droplet)?;
-            Self::of(droplet, &state).map_err(|source| SceneError::Body {
+            Self::of(droplet, &state, &mut series).map_err(|source| SceneError::Body {
                 time,
                 body: system.body(droplet).map(|body| motile_scene::Body::name(body).to_owned()).unwrap_or_default(),
                 source: source.into(),
@@ -58,7 +61,11 @@ impl Member {
         seen.collect()
     }
 
-    fn of(droplet: Handle<ActiveDroplet>, state: &InterfaceState<'_>) -> Result<Self, crate::InterfaceError> {
+    fn of(
+        droplet: Handle<ActiveDroplet>,
+        state: &InterfaceState<'_>,
+        series: &mut Option<PeriodicSeries>,
+    ) -> Result<Self, crate::InterfaceError> {
         let moments = polygon_moments(state.markers)?;
         let next = state.markers.iter().cycle().skip(1);
         let middles = state.markers.iter().zip(next).map(|(from, to)| 0.5 * (from + to) - moments.centroid);
@@ -68,10 +75,28 @@ impl Member {
             centroid: moments.centroid,
             heading: (-behind).try_normalize().unwrap_or_default(),
             velocity: centroid_velocity(state.markers, state.velocities)?,
-            area: Deformation::of(state.markers, state.velocities)?.area,
+            area: smooth_area(series, state.markers, moments.centroid)?,
             particles: state.numbers.iter().sum(),
         })
     }
+}
+
+/// Area inside the trigonometric interpolant of markers (length squared), about a place near them (length); `series`
+/// is planned once for each number of markers.
+fn smooth_area(
+    series: &mut Option<PeriodicSeries>,
+    markers: &[Vec2],
+    about: Vec2,
+) -> Result<f64, crate::InterfaceError> {
+    let series = match series {
+        Some(planned) if planned.len() == markers.len() => planned,
+        _ => series.insert(PeriodicSeries::new(markers.len())?),
+    };
+    series.analyse_vectors(markers)?;
+    series.differentiate();
+    let step = TAU / markers.len() as f64;
+    let columns = markers.iter().map(|marker| *marker - about).zip(series.values());
+    Ok(columns.map(|(at, tangent)| 0.5 * (at.x * tangent.im - at.y * tangent.re) * step).sum())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::{fs::File, io, io::BufWriter, path::Path};
 
 use motile::motile_scene::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
+use tiny_skia::Pixmap;
 
 use crate::drawing::raster::colours;
 use crate::picture::contents::Format;
@@ -70,19 +71,41 @@ impl Film {
     pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         OutputError::check_size("an animation with a width (pixels)", self.format.width, 100.0, 2000.0)?;
         let legends = self.look.legends(&self.frames);
-        // One palette for all frames keeps colours from flickering, but has to know them all.
-        let (mut histogram, mut frames, mut size) = (Histogram::new(), Vec::new(), [0; 2]);
+        let mut frames = Frames::new();
         for seen in &self.frames {
-            let image = self.look.draw(seen, &legends, tracks, &self.format)?.pixels(1.0)?;
-            colours(&image).for_each(|colour| histogram.add(colour));
-            frames.push(colours(&image).map(code).collect::<Vec<u16>>());
-            size = [image.width(), image.height()].map(|side| side as usize);
+            frames.push(&self.look.draw(seen, &legends, tracks, &self.format)?.pixels(1.0)?);
         }
-        if frames.is_empty() {
+        frames.write(path.as_ref())
+    }
+}
+
+/// Frames of an animation, of one size. One palette for all of them keeps colours from flickering, but has to know them
+/// all.
+pub(crate) struct Frames {
+    histogram: Histogram,
+    frames: Vec<Vec<u16>>,
+    size: [usize; 2],
+}
+
+impl Frames {
+    pub(crate) fn new() -> Self {
+        Self { histogram: Histogram::new(), frames: Vec::new(), size: [0; 2] }
+    }
+
+    /// Adds a frame.
+    pub(crate) fn push(&mut self, image: &Pixmap) {
+        colours(image).for_each(|colour| self.histogram.add(colour));
+        self.frames.push(colours(image).map(code).collect());
+        self.size = [image.width(), image.height()].map(|side| side as usize);
+    }
+
+    /// Writes a GIF that repeats for ever.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
+        if self.frames.is_empty() {
             return Err(OutputError::Empty("an animation without frames"));
         }
-        let written = encode(path.as_ref(), size, &frames, &histogram).map_err(io::Error::other);
-        written.map_err(OutputError::writing(path.as_ref()))
+        let written = encode(path, self.size, &self.frames, &self.histogram).map_err(io::Error::other);
+        written.map_err(OutputError::writing(path))
     }
 }
 

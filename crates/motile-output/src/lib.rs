@@ -37,6 +37,7 @@
 
 mod animation;
 mod colour;
+mod crowd;
 mod drawing;
 mod droplets;
 mod error;
@@ -60,6 +61,7 @@ mod trajectory;
 pub use animation::Film;
 pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
+pub use crowd::{Crowd, CrowdColour, CrowdFilm};
 pub use droplets::DropletsCsv;
 pub use error::OutputError;
 pub use interfaces::{InterfaceLine, InterfacesCsv};

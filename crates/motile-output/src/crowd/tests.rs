@@ -1,0 +1,38 @@
+use super::*;
+
+fn square(x: f64, y: f64) -> Vec<Vec2> {
+    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| Vec2::new(x + a, y + b)).to_vec()
+}
+
+fn crowd(periodic: [bool; 2]) -> Crowd {
+    Crowd { time: 0.0, droplets: Vec::new(), corner: Vec2::splat(-2.0), size: Vec2::splat(4.0), periodic }
+}
+
+#[test]
+fn images_are_those_that_show() {
+    let inside = crowd([true; 2]).images(&square(0.0, 0.0));
+    assert_eq!(inside, [Vec2::ZERO]);
+    // Across a corner of the box, periods away from it: all four corners.
+    let mut across = crowd([true; 2]).images(&square(9.5, -6.5));
+    across.sort_by(|a, b| (a.x, a.y).partial_cmp(&(b.x, b.y)).unwrap());
+    assert_eq!(across, [(-12.0, 4.0), (-12.0, 8.0), (-8.0, 4.0), (-8.0, 8.0)].map(Vec2::from));
+    // Walls have no images beyond them.
+    assert_eq!(crowd([true, false]).images(&square(1.5, 1.5)), [Vec2::new(-4.0, 0.0), Vec2::ZERO]);
+}
+
+#[test]
+fn runs_of_marked_points() {
+    let path: Vec<Pixel> = (0..7).map(|k| [f64::from(k), 0.0]).collect();
+    let marked = [true, true, false, true, false, true, true];
+    assert_eq!(runs(&path, &marked), [vec![[0.0, 0.0], [1.0, 0.0]], vec![[5.0, 0.0], [6.0, 0.0]]]);
+}
+
+#[test]
+fn opposite_directions_have_other_colours() {
+    let difference = |a: Rgb, b: Rgb| a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max().unwrap();
+    for k in 0..12 {
+        let angle = f64::from(k) * TAU / 12.0;
+        assert!(difference(of_angle(angle), of_angle(angle + PI)) > 120);
+        assert!(difference(of_angle(angle), of_angle(angle + 0.05)) < 8);
+    }
+}
