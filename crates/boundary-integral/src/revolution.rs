@@ -90,6 +90,10 @@ impl Hydrodynamics for RevolutionIntegral {
         self.region.half_length().map(|_| &self.walls)
     }
 
+    fn of_revolution(&self) -> bool {
+        true
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.load(markers)?;
         self.work.evaluations += 1;
@@ -113,12 +117,17 @@ impl Hydrodynamics for RevolutionIntegral {
     }
 
     fn save(&self) -> SavedState {
-        SavedState { reals: vec![self.stiffness], counts: Vec::new() }
+        let tube = self.flow.tube_resolution().into_iter().flatten();
+        SavedState { reals: std::iter::once(self.stiffness).chain(tube).collect(), counts: Vec::new() }
     }
 
     fn load(&mut self, saved: &SavedState) {
-        if let [stiffness] = saved.reals[..] {
-            self.stiffness = stiffness;
+        if let [stiffness, tube @ ..] = &saved.reals[..] {
+            self.stiffness = *stiffness;
+            if let &[half_length, spacing] = tube {
+                // Lengths that make no tube are those of no checkpoint: the next evaluation makes one.
+                let _ = self.flow.restore_tube([half_length, spacing]);
+            }
         }
     }
 }

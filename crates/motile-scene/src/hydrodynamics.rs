@@ -146,6 +146,12 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
+    /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror image,
+    /// with the forces on halves of rings; by default false.
+    fn of_revolution(&self) -> bool {
+        false
+    }
+
     /// Fills `markers.velocities` from `markers.positions` and `markers.forces`, and tells the force dipoles by which
     /// it keeps bodies rigid ([`Markers::set_rigid_dipole`]).
     ///
@@ -202,6 +208,10 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn walls(&self) -> Option<&Boundary> {
         self.as_ref().walls()
+    }
+
+    fn of_revolution(&self) -> bool {
+        self.as_ref().of_revolution()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

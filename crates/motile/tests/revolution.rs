@@ -7,7 +7,7 @@ use motile::active_interface::{
     theory::{RoundDroplet, Sphere},
 };
 use motile::motile_base::{TubeShape, Vec2};
-use motile::motile_scene::{Scene, StepSize};
+use motile::motile_scene::{Scene, StepSize, checkpoint::Checkpoint, gap::Repulsion};
 use motile::prelude::*;
 use motile::setup::{Exclusion, RigidBodySetup};
 
@@ -158,6 +158,51 @@ fn two_droplets_on_an_axis_are_mirror_images() {
     assert!((first.speed() - second.speed()).abs() < 1e-9);
     let gap = scene.system().gap(droplets[0], droplets[1]).unwrap().unwrap();
     assert!((0.8..1.5).contains(&gap) && scene.system_mut().wall_gap().unwrap() < 1.0 + 1e-3, "{gap}");
+}
+
+/// Two droplets one behind the other in space and in a tube: the gap between them closes, and a repulsion, whose forces
+/// are equal and opposite, keeps it open.
+#[test]
+fn trains_keep_apart_by_repulsion() {
+    for region in [Region::Space, Region::tube(1.6)] {
+        let gaps = [None, Some(Repulsion::new(400.0, 0.3).unwrap())].map(|repulsion| {
+            let mut setup = Setup { repulsion, ..scene(region, [48, 96]) };
+            setup.droplets[0].centre = [-1.1, 0.0];
+            let mut other = DropletSetup { centre: [1.1, 0.0], name: "first".to_owned(), ..setup.droplets[0].clone() };
+            other.particles = None;
+            setup.droplets.push(other);
+            let Built { mut scene, droplets, .. } = setup.build().unwrap();
+            let number = scene.observe(droplets[0]).unwrap().particle_number;
+            scene.run(3.0).go().unwrap();
+            let seen = [0, 1].map(|k| scene.observe(droplets[k]).unwrap());
+            let force: f64 = seen.iter().map(|seen| seen.moments.force[0]).sum();
+            let part = force / (1.0 + seen[1].moments.force[0].abs());
+            assert!(part.abs() < if repulsion.is_some() { 2e-3 } else { 1e-12 }, "{force:e}: {part:e}");
+            for seen in &seen {
+                assert!((seen.area / (4.0 / 3.0 * PI) - 1.0).abs() < 1e-12);
+            }
+            assert!((seen[0].particle_number / number - 1.0).abs() < 1e-12);
+            scene.system().gap(droplets[0], droplets[1]).unwrap().unwrap()
+        });
+        assert!(gaps[0] < 0.19 && gaps[1] > 1.1 * gaps[0], "{gaps:?}");
+    }
+}
+
+/// A run in a tube that is made anew as the droplet widens goes on from a checkpoint bit for bit.
+#[test]
+fn runs_in_tubes_resume_bit_for_bit() {
+    let make = || scene(Region::tube(1.2), [32, 64]).build().unwrap().scene;
+    let mut whole = make();
+    whole.run(4.0).go().unwrap();
+    let mut first = make();
+    first.run(2.5).go().unwrap();
+    let saved = first.checkpoint("").to_bytes().unwrap();
+    let mut rest = make();
+    rest.resume(&Checkpoint::from_bytes(&saved).unwrap()).unwrap();
+    first.run(4.0).go().unwrap();
+    rest.run(4.0).go().unwrap();
+    assert!(rest.checkpoint("") == first.checkpoint(""));
+    assert!(rest.time().to_bits() == whole.time().to_bits());
 }
 
 /// A tube slows a droplet down, the more the tighter it is.

@@ -3,6 +3,7 @@
 mod calculus;
 mod container;
 mod disturbance;
+mod fine;
 mod meridian;
 mod panels;
 mod ring;
@@ -17,6 +18,7 @@ pub use calculus::MeridianCalculus;
 pub use container::tube;
 use container::{Tube, Walls};
 pub use disturbance::Disturbances;
+use fine::Levels;
 use meridian::{Grid, Half, Meridian, Pair};
 use panels::{Panels, Spot};
 
@@ -24,6 +26,8 @@ use panels::{Panels, Spot};
 const CLOSEST: f64 = 1e-9;
 /// Distance over the size by which points may differ from the mirror image of one another.
 const ASYMMETRY: f64 = 1e-6;
+/// Points that finer nodes are made for, rather than panels for each of them.
+const MANY: usize = 100;
 /// Most nodes of a closed curve: the matrix for a viscosity contrast then takes 36 MB.
 const MOST_NODES: f64 = 2048.0;
 
@@ -498,18 +502,21 @@ impl AxisymmetricFlow {
         finite_vectors("the position", 0, points)?;
         // Pictures of the meridian plane hold each point and its mirror image.
         let mut known = HashMap::new();
+        let layers = if points.len() < MANY { 0 } else { self.len() + 1 };
+        let mut fine: Vec<Levels> = (0..layers).map(|_| Levels::default()).collect();
         for (point, out) in points.iter().zip(out) {
             let side = if point.y < 0.0 { -1.0 } else { 1.0 };
             let place = Vec2::new(point.x, point.y.abs());
-            *out = *known.entry([place.x.to_bits(), place.y.to_bits()]).or_insert_with(|| self.flow_at(place));
+            *out =
+                *known.entry([place.x.to_bits(), place.y.to_bits()]).or_insert_with(|| self.flow_at(place, &mut fine));
             out.velocity.y *= side;
             (out.gradient[0][1], out.gradient[1][0]) = (side * out.gradient[0][1], side * out.gradient[1][0]);
         }
         Ok(())
     }
 
-    /// Flow at a point of the upper half plane.
-    fn flow_at(&mut self, place: Vec2) -> FlowSample {
+    /// Flow at a point of the upper half plane, with finer nodes of the surfaces and the walls, or none.
+    fn flow_at(&mut self, place: Vec2, fine: &mut [Levels]) -> FlowSample {
         let Self { grid, panels, surfaces, sides, solution, walls, viscosity, .. } = &mut *self;
         let viscosity = *viscosity;
         let mut fluid = (viscosity, f64::INFINITY);
@@ -520,7 +527,8 @@ impl AxisymmetricFlow {
             let gradient = sum.2.as_flattened_mut().iter_mut().zip(g.as_flattened());
             gradient.for_each(|(sum, g)| *sum += factor * g);
         };
-        for ((meridian, sides), solution) in surfaces.iter().zip(sides.iter()).zip(solution.iter()) {
+        for (surface, meridian) in surfaces.iter().enumerate() {
+            let (sides, solution) = (&sides[surface], &solution[surface]);
             let mut spot = meridian.spot(grid, place, panels);
             let size = meridian.spacing * grid.nodes as f64;
             if spot.gap < CLOSEST * size {
@@ -536,6 +544,18 @@ impl AxisymmetricFlow {
                 fluid = (sides.inside.unwrap_or(f64::INFINITY), volume);
             }
             let contrast = sides.contrast();
+            let nodes = fine.get_mut(surface).and_then(|levels| levels.at(&spot, (grid, meridian), Some(solution)));
+            if let Some(nodes) = nodes {
+                for node in nodes {
+                    let ring = node.ring(&spot);
+                    add(node.weight, ring.single_flow(node.force));
+                    if contrast != 0.0 {
+                        let factor = contrast * node.weight * node.point.place.y;
+                        add(factor, ring.double_flow(node.point.normal(), node.density));
+                    }
+                }
+                continue;
+            }
             panels.each((grid, meridian), &spot, true, |source| {
                 add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
                 if contrast != 0.0 {
@@ -551,9 +571,13 @@ impl AxisymmetricFlow {
         if let Some(walls) = walls {
             let Walls { grid, meridian, shift, .. } = &**walls;
             let spot = meridian.spot(grid, place - *shift, panels);
-            panels.each((grid, meridian), &spot, true, |source| {
-                add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
-            });
+            if let Some(nodes) = fine.last_mut().and_then(|levels| levels.at(&spot, (grid, meridian), None)) {
+                nodes.iter().for_each(|node| add(node.weight, node.ring(&spot).single_flow(node.force)));
+            } else {
+                panels.each((grid, meridian), &spot, true, |source| {
+                    add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
+                });
+            }
         }
         let (mut velocity, mut pressure, mut gradient) = sum;
         if let (Some(Tube { radius, .. }), true) = (&self.tube, self.flux != 0.0) {

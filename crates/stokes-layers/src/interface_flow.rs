@@ -1,7 +1,7 @@
 //! The flow of fluid interfaces: velocities on them from the forces on them, for any viscosity inside and outside.
 
 mod equation;
-mod factors;
+pub(crate) mod factors;
 mod inside;
 mod interface;
 mod rigid;

@@ -139,6 +139,12 @@ impl SpectralCurve {
         }
         // Both parts cancel at the poles.
         (forces[0], forces[count / 2]) = (Vec2::ZERO, Vec2::ZERO);
+        // The pull along the axis vanishes at the poles, its series through the middles of segments but nearly: what
+        // that leaves of a force on the droplet is taken off, over the sines.
+        let net: f64 = forces.iter().zip(&self.quadrature).map(|(force, weight)| weight * force.x).sum();
+        for (k, force) in forces.iter_mut().enumerate() {
+            force.x -= 0.25 * net * spacing * (spacing * k as f64).sin().abs();
+        }
     }
 
     /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density

@@ -61,7 +61,7 @@ pub(super) fn observe_in_space(
     let mut moments = ForceMoments { in_space: true, ..ForceMoments::default() };
     let quadrature = Rings::quadrature(markers.len());
     for ((((x, n), f), u), weight) in parts().zip(forces).zip(velocities).zip(&quadrature) {
-        moments.force[0] += f.x;
+        moments.force[0] += weight * f.x;
         moments.dipole[0][0] += weight * f.x * (x.x - centre) + 2.0 * factor * u.x * n.x;
         moments.dipole[1][1] += 0.5 * (weight * f.y * x.y + 2.0 * factor * u.y * n.y);
     }

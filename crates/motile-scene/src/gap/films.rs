@@ -1,5 +1,7 @@
 //! The films between interfaces and what is close to them: forces that keep them open, and how fast they close.
 
+use std::f64::consts::PI;
+
 use super::boundary::{Boundary, Nearest, shifts};
 use super::{Repulsion, Surfaces};
 use crate::Domain;
@@ -25,8 +27,11 @@ pub(super) struct Contact {
 /// alone, which is the whole. Of what is fixed no force moves anything.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Films {
-    /// Half of the lengths of the two sides of each corner (length).
+    /// Half of the lengths of the two sides of each corner (length), or of the halves of rings that they stand for
+    /// (length squared).
     pub(super) weights: Vec<f64>,
+    /// True for bodies of revolution about the x axis.
+    of_revolution: bool,
     pub(super) contacts: Vec<Contact>,
     /// Bodies close to the one that is looked at.
     near: Vec<usize>,
@@ -40,6 +45,8 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) domain: Domain,
     pub(crate) walls: Option<&'a Boundary>,
     pub(crate) around: &'a [Option<usize>],
+    /// True where bodies are of revolution about the x axis ([`crate::Hydrodynamics::of_revolution`]).
+    pub(crate) of_revolution: bool,
 }
 
 impl Films {
@@ -47,8 +54,10 @@ impl Films {
     pub(crate) fn find(&mut self, surfaces: &Surfaces, surroundings: Surroundings<'_>, reach: f64) {
         self.weights.clear();
         self.weights.resize(surfaces.corners.len(), 0.0);
-        for ((corner, next), [start, end]) in surfaces.sides() {
-            [corner, next].into_iter().for_each(|corner| self.weights[corner] += 0.5 * start.distance(end));
+        self.of_revolution = surroundings.of_revolution;
+        for ((corner, next), side) in surfaces.sides() {
+            let size = side[0].distance(side[1]) * if self.of_revolution { half_circle(side).abs() } else { 1.0 };
+            [corner, next].into_iter().for_each(|corner| self.weights[corner] += 0.5 * size);
         }
         self.contacts.clear();
         for (body, kind) in surfaces.kinds.iter().enumerate() {
@@ -145,7 +154,7 @@ impl Films {
 
     /// Adds the forces of a repulsion to `forces`, those of the markers (force).
     pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
-        let Self { weights, contacts, energies, .. } = self;
+        let Self { weights, contacts, energies, of_revolution, .. } = self;
         energies.clear();
         energies.resize(weights.len(), 0.0);
         let mut push = |corner: usize, force: Vec2| {
@@ -166,7 +175,14 @@ impl Films {
         for ((start, end), [from, to]) in surfaces.sides() {
             let tension = 0.5 * (energies[start] + energies[end]);
             if tension != 0.0 {
-                let force = tension * (to - from).try_normalize().unwrap_or_default();
+                let mut force = tension * (to - from).try_normalize().unwrap_or_default();
+                if *of_revolution {
+                    let circle = half_circle([from, to]);
+                    force *= circle.abs();
+                    // Circles that grow take energy as well.
+                    let hoop = 0.5 * PI * tension * from.distance(to) * circle.signum();
+                    [start, end].into_iter().for_each(|corner| push(corner, Vec2::new(0.0, -hoop)));
+                }
                 push(start, force);
                 push(end, -force);
             }
@@ -218,6 +234,11 @@ impl Contact {
     pub(super) fn share(&self) -> f64 {
         if self.ends.is_some() { 0.5 } else { 1.0 }
     }
+}
+
+/// Half of the circle that the middle of a side goes through about the x axis (length), negative below the axis.
+fn half_circle([start, end]: [Vec2; 2]) -> f64 {
+    0.5 * PI * (start.y + end.y)
 }
 
 /// A corner at a place found on a side; `sign` is -1 for what lies inside.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Cowley's model.
 ///
 /// It acts between different interfaces, between an interface and its own images, solids, and rigid walls of any shape,
-/// and has an energy: per length of an interface at the gap d from another surface
+/// and has an energy: per length (in three dimensions per area) of an interface at the gap d from another surface
 /// ```text
 /// phi(d) = strength range^2 (1/x + 2 ln x - x),    x = d/range < 1,      and nothing beyond,
 /// ```

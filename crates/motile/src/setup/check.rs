@@ -138,9 +138,6 @@ impl Setup {
         if let Some((key, count)) = planar.into_iter().find(|(_, count)| *count > 0) {
             return refuse(key, &count, "they are bodies of two dimensions: leave them out");
         }
-        if self.repulsion.is_some() {
-            return refuse("repulsion", &"given", "it is one of curves: leave it out");
-        }
         for (number, droplet) in self.droplets.iter().enumerate() {
             let checked = Checked { place: &format!("droplets[{number}]") };
             let refuse = |key: &str, value: &dyn std::fmt::Display, remedy: &str| {

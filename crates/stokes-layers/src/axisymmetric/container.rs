@@ -10,7 +10,7 @@ use super::{
     meridian::{Grid, Meridian, dot},
     panels::{Panels, Spot},
 };
-use crate::LayerError;
+use crate::{LayerError, interface_flow::factors::DenseFactors};
 
 /// Length of a closed tube beyond the surfaces at either end, over its radius: flows decay to 2e-11.
 const BEYOND: f64 = 5.5;
@@ -41,7 +41,7 @@ impl Tube {
 pub(super) struct Walls {
     pub(super) grid: Grid,
     pub(super) meridian: Meridian,
-    pub(super) factors: LU<f64, Dyn, Dyn>,
+    pub(super) factors: DenseFactors,
     /// Place of the container's middle (length).
     pub(super) shift: Vec2,
     /// 8 pi times viscosity times velocity at the nodes of the surfaces, by the coefficients of the forces: sines of x,
@@ -106,8 +106,8 @@ impl Walls {
                 matrix[(n + j, k)] += normal.y * value;
             }
         }
-        let factors = LU::new(matrix);
-        if !factors.is_invertible() {
+        let factors = DenseFactors::new(matrix);
+        if !factors.is_regular() {
             return Err(LayerError::SingularWalls);
         }
         let empty = DMatrix::zeros(0, 0);
@@ -126,7 +126,7 @@ impl Walls {
                 forces[j] = 8.0 * PI * viscosity * poiseuille(radius, node.place.y)[0];
             }
         }
-        self.factors.solve_mut(&mut forces);
+        self.factors.solve(&mut forces);
         self.open = Some(forces);
     }
 }
@@ -177,9 +177,7 @@ impl AxisymmetricFlow {
             if needed > half_length || close < spacing {
                 // Room for changes, so that small ones do not make the tube anew.
                 let (half_length, spacing) = (needed + 0.5 * radius, spacing.min(0.8 * close));
-                let count = (4.0 * (half_length + radius) / spacing).min(MOST_TUBE_NODES as f64) as usize / 2 * 2;
-                self.contain(&tube(|_| radius, half_length, 4 * count)?, count)?;
-                self.tube = Some(Tube { radius, half_length, spacing });
+                self.make_tube(radius, half_length, spacing)?;
             }
             if let Some(walls) = &mut self.walls {
                 walls.shift = Vec2::new(0.5 * (ends[0] + ends[1]), 0.0);
@@ -191,6 +189,31 @@ impl AxisymmetricFlow {
             Some((curve, Vec2 { x, y })) => Err(LayerError::CrossesWall { curve, x, y, wall: 0 }),
             None => Ok(()),
         }
+    }
+
+    fn make_tube(&mut self, radius: f64, half_length: f64, spacing: f64) -> Result<(), LayerError> {
+        let count = (4.0 * (half_length + radius) / spacing).min(MOST_TUBE_NODES as f64) as usize / 2 * 2;
+        self.contain(&tube(|_| radius, half_length, 4 * count)?, count)?;
+        self.tube = Some(Tube { radius, half_length, spacing });
+        Ok(())
+    }
+
+    /// Half length of the straight tube and distance of its nodes (length), which depend on where the surfaces have
+    /// been; `None` without one, or before there were surfaces.
+    #[must_use]
+    pub fn tube_resolution(&self) -> Option<[f64; 2]> {
+        self.tube.as_ref().filter(|tube| tube.half_length > 0.0).map(|tube| [tube.half_length, tube.spacing])
+    }
+
+    /// Makes the straight tube anew as it was ([`AxisymmetricFlow::tube_resolution`]), so that what is computed is that
+    /// to the last bit; without one nothing changes.
+    ///
+    /// # Errors
+    /// Lengths that are not positive and finite.
+    pub fn restore_tube(&mut self, [half_length, spacing]: [f64; 2]) -> Result<(), LayerError> {
+        let Some(Tube { radius, .. }) = self.tube else { return Ok(()) };
+        positive("the half length of a tube", half_length)?;
+        self.make_tube(radius, half_length, positive("the distance of the nodes of a tube", spacing)?)
     }
 
     /// Eliminates the forces on the container from the equation of the surfaces.
@@ -239,10 +262,10 @@ impl AxisymmetricFlow {
                 }
             }
         }
-        walls.factors.solve_mut(&mut forces);
+        walls.factors.solve(&mut forces);
         right.gemv(1.0, &onto, &forces, 1.0);
         if with_matrix {
-            walls.factors.solve_mut(&mut unknowns);
+            walls.factors.solve(&mut unknowns);
             matrix.gemm(-1.0, &onto, &unknowns, 1.0);
         }
         (walls.onto_surfaces, walls.from_forces, walls.from_unknowns) = (onto, forces, unknowns);

@@ -11,7 +11,7 @@ use super::{
     meridian::{Grid, Half, Meridian, Pair, Waves},
     panels::{Panels, Source, Spot},
 };
-use crate::LayerError;
+use crate::{LayerError, interface_flow::factors::DenseFactors};
 
 /// Largest order: the integrals over the azimuth take 16 points for every panel of a few waves.
 const MOST_ORDER: f64 = 8.0;
@@ -439,13 +439,15 @@ impl AxisymmetricFlow {
                     let spot = Spot { place, foot: wall.0.parameters[j], offset: Vec2::ZERO, gap: 0.0 };
                     rows.add(order, wall, None, &spot, Displaced::Nothing, panels);
                 });
-                own.forces.lu()
+                DenseFactors::new(own.forces)
             });
             let Layers { forces, velocities, shape } = &mut from;
             for matrix in [forces, velocities, shape] {
-                if !factors.as_ref().unwrap_or(&walls.factors).solve_mut(matrix) {
+                let factors = factors.as_ref().unwrap_or(&walls.factors);
+                if !factors.is_regular() {
                     return Err(LayerError::SingularWalls);
                 }
+                factors.solve(matrix);
             }
             layers.forces -= &onto.forces * from.forces;
             layers.shape += onto.shape - &onto.forces * from.shape;

@@ -180,17 +180,20 @@ impl Grid {
     pub(super) fn new(nodes: usize) -> Self {
         let n = nodes as f64;
         let parameters: Vec<f64> = (0..nodes).map(|j| PI * (j as f64 + 0.5) / n).collect();
-        let weight = |t: &f64| {
-            let wave = |k: usize| (if k == nodes { 2.0 } else { 4.0 }) / (n * k as f64) * (k as f64 * t).sin();
-            (1..=nodes).step_by(2).map(wave).sum()
-        };
-        let weights = parameters.iter().map(weight).collect();
         let waves = parameters.iter().map(|t| {
             let mut waves = Waves::new(nodes + 1);
             waves.fill(*t);
             waves
         });
-        Self { nodes, waves: waves.collect(), parameters, weights }
+        let waves: Vec<Waves> = waves.collect();
+        let weights = waves.iter().map(|waves| Self::weight(nodes, waves)).collect();
+        Self { nodes, waves, parameters, weights }
+    }
+
+    /// Weight of one of so many nodes, with its waves, in integrals of sines from 0 to pi.
+    pub(super) fn weight(nodes: usize, waves: &Waves) -> f64 {
+        let wave = |k: usize| (if k == nodes { 2.0 } else { 4.0 }) / (nodes as f64 * k as f64) * waves.sin[k];
+        (1..=nodes).step_by(2).map(wave).sum()
     }
 
     /// Largest wave that the nodes carry, of sines; cosines have one less.

@@ -19,7 +19,7 @@ pub(super) const LONGEST: f64 = 6.0;
 const POWER: i32 = 5;
 /// Distance over the spacing of nodes beyond which their own weights integrate to round-off: the error is
 /// `exp(-2 pi d/h)`.
-const FAR: f64 = 5.5;
+pub(super) const FAR: f64 = 5.5;
 /// Length of the panels next to the foot of a target over its distance from the curve.
 const NEXT: f64 = 1.5;
 

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use motile_base::Vec2;
 
-/// Polynomial in w = 1 - cos(phi), lowest power first.
-type Polynomial = [f64; 5];
+/// Polynomial of the first degree in w = 1 - cos(phi), lowest power first, as all polynomials are.
+type Linear = [f64; 2];
 
 /// Product r r0 over the mean square of the distance below which the azimuthal integrals are sums over points.
 const NEAR_AXIS: f64 = 0.18;
@@ -109,16 +109,16 @@ impl Ring {
     pub(super) fn single_flow(&self, force: Vec2) -> ([f64; 2], f64, [[f64; 2]; 2]) {
         let [[xx, xr], [rx, rr]] = self.single();
         let velocity = [xx * force.x + xr * force.y, rx * force.x + rr * force.y];
-        let (pull, slopes, place, place_slopes) = self.factors(force);
+        let (pull, slopes, place) = self.factors(force);
         let pressure = -2.0 * self.integral(3, pull);
         // Unit of force along the component of velocity: force.x along x, force.y cos(phi) from the axis.
-        let own: [Polynomial; 2] = [[force.x, 0.0, 0.0, 0.0, 0.0], [force.y, -force.y, 0.0, 0.0, 0.0]];
+        let own: [Linear; 2] = [[force.x, 0.0], [force.y, -force.y]];
         let gradient = [0, 1].map(|j| {
             [0, 1].map(|k| {
-                let first = times(own[j], place[k]);
-                let second = plus(times(place_slopes[j][k], pull), times(place[j], slopes[k]));
-                let third = times(times(place[j], place[k]), pull);
-                self.integral(3, plus(first, second)) + 3.0 * self.integral(5, third)
+                let first: [f64; 3] = plus(times(own[j], place[k]), times(place[j], slopes[k]));
+                let third: [f64; 4] = times(times::<2, 2, 3>(place[j], place[k]), pull);
+                let own_slope = if j == k { 0.5 * pressure } else { 0.0 };
+                self.integral(3, first) + own_slope + 3.0 * self.integral(5, third)
             })
         });
         (velocity, pressure, gradient)
@@ -129,46 +129,43 @@ impl Ring {
     pub(super) fn double_flow(&self, normal: Vec2, density: Vec2) -> ([f64; 2], f64, [[f64; 2]; 2]) {
         let [[xx, xr], [rx, rr]] = self.double(normal);
         let velocity = [xx * density.x + xr * density.y, rx * density.x + rr * density.y];
-        let (q, q_slopes, place, place_slopes) = self.factors(density);
-        let (n, n_slopes, ..) = self.factors(normal);
-        let both = times(q, n);
-        let pressure = 12.0 * self.integral(5, both) - 4.0 * density.dot(normal) * self.moments[1][0];
+        let (q, q_slopes, place) = self.factors(density);
+        let (n, n_slopes, _) = self.factors(normal);
+        let both: [f64; 3] = times(q, n);
+        let product = self.integral(5, both);
+        let pressure = 12.0 * product - 4.0 * density.dot(normal) * self.moments[1][0];
         let gradient = [0, 1].map(|j| {
             [0, 1].map(|k| {
-                let slope = plus(times(q_slopes[k], n), times(q, n_slopes[k]));
-                let first = plus(times(slope, place[j]), times(both, place_slopes[j][k]));
-                let second = times(times(both, place[j]), place[k]);
-                -6.0 * self.integral(5, first) - 30.0 * self.integral(7, second)
+                let slope: [f64; 3] = plus(times(q_slopes[k], n), times(q, n_slopes[k]));
+                let first: [f64; 4] = times(slope, place[j]);
+                let second: [f64; 5] = times(times::<3, 2, 4>(both, place[j]), place[k]);
+                let own_slope = if j == k { product } else { 0.0 };
+                -6.0 * (self.integral(5, first) - own_slope) - 30.0 * self.integral(7, second)
             })
         });
         (velocity, pressure, gradient)
     }
 
     /// Polynomials of `x.a` for a vector a of the ring and its slopes by the place of the target along and from the
-    /// axis, of the components of x, and the slopes of these.
-    fn factors(&self, a: Vec2) -> (Polynomial, [Polynomial; 2], [Polynomial; 2], [[Polynomial; 2]; 2]) {
+    /// axis, and of the components of x, whose own slopes are -1.
+    fn factors(&self, a: Vec2) -> (Linear, [Linear; 2], [Linear; 2]) {
         let Self { d: Vec2 { x, y: r }, target, source, .. } = *self;
-        let linear = |constant: f64, slope: f64| [constant, slope, 0.0, 0.0, 0.0];
-        let (none, minus) = (linear(0.0, 0.0), linear(-1.0, 0.0));
-        (
-            linear(a.x * x + a.y * r, a.y * target),
-            [linear(-a.x, 0.0), linear(-a.y, a.y)],
-            [linear(x, 0.0), linear(r, -source)],
-            [[minus, none], [none, minus]],
-        )
+        let slopes = [[-a.x, 0.0], [-a.y, a.y]];
+        ([a.x * x + a.y * r, a.y * target], slopes, [[x, 0.0], [r, -source]])
     }
 }
 
-fn plus(a: Polynomial, b: Polynomial) -> Polynomial {
+fn plus<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|n| a[n] + b[n])
 }
 
-/// Product of two polynomials of together the fourth degree.
-fn times(a: Polynomial, b: Polynomial) -> Polynomial {
-    let mut product = [0.0; 5];
-    for (i, a) in a.into_iter().enumerate().filter(|(_, a)| *a != 0.0) {
-        for (out, b) in product[i..].iter_mut().zip(b) {
-            *out += a * b;
+/// Product of two polynomials, of N = A + B - 1 coefficients.
+#[inline(always)]
+fn times<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B]) -> [f64; N] {
+    let mut product = [0.0; N];
+    for i in 0..A {
+        for j in 0..B {
+            product[i + j] += a[i] * b[j];
         }
     }
     product

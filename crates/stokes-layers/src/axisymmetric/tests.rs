@@ -442,3 +442,26 @@ fn flux_goes_through_a_constriction() {
     let error = AxisymmetricFlow::in_region(refused, 2.0, Settings::default()).unwrap_err().to_string();
     assert!(error.contains("give a flux"), "{error}");
 }
+
+/// Finer nodes, which many points share, and panels, which each of a few has for itself, give one flow at any distance
+/// from an interface and from the wall of a tube.
+#[test]
+fn flow_at_many_points_is_that_at_few() {
+    let spheroid = closed(96, |t| (1.1 * t.cos(), 0.9 * t.sin()));
+    let forces = tensions(&spheroid, |t| 2.0 + t.cos());
+    let mut flow = flow(96).with_tube(1.8).unwrap();
+    flow.load([Interface::closed(&spheroid, &forces, [5.0, 1.0])].into_iter()).unwrap();
+    flow.solve().unwrap();
+    let points: Vec<Vec2> = (0..150).map(|k| Vec2::new(0.013 * f64::from(k), 1.799 * f64::from(k) / 149.0)).collect();
+    let mut many = vec![FlowSample::default(); points.len()];
+    let mut few = many.clone();
+    flow.sample(&points, &mut many).unwrap();
+    for (points, out) in points.chunks(50).zip(few.chunks_mut(50)) {
+        flow.sample(points, out).unwrap();
+    }
+    for (many, few) in many.iter().zip(&few) {
+        let gradients = many.gradient.as_flattened().iter().zip(few.gradient.as_flattened());
+        let slope = gradients.map(|(a, b)| (a - b).abs()).fold((many.pressure - few.pressure).abs(), f64::max);
+        assert!((many.velocity - few.velocity).length() < 1e-11 && slope < 1e-9, "{many:?} {few:?}");
+    }
+}

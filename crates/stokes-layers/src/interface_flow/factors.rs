@@ -1,7 +1,7 @@
 //! Factors of a dense matrix that is solved with many times.
 
 use motile_base::widely;
-use nalgebra::{DMatrix, DVector, Dyn, LU, PermutationSequence};
+use nalgebra::{DMatrix, Dim, Dyn, LU, Matrix, PermutationSequence, VecStorage};
 
 /// Columns that are taken off the right-hand side together, so that it is read and written once for all of them.
 const COLUMNS: usize = 4;
@@ -9,27 +9,34 @@ const COLUMNS: usize = 4;
 /// Lower and upper factor of a matrix by Gaussian elimination with row exchanges. The solution, which reads all of the
 /// matrix for each right-hand side, runs in the widest vector registers that there are.
 #[derive(Debug, Clone)]
-pub(super) struct DenseFactors {
+pub(crate) struct DenseFactors {
     exchanges: PermutationSequence<Dyn>,
     /// The upper factor, and below the diagonal the lower one, whose diagonal is 1.
     entries: DMatrix<f64>,
 }
 
 impl DenseFactors {
-    pub(super) fn new(matrix: DMatrix<f64>) -> Self {
+    pub(crate) fn new(matrix: DMatrix<f64>) -> Self {
         let (exchanges, mut lower, entries) = LU::new(matrix).unpack();
         lower.fill_diagonal(0.0);
         Self { exchanges, entries: entries + lower }
     }
 
-    /// Replaces a right-hand side by the solution; singular matrices give values that are not finite.
-    pub(super) fn solve(&self, values: &mut DVector<f64>) {
+    /// True for a matrix with an inverse.
+    pub(crate) fn is_regular(&self) -> bool {
+        self.entries.diagonal().iter().all(|value| *value != 0.0 && value.is_finite())
+    }
+
+    /// Replaces right-hand sides, a column each, by the solutions; singular matrices give values that are not finite.
+    pub(crate) fn solve<C: Dim>(&self, values: &mut Matrix<f64, Dyn, C, VecStorage<f64, Dyn, C>>) {
         self.exchanges.permute_rows(values);
-        let (entries, values) = (self.entries.as_slice(), values.as_mut_slice());
-        widely(
-            #[inline(always)]
-            || substitute(entries, values),
-        );
+        let (entries, count) = (self.entries.as_slice(), self.entries.nrows());
+        for column in values.as_mut_slice().chunks_exact_mut(count.max(1)) {
+            widely(
+                #[inline(always)]
+                || substitute(entries, column),
+            );
+        }
     }
 }
 
@@ -81,7 +88,9 @@ fn take_off<'a>(values: &mut [f64], known: &[f64], column: impl Fn(usize) -> &'a
 
 #[cfg(test)]
 mod tests {
-    use super::{DMatrix, DVector, DenseFactors};
+    use nalgebra::DVector;
+
+    use super::{DMatrix, DenseFactors};
 
     #[test]
     fn products_with_solutions_are_the_right_hand_sides() {
@@ -94,6 +103,11 @@ mod tests {
             DenseFactors::new(matrix.clone()).solve(&mut solution);
             let error = (&matrix * &solution - &right).amax() / solution.amax();
             assert!(error < 1e-13, "{count}: {error:e}");
+            let factors = DenseFactors::new(matrix.clone());
+            let mut inverse = DMatrix::identity(count, count);
+            factors.solve(&mut inverse);
+            let error = (&matrix * &inverse - DMatrix::identity(count, count)).amax() / inverse.amax();
+            assert!(factors.is_regular() && error < 1e-13, "{count}: {error:e}");
         }
     }
 }

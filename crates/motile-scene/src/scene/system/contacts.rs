@@ -71,7 +71,12 @@ impl Contacts {
 
     fn find_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics, reach: f64) {
         let (domain, walls) = (flow.fluid_view().domain, flow.walls());
-        self.films.find(&self.surfaces, Surroundings { domain, walls, around: &bodies.enclosing }, reach);
+        let of_revolution = flow.of_revolution();
+        self.films.find(
+            &self.surfaces,
+            Surroundings { domain, walls, around: &bodies.enclosing, of_revolution },
+            reach,
+        );
     }
 
     /// Tells `each` the bounds on the time step that films set, with the names of the bodies.
