@@ -1,4 +1,4 @@
-//! Fast sums of layers over many nodes in a periodic box, linear in their number.
+//! Fast sums of layers over many nodes in a periodic box or a channel, linear in their number.
 //!
 //! The Green's function is split into a part that ends at a cut-off, summed over the nodes within it ([`near`]), and a
 //! smooth part with a bounded spectrum: its sources are spread to a grid, transformed, multiplied by the spectrum,
@@ -20,14 +20,14 @@ mod window;
 
 use std::f64::consts::PI;
 
-use motile_base::InputError;
+use motile_base::{InputError, Region};
 use num_complex::Complex64;
 
 use crate::{
     curve::Curve,
     density::Density,
     direct::{add_dipole_at_node, dipole},
-    greens::Vectors,
+    greens::{Vectors, walls::Uncorrected},
     images::Images,
     plan::Plan,
 };
@@ -46,12 +46,15 @@ const CUTOFF: f64 = 3.0;
 /// nodes change neither grid nor memory.
 const CLASSES: f64 = 2.0;
 
-/// Fast sums over the nodes of closed curves in a box, with plans and working memory.
+/// Fast sums over the nodes of closed curves in a box or a channel, with plans and working memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Ewald {
     split: Split,
     window: Window,
     lattice: Lattice,
+    /// Width of a channel (length), whose box is higher by the cut-off: then no image beyond its upper and lower side is
+    /// within the cut-off of the channel.
+    width: Option<f64>,
     /// Distance beyond which the smooth part is all there is (length).
     cutoff: f64,
     size: [usize; 2],
@@ -66,16 +69,35 @@ pub(crate) struct Ewald {
 }
 
 impl Ewald {
-    /// Sums to a relative tolerance in a box with images, for so many nodes.
+    /// Sums to a relative tolerance in a box with images or in the box around a channel, for so many nodes; none in
+    /// other regions.
     ///
     /// # Errors
     /// A grid too large for a transform.
-    pub(crate) fn new(images: &Images, tolerance: f64, count: usize) -> Result<Option<Self>, InputError> {
-        let Some(lattice) = Lattice::of(images) else { return Ok(None) };
+    pub(crate) fn new(
+        region: &Region,
+        images: &Images,
+        tolerance: f64,
+        count: usize,
+    ) -> Result<Option<Self>, InputError> {
+        let width = if let Region::Channel { width, .. } = region { Some(*width) } else { None };
+        let Some(lattice) = Lattice::of(images, width.unwrap_or(0.0)) else { return Ok(None) };
         let (split, window) = (Split::new(tolerance), Window::new(tolerance));
         let (rows, columns, cells, carried, nodes, modes) = Default::default();
-        let mut ewald =
-            Self { split, window, lattice, cutoff: 0.0, size: [0; 2], rows, columns, cells, carried, nodes, modes };
+        let mut ewald = Self {
+            split,
+            window,
+            lattice,
+            width,
+            cutoff: 0.0,
+            size: [0; 2],
+            rows,
+            columns,
+            cells,
+            carried,
+            nodes,
+            modes,
+        };
         ewald.plan(count)?;
         Ok(Some(ewald))
     }
@@ -86,7 +108,7 @@ impl Ewald {
     /// A grid too large for a transform.
     pub(crate) fn set(&mut self, images: &Images, nodes: usize) -> Result<(), InputError> {
         let before = self.lattice;
-        self.lattice = Lattice::of(images).unwrap_or(before);
+        self.lattice = Lattice::of(images, before.lengths[1]).unwrap_or(before);
         if before.steepest != self.lattice.steepest || self.cutoff != self.cutoff_for(nodes) {
             return self.plan(nodes);
         }
@@ -100,12 +122,18 @@ impl Ewald {
     fn cutoff_for(&self, nodes: usize) -> f64 {
         let class = 2f64.powf((CLASSES * (nodes.max(1) as f64).log2()).ceil() / CLASSES);
         let [lx, ly] = self.lattice.lengths;
-        let most = 2.0 / FEWEST as f64 * ly.min(lx / self.lattice.stretch());
-        (CUTOFF * (self.lattice.area() / class).sqrt()).min(most)
+        // The box of a channel is twice as high as its width at most.
+        let height = self.width.unwrap_or(ly);
+        let most = [lx / self.lattice.stretch(), self.width.map_or(ly, |width| 2.0 * width)];
+        let most = most.map(|length| 2.0 / FEWEST as f64 * length);
+        (CUTOFF * (lx * height / class).sqrt()).min(most[0]).min(most[1])
     }
 
     fn plan(&mut self, nodes: usize) -> Result<(), InputError> {
         self.cutoff = self.cutoff_for(nodes);
+        if let Some(width) = self.width {
+            self.lattice.lengths[1] = width + self.cutoff;
+        }
         let largest = self.split.c / self.cutoff;
         let stretch = [1.0, self.lattice.stretch()];
         let waves = [0, 1].map(|axis| largest * stretch[axis] * self.lattice.lengths[axis] / (2.0 * PI));
@@ -121,6 +149,11 @@ impl Ewald {
     fn set_symbol(&mut self) {
         let Self { columns, lattice, cutoff, split, window, .. } = self;
         shares::each(columns, |share| share.set_symbol(lattice, *cutoff, split, window));
+    }
+
+    /// What walls are to correct in the sums.
+    pub(crate) fn uncorrected(&self) -> Uncorrected {
+        if self.width.is_some() { Uncorrected::Box { reach: self.cutoff } } else { Uncorrected::Row }
     }
 
     /// Takes over the nodes of curves.

@@ -2,8 +2,8 @@
 //!
 //! A layer is the sum of four contributions: of the nodes of curves that are close to each other, summed directly; of
 //! all other curves and images, by multipoles; of what the region adds (walls, a mean flow); and of a correction at
-//! nodes that are so close to a curve that its nodes do not resolve the Green's function. Many nodes in a box are
-//! summed together in place of the first two.
+//! nodes that are so close to a curve that its nodes do not resolve the Green's function. Many nodes in a box or
+//! a channel are summed together in place of the first two.
 
 mod close;
 mod rows;
@@ -25,7 +25,7 @@ use crate::{
     density::{Density, StoredLayers},
     direct::DirectSums,
     ewald::Ewald,
-    greens::{GreensFunction, Vectors},
+    greens::{GreensFunction, Vectors, walls::Uncorrected},
     multipole::Multipoles,
     plan::Plan,
     transforms::REFINEMENT,
@@ -35,7 +35,7 @@ pub(crate) use close::Crossing;
 use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
 
-/// Nodes of a box from which on fast sums cost less than sums over pairs and series (measured).
+/// Nodes of a box or a channel from which on fast sums cost less than sums over pairs and series (measured).
 const MANY_NODES: usize = 1000;
 
 /// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
@@ -164,18 +164,19 @@ impl Layers {
         }
     }
 
-    /// Prepares for fast sums where they pay: in a box with many nodes of closed curves of which none is stored.
+    /// Prepares for fast sums where they pay: for many nodes of closed curves of which none is stored, in a box or a
+    /// channel.
     fn plan_fast(&mut self) -> Result<(), LayerError> {
-        let Self { fast, images, stored, curves, starts, multipoles, .. } = self;
+        let Self { region, fast, images, stored, curves, starts, multipoles, .. } = self;
         let nodes = starts[curves.len()];
-        let pays = images.area().is_finite()
+        let pays = images.periods.lengths[0].is_some()
             && nodes >= MANY_NODES
             && stored.first == curves.len()
             && !curves.iter().any(Curve::is_open);
         match fast {
             _ if !pays => *fast = None,
             Some(fast) => fast.set(images, nodes)?,
-            None => *fast = Ewald::new(images, multipoles.tolerance(), nodes)?.map(Box::new),
+            None => *fast = Ewald::new(region, images, multipoles.tolerance(), nodes)?.map(Box::new),
         }
         Ok(())
     }
@@ -220,6 +221,9 @@ impl Layers {
             close.find(curves, plans, images, stored);
             fast.place(curves);
             fast.add_forces(curves, plans, flow);
+            if let Some(walls) = walls {
+                walls.add_forces(curves, 0..stored.first, fast.uncorrected(), flow);
+            }
             close.add_forces(curves, plans, stored, double, flow);
             return;
         }
@@ -235,7 +239,7 @@ impl Layers {
         direct.add_forces(plans, stored, flow);
         multipoles.add_forces(curves, 0..stored.first, flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, 0..stored.first, flow);
+            walls.add_forces(curves, 0..stored.first, Uncorrected::Row, flow);
         }
         close.add_forces(curves, plans, stored, double, flow);
         if double {
@@ -288,7 +292,7 @@ impl Layers {
         let Self { multipoles, walls, close, curves, plans, flow, stored, .. } = self;
         multipoles.add_forces(curves, stored.first..curves.len(), flow);
         if let Some(walls) = walls {
-            walls.add_forces(curves, stored.first..curves.len(), flow);
+            walls.add_forces(curves, stored.first..curves.len(), Uncorrected::Row, flow);
         }
         close.add_stored(curves, plans, flow);
     }
@@ -320,8 +324,10 @@ impl Layers {
         let mean = self.mean_flow(density);
         self.clear();
         let Self { direct, multipoles, fast, walls, close, curves, plans, fine, flow, stored, .. } = self;
+        let mut uncorrected = Uncorrected::Row;
         if let Some(fast) = fast {
             fast.add_dipoles(curves, density, flow);
+            uncorrected = fast.uncorrected();
         } else {
             for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..stored.first]).enumerate() {
                 let weight = density.contrasts[index] * curve.weight();
@@ -332,7 +338,7 @@ impl Layers {
             multipoles.add_dipoles(&curves[..stored.first], dipoles, accuracy, flow);
         }
         if let Some(walls) = walls {
-            walls.add_dipoles(curves, density, fine, accuracy, flow);
+            walls.add_dipoles(curves, density, fine, (uncorrected, accuracy), flow);
         }
         if let Some(mean) = mean {
             for flow in &mut *flow {

@@ -52,7 +52,7 @@
 //! * Curves that are close to each other are summed node by node, in a channel with a row of images in closed form. The
 //!   flow of curves farther away and of the images of a box is smooth: its Taylor series, computed from values on a
 //!   circle, is summed by moments. Walls are a Fourier series along the channel, analytic across it.
-//! * From a thousand nodes on, closed curves in a box are summed by a split Green's function: its near part over nodes,
+//! * From a thousand nodes on, closed curves in a box or channel are summed by a split Green's function: its near part over nodes,
 //!   its smooth part by a grid and Fourier transforms (Ewald). These are the same sums to the tolerance, in time and
 //!   memory that grow like the number of nodes, and with the feature `rayon` on several threads, to the same bits.
 //! * A viscosity contrast needs the double layer and GMRES ([`gmres`]); its iterations depend neither on the nodes nor,
@@ -62,10 +62,10 @@
 //!
 //! Three dimensions, for surfaces of revolution and a tube around them, are in [`axisymmetric`].
 //!
-//! [`SingleLayer`] is the single layer as an operator, for forces that follow from the velocities. But for boxes of
-//! many curves the cost of a solution grows with the square of the number of nodes of a curve and of its close
-//! neighbours, and each pair of curves farther apart costs some microseconds: in the plane and in channels the method
-//! suits some tens of curves.
+//! [`SingleLayer`] is the single layer as an operator, for forces that follow from the velocities. Without the fast
+//! sums the cost of a solution grows with the square of the number of nodes of a curve and of its close neighbours, and
+//! each pair of curves farther apart costs some microseconds: in the plane, among open curves and beside curved walls
+//! the method suits some tens of curves.
 
 pub mod axisymmetric;
 mod calculus;

@@ -15,9 +15,10 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a box; none without two periods.
-    pub(super) fn of(images: &Images) -> Option<Self> {
-        let [Some(lx), Some(ly)] = images.periods.lengths else { return None };
+    /// The lattice of a box; of a channel in a box that is `height` high; none without a period along x.
+    pub(super) fn of(images: &Images, height: f64) -> Option<Self> {
+        let [Some(lx), ly] = images.periods.lengths else { return None };
+        let ly = ly.unwrap_or(height);
         let steepest = if images.tilt() == 0.0 { 0.0 } else { 0.5 * lx / ly };
         Some(Self { lengths: [lx, ly], slope: images.tilt() / ly, steepest })
     }

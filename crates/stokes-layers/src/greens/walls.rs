@@ -59,8 +59,16 @@ struct Factors {
     odd: [f64; 4],
 }
 
+/// The flow that the walls correct: that of rows of images along the walls, alone or `reach` (length) above the upper
+/// wall and below the lower one again, in a box of that much more than the width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Uncorrected {
+    Row,
+    Box { reach: f64 },
+}
+
 /// The correction by the walls as a Fourier series, with the flow that does not depend on x.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct WallModes {
     /// 2 pi / period (1/length).
     pub(crate) k: f64,
@@ -76,18 +84,25 @@ pub(crate) struct WallModes {
     pub(crate) coefficients: [Vec<Coefficients>; 2],
     /// Coefficients of 1, y and half^2 - y^2 in the x velocity that does not depend on x.
     pub(crate) mean: [f64; 3],
+    /// y velocity that does not depend on the place.
+    pub(crate) rise: f64,
+    uncorrected: Uncorrected,
     modes: usize,
 }
 
 impl WallModes {
     /// The walls of a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
-        Self { k: TAU / period, half, zero_flux, ..Self::default() }
+        let (factors, sums, slips, coefficients, mean) = Default::default();
+        let (exponent, rise, modes, uncorrected) = (0.0, 0.0, 0, Uncorrected::Row);
+        let k = TAU / period;
+        Self { k, half, zero_flux, exponent, factors, sums, slips, coefficients, mean, rise, uncorrected, modes }
     }
 
     /// Removes all sources and counts the modes for targets no closer to a wall than `target_gap` and sources no closer
     /// than `source_gap` (length).
-    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64, accuracy: f64) {
+    pub(crate) fn begin(&mut self, uncorrected: Uncorrected, source_gap: f64, target_gap: f64, accuracy: f64) {
+        self.uncorrected = uncorrected;
         self.exponent = 2.5 - accuracy.ln();
         self.modes = self.count(source_gap + target_gap);
         let chunks = self.modes.div_ceil(LANES);
@@ -100,6 +115,26 @@ impl WallModes {
             slips.resize(chunks * LANES, Slip::default());
         }
         self.mean = [0.0; 3];
+        self.rise = 0.0;
+    }
+
+    /// Both sums of a mode and wall, of e q and e (p - k s q), for the uncorrected flow, then those that the other
+    /// wall adds to it: its images are farther away by the reach, and all are repeated at distances of the box.
+    fn sums_of(&self, side: usize, n: usize) -> [[Complex64; 2]; 2] {
+        let own = Sums::of(&self.sums[side], n);
+        let Uncorrected::Box { reach } = self.uncorrected else { return [own, [Complex64::default(); 2]] };
+        let k = self.k * (n + 1) as f64;
+        let height = k * (2.0 * self.half + reach);
+        let moved = |[plain, mixed]: [Complex64; 2], by: f64| {
+            let decay = (-by).exp();
+            [plain * decay, (mixed - plain * by) * decay]
+        };
+        let repeated = |[plain, mixed]: [Complex64; 2]| {
+            let decay = (-height).exp();
+            let all = 1.0 / (1.0 - decay);
+            [plain * all, (mixed - plain * (height * decay * all)) * all]
+        };
+        [repeated(own), repeated(moved(Sums::of(&self.sums[1 - side], n), k * reach))]
     }
 
     /// Number of modes at this distance of source and target by way of a wall (length).
@@ -151,16 +186,12 @@ impl WallModes {
     /// Adds forces (times weight) at points as sources; `target_gap` as in [`WallModes::begin`].
     pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
         self.moments(points, target_gap, |j| (forces(j), forces(j).re));
-        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
-            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
-                let [plain, mixed] = Sums::of(sums, n);
-                let inverse = 1.0 / (n + 1) as f64;
-                slip.u += mixed * inverse;
-                slip.v += I * (mixed - plain) * (side * inverse);
-            }
-        }
+        self.add_slips(|[plain, mixed], side, mode| {
+            let inverse = 1.0 / mode;
+            [mixed * inverse, I * (mixed - plain) * (side * inverse)]
+        });
         let (c, h) = (self.k, self.half);
-        let (mut s0, mut s1, mut s2) = (0.0, 0.0, 0.0);
+        let [mut s0, mut s1, mut s2] = [0.0; 3];
         for (j, y) in points.y.iter().enumerate() {
             let fx = forces(j).re;
             s0 += fx;
@@ -169,6 +200,14 @@ impl WallModes {
         }
         self.mean[0] += (c * h - 1.0) * s0;
         self.mean[1] -= c / h * s1;
+        if let Uncorrected::Box { reach } = self.uncorrected {
+            // The mean over x of a row, 1 - c |y|, less that of the box, c (H/6 - |y| + y^2/H).
+            let height = 2.0 * h + reach;
+            let bend = c / height;
+            self.mean[0] += (1.0 - c * height / 6.0) * s0 - bend * (2.0 * h * h * s0 - s2);
+            self.mean[1] += 2.0 * bend * s1;
+            self.mean[2] += bend * s0;
+        }
         if self.zero_flux {
             self.mean[2] -= 0.75 * c / (h * h * h) * s2;
         }
@@ -187,23 +226,47 @@ impl WallModes {
             let [xx, mixed, yy] = dipoles(j);
             (Complex64::new(xx - yy, mixed), xx + yy)
         });
-        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
-            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
-                let [plain, mixed] = Sums::of(sums, n);
-                slip.u -= I * (plain + mixed) * (2.0 * self.k);
-                slip.v += mixed * (2.0 * side * self.k);
-            }
-        }
+        let twice = 2.0 * self.k;
+        self.add_slips(|[plain, mixed], side, _| [-I * (plain + mixed) * twice, mixed * (side * twice)]);
         let (c, h) = (self.k, self.half);
-        let (mut shear, mut moment) = (0.0, 0.0);
+        let [mut shear, mut moment, mut lever, mut growth] = [0.0; 4];
         for (j, y) in points.y.iter().enumerate() {
             let [xx, mixed, yy] = dipoles(j);
             shear += mixed;
+            lever += y * mixed;
+            growth += y * (xx + yy);
             moment += y * mixed - x(j) * (xx + yy);
         }
         self.mean[1] -= c / h * shear;
+        if let Uncorrected::Box { reach } = self.uncorrected {
+            // The mean over x of a row, c sign(y), less that of the box, c (sign(y) - 2 y/H).
+            let slope = 2.0 * c / (2.0 * h + reach);
+            self.mean[0] -= slope * lever;
+            self.mean[1] += slope * shear;
+            self.rise -= slope * growth;
+        }
         if self.zero_flux {
             self.mean[2] += 1.5 * c / (h * h * h) * moment;
+        }
+    }
+
+    /// Adds the velocities at the walls, `slip(sums, side, mode)` being those by sums over sources on one side of it, 1
+    /// for those below.
+    fn add_slips(&mut self, slip: impl Fn([Complex64; 2], f64, f64) -> [Complex64; 2]) {
+        for (wall, side) in [(0, 1.0), (1, -1.0)] {
+            for n in 0..self.modes {
+                let [own, other] = self.sums_of(wall, n);
+                let mode = (n + 1) as f64;
+                let slips = &mut self.slips[wall][n];
+                let [u, v] = slip(own, side, mode);
+                slips.u += u;
+                slips.v += v;
+                if self.uncorrected != Uncorrected::Row {
+                    let [u, v] = slip(other, -side, mode);
+                    slips.u += u;
+                    slips.v += v;
+                }
+            }
         }
     }
 
@@ -238,7 +301,7 @@ impl WallModes {
     /// [`WallModes::begin`].
     pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
         for (i, y) in points.y.iter().enumerate() {
-            let (mut u, mut v) = (self.mean_velocity(*y), 0.0);
+            let (mut u, mut v) = (self.mean_velocity(*y), self.rise);
             for (side, sign) in [(0, 1.0), (1, -1.0)] {
                 let mut powers = points.sides[side][i];
                 let s = powers.distance;

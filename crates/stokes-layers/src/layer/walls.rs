@@ -11,7 +11,7 @@ use crate::{
     density::Density,
     greens::{
         Flow, Vectors,
-        walls::{WallModes, WallPoints},
+        walls::{Uncorrected, WallModes, WallPoints},
     },
     plan::Plan,
     transforms::REFINEMENT,
@@ -170,9 +170,15 @@ impl Walls {
     }
 
     /// Adds the contribution of the walls to the single layer of some curves.
-    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, out: &mut [Vectors]) {
+    pub(crate) fn add_forces(
+        &mut self,
+        curves: &[Curve],
+        from: Range<usize>,
+        uncorrected: Uncorrected,
+        out: &mut [Vectors],
+    ) {
         if !curves.is_empty() {
-            self.modes.begin(self.gap, self.gap, self.tolerance);
+            self.modes.begin(uncorrected, self.gap, self.gap, self.tolerance);
             self.put_forces(curves, from, self.refined, self.gap);
             self.add_modes(out);
         }
@@ -185,10 +191,10 @@ impl Walls {
         curves: &[Curve],
         density: Density<'_>,
         fine: &[Complex64],
-        accuracy: f64,
+        (uncorrected, accuracy): (Uncorrected, f64),
         out: &mut [Vectors],
     ) {
-        self.modes.begin(self.gap, self.gap, accuracy);
+        self.modes.begin(uncorrected, self.gap, self.gap, accuracy);
         self.put_dipoles(curves, density, self.refined.then_some(fine), self.gap, 1.0);
         self.add_modes(out);
     }
@@ -269,12 +275,12 @@ impl Walls {
         }
         self.load_fine(curves);
         if curves.is_empty() {
-            self.modes.begin(self.half, self.half, self.tolerance);
+            self.modes.begin(Uncorrected::Row, self.half, self.half, self.tolerance);
         } else {
             let spacing = curves.iter().map(Curve::spacing).fold(0.0, f64::max);
             let source_gap = self.fine.gap().max(LEAST_GAP * spacing);
             let target_gap = self.points.gap().min(self.half);
-            self.modes.begin(source_gap, target_gap, self.tolerance);
+            self.modes.begin(Uncorrected::Row, source_gap, target_gap, self.tolerance);
             self.put_forces(curves, 0..curves.len(), true, target_gap);
             if !density.vanishes() {
                 self.put_dipoles(curves, density, Some(fine), target_gap, -1.0);

@@ -9,7 +9,7 @@ impl WallModes {
     /// Flow of the correction at point i.
     pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> Flow {
         let y = points.y[i];
-        let mut velocity = Complex64::new(self.mean_velocity(y), 0.0);
+        let mut velocity = Complex64::new(self.mean_velocity(y), self.rise);
         // du/dx = -dv/dy, du/dy and dv/dx.
         let (mut ux, mut uy, mut vx) = (0.0, self.mean[1] - 2.0 * self.mean[2] * y, 0.0);
         let mut pressure = 0.0;

@@ -9,7 +9,7 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
     let mut to = from.clone();
     from.push(source[0], source[1]);
     to.push(target[0], target[1]);
-    modes.begin(from.gap(), to.gap(), 1e-15);
+    modes.begin(Uncorrected::Row, from.gap(), to.gap(), 1e-15);
     modes.add_forces(&from, to.gap(), |_| force);
     modes.solve();
     let walls = modes.flow(&to, 0);
@@ -27,7 +27,7 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
 fn modes_fall_with_both_distances() {
     let mut modes = WallModes::new(6.0, 1.0, false);
     let mut count = |source: f64, target: f64| {
-        modes.begin(source, target, 1e-12);
+        modes.begin(Uncorrected::Row, source, target, 1e-12);
         modes.modes
     };
     assert_eq!(count(0.5, 0.25), count(0.25, 0.5));
