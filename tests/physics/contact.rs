@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use motile::motile_base::Region;
 use motile::motile_base::Vec2;
 use motile::motile_scene::{MarkerBody, MarkerKind, Scene, StepSize, gap::Repulsion};
-use motile::setup::{AnyFlow, IntegralMethod, Method};
+use motile::setup::{AnyFlow, Built, DropletSetup, IntegralMethod, Method, Setup};
 use motile_tests::validation::scene::{flow, open_channel};
 
 const FORCE: f64 = 2.0;
@@ -97,4 +98,39 @@ fn a_repulsion_carries_what_presses() {
     };
     let errors = [64, 96].map(|nodes| at_rest(stiff(nodes, low + 0.01, 1e5)));
     assert!(errors.iter().all(|error| error.abs() < 2e-3), "{errors:?}");
+}
+
+/// Swimmers that collide head-on, held apart by a film as thick as the distance of their nodes, or one alone.
+fn collided(both: bool, repulsion: Repulsion) -> Built {
+    let places = [(-1.4, 0.0), (1.4, PI)].into_iter().take(if both { 2 } else { 1 });
+    let droplet = |(x, angle): (f64, f64)| DropletSetup { centre: [x, 0.0], angle, ..DropletSetup::active(-2.0) };
+    let method = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    let droplets = places.map(droplet).collect();
+    let setup = Setup { region: Region::Plane, method, droplets, repulsion: Some(repulsion), ..Setup::default() };
+    let mut built = setup.build().expect("a scene");
+    built.scene.run(12.0).go().expect("a run through the collision");
+    built
+}
+
+#[test]
+fn a_film_that_nodes_resolve_holds_without_more_steps() {
+    let film = TAU / 32.0;
+    let repulsion = Repulsion::holding(film, 210.0).expect("a repulsion");
+    let alone = collided(false, repulsion).scene.steps();
+    let Built { mut scene, droplets, .. } = collided(true, repulsion);
+    // They have come as close as they are held, and no closer at any time.
+    let gap = scene.system().gap(droplets[0], droplets[1]).expect("handles").expect("a gap");
+    let least = scene.system().minimum_gap().expect("a gap");
+    assert!(gap < 2.0 * film && least > 0.3 * film, "{gap} {least}");
+    assert!(scene.steps() < 2 * alone, "{} {alone}", scene.steps());
+    assert_eq!(scene.step_report().rejections + scene.step_report().failures, 0);
+    // What it transmits is what pushes them together, along their line.
+    let load = scene.system_mut().repulsion_load().expect("a flow").expect("a repulsion");
+    let [[along, aside], [_, across]] = load.virial;
+    assert!(along > 0.0 && aside.abs() < 1e-6 * along && across.abs() < along, "{load:?}");
+    for droplet in droplets {
+        let state = scene.observe(droplet).expect("a state");
+        let change = state.area / scene.body(droplet).expect("a handle").initial_area() - 1.0;
+        assert!(change.abs() < 1e-4, "{change:e}");
+    }
 }

@@ -38,7 +38,7 @@ pub enum CrowdColour {
 
 /// Droplets of a scene at one time.
 ///
-/// A picture of a thousand droplets takes less than a second: the flow is not computed at any further point.
+/// The flow is computed at their markers, where it is known in a run, and at no further point.
 ///
 /// ```
 /// use motile::prelude::*;
