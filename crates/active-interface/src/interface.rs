@@ -305,7 +305,12 @@ impl ActiveInterface {
                     *relaxation = factor * motion_rate(geometry, velocities);
                 }
                 match self.scheme.spectral.as_mut() {
-                    Some(curve) => curve.equidistribute(geometry, velocities, *relaxation, motions, slip),
+                    Some(curve) => {
+                        // Where no mode is truncated, a translation would alias.
+                        let mean = || velocities.iter().sum::<Vec2>() / count as f64;
+                        let carried = if self.scheme.band.is_none() { mean() } else { Vec2::ZERO };
+                        curve.equidistribute(geometry, velocities, carried, *relaxation, motions, slip);
+                    }
                     None => equidistribute(geometry, velocities, *relaxation, motions, slip),
                 }
             }

@@ -124,18 +124,18 @@ pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
     square.sqrt() * std::f64::consts::TAU / geometry.perimeter
 }
 
-/// Writes the normal parts of `velocities` to `motion`, less the mean normal velocity over the weights, so that the
-/// area or volume enclosed stays.
-pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], motion: &mut [Vec2]) {
+/// Writes the normal parts of `velocities` relative to `carried` (length per time) to `motion`, less the mean normal
+/// velocity over the weights, so that the area or volume enclosed stays.
+pub(super) fn write_normal_motion(geometry: &Geometry, velocities: &[Vec2], carried: Vec2, motion: &mut [Vec2]) {
     let (mut flux, mut total) = (0.0, 0.0);
     for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(geometry.all_weights()) {
-        flux += u.dot(outward(*tau)) * w;
+        flux += (*u - carried).dot(outward(*tau)) * w;
         total += w;
     }
     let mean = flux / total;
     for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion) {
         let normal = outward(*tau);
-        *out = (u.dot(normal) - mean) * normal;
+        *out = ((*u - carried).dot(normal) - mean) * normal;
     }
 }
 
@@ -171,7 +171,7 @@ pub(crate) fn equidistribute(
     slip: &mut [f64],
 ) {
     let count = velocities.len();
-    write_normal_motion(geometry, velocities, motion);
+    write_normal_motion(geometry, velocities, Vec2::ZERO, motion);
     let tangential: f64 = velocities.iter().zip(&geometry.tangents).map(|(u, tau)| u.dot(*tau)).sum();
     let stretching = |motion: &[Vec2], k: usize| {
         (motion[if k + 1 == count { 0 } else { k + 1 }] - motion[k]).dot(geometry.directions[k])

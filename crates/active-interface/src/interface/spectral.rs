@@ -161,17 +161,22 @@ impl SpectralCurve {
 
     /// Velocities of equally spaced markers as in [`super::geometry::equidistribute`], with derivatives and integrals
     /// along the smooth curve.
+    ///
+    /// A translation by `carried` (length per time) is left out of them, and added to the motion: it would be the same
+    /// in exact arithmetic, but the products of its parts with normals and tangents alias where nothing truncates them.
     pub(crate) fn equidistribute(
         &mut self,
         geometry: &Geometry,
         velocities: &[Vec2],
+        carried: Vec2,
         relaxation: f64,
         motion: &mut [Vec2],
         slip: &mut [f64],
     ) {
         let count = self.len() as f64;
-        write_normal_motion(geometry, velocities, motion);
-        let mean: f64 = velocities.iter().zip(&geometry.tangents).map(|(u, tau)| u.dot(*tau) / count).sum();
+        write_normal_motion(geometry, velocities, carried, motion);
+        let tangential = velocities.iter().zip(&geometry.tangents).map(|(u, tau)| (*u - carried).dot(*tau) / count);
+        let mean: f64 = tangential.sum();
         let _ = self.vectors.analyse_vectors(motion);
         self.vectors.differentiate();
         // dW/dalpha up to its mean, which the integration leaves out.
@@ -181,6 +186,12 @@ impl SpectralCurve {
         self.numbers.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { 1.0 / Complex64::new(0.0, wave) });
         let integral = self.numbers.values();
         add_tangential_motion(geometry, velocities, motion, slip, |k, _| integral[k].re + mean);
+        if carried != Vec2::ZERO {
+            for ((motion, slip), tau) in motion.iter_mut().zip(slip).zip(&geometry.tangents) {
+                *motion += carried;
+                *slip -= carried.dot(*tau);
+            }
+        }
     }
 }
 

@@ -46,7 +46,7 @@ fn motion_keeps_spacing_and_area() {
     spectral.update(&markers, 0.0, &mut geometry);
     let velocities: Vec<Vec2> = markers.iter().map(|x| Vec2::new(x.y + 0.2 * x.x * x.x, 0.3 * x.x - x.y)).collect();
     let (mut motion, mut slip) = (vec![Vec2::ZERO; 128], vec![0.0; 128]);
-    spectral.equidistribute(&geometry, &velocities, 0.0, &mut motion, &mut slip);
+    spectral.equidistribute(&geometry, &velocities, Vec2::ZERO, 0.0, &mut motion, &mut slip);
     let area: f64 = (0..128).map(|k| motion[k].dot(outward(geometry.tangents[k])) * geometry.weights[k]).sum();
     assert!(area.abs() < 1e-13);
     let step = 1e-5;
@@ -56,4 +56,18 @@ fn motion_keeps_spacing_and_area() {
     let rates: Vec<f64> = after.lengths.iter().zip(&geometry.lengths).map(|(a, b)| (a - b) / step).collect();
     let mean = rates.iter().sum::<f64>() / 128.0;
     assert!(rates.iter().all(|rate| (rate - mean).abs() < 1e-6), "{mean}");
+}
+
+/// A translation moves all markers alike, on however few markers, and nothing slips along them.
+#[test]
+fn translation_is_exact() {
+    let markers = Curve::fourier(1.0, &[0.0, 0.3, 0.1], &[]).unwrap().markers(16).unwrap();
+    let mut geometry = Geometry::default();
+    let mut spectral = SpectralCurve::new(16).unwrap();
+    spectral.update(&markers, 0.0, &mut geometry);
+    let carried = Vec2::new(10.0, -3.0);
+    let (mut motion, mut slip) = (vec![Vec2::ZERO; 16], vec![0.0; 16]);
+    spectral.equidistribute(&geometry, &[carried; 16], carried, 0.0, &mut motion, &mut slip);
+    assert!(motion.iter().all(|motion| (*motion - carried).length() < 1e-14), "{motion:?}");
+    assert!(slip.iter().all(|slip| slip.abs() < 1e-14), "{slip:?}");
 }
