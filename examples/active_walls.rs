@@ -6,7 +6,7 @@
 //! rigid walls beyond them. Prints what was measured and writes to `out/active_walls/`:
 //!
 //! * `final.png`, a picture of the final state;
-//! * `trajectory.csv`, height, flux, modes of shape and concentration of both walls over time, `droplets.csv` the same
+//! * `interfaces.csv`, height, flux, modes of shape and concentration of both walls over time, `droplets.csv` the same
 //!   of the droplet, and `summary.json`, the results;
 //! * `vtk/`, files for ParaView.
 //!
@@ -16,13 +16,12 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{Motion, observables::PeriodicObservables};
+use motile::active_interface::Motion;
 use motile::motile_base::{Drive, Region};
-use motile::motile_scene::Every;
-use motile::setup::{Built, DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
+use motile::setup::{DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
 use motile_examples::{DropletFlags, MethodFlags, activity, pair, positive};
-use motile_output::run::{Job, OutputFlags, Summary};
-use motile_output::{DropletsCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot};
+use motile_output::Look;
+use motile_output::run::{OutputFlags, SceneRun};
 
 /// What is between the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -74,9 +73,6 @@ struct Flags {
     output: OutputFlags,
 }
 
-/// Rows of the tables and files for ParaView in a run.
-const ROWS: f64 = 1000.0;
-const FILES: f64 = 20.0;
 /// Relative amplitude of the perturbation of the particles.
 const PERTURBATION: f64 = 0.01;
 
@@ -86,61 +82,21 @@ fn main() -> ExitCode {
 
 fn simulate(flags: &Flags) -> Result<()> {
     let setup = scene(flags)?;
-    let Built { mut scene, droplets, interfaces, .. } = setup.build()?;
-    let before = [0, 1].map(|k| scene.observe(interfaces[k]));
-    let [lower, upper] = before;
-    let before = [lower?, upper?];
-
-    // The run, observed.
-    let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "active_walls")?;
-    let mut table = InterfacesCsv::create(job.directory.join("trajectory.csv"), scene.system_mut())?;
-    let path = job.directory.join("droplets.csv");
-    let mut of_droplet = (!droplets.is_empty()).then(|| DropletsCsv::create(path, scene.system_mut())).transpose()?;
-    let raster = Raster::of(scene.system(), 2.0 * flags.method.spacing(&setup))?;
-    let mut files = job.draws().then(|| ParaView::create(job.directory.join("vtk"), raster)).transpose()?;
-    let mut observers: Vec<motile_output::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut table)];
-    if let Some(table) = &mut of_droplet {
-        observers.push((Every::StepAfter(job.end / ROWS), table));
-    }
-    if let Some(files) = &mut files {
-        observers.push((Every::StepAfter(job.end / FILES), files));
-    }
-    job.go(&mut scene, observers)?;
+    let spacing = flags.method.spacing(&setup);
+    let mut run = SceneRun::new(setup.build()?, &setup, flags.method.time, &flags.output, "active_walls", spacing)?;
+    run.go()?;
 
     // The results, also of a run that broke off.
-    let mut summary = Summary::default();
-    for ((name, handle), start) in ["lower", "upper"].into_iter().zip(&interfaces).zip(&before) {
-        let seen = scene.observe(*handle)?;
-        put(&mut summary, name, &seen, start, &setup);
-    }
-    if let Some(table) = &of_droplet {
-        let rows = table.table();
-        let last = |name: &str| Ok::<_, anyhow::Error>(rows.curve("time", name)?.last().map(|row| row.1));
-        summary.put("droplet_speed", last("speed")?, "of its centroid, in the end (R0 per time)");
-        let track = rows.curve("time", "x")?;
-        let late = track.iter().find(|(time, _)| *time >= 0.5 * scene.time()).zip(track.last());
+    let mut summary = run.summary()?;
+    if let Some(table) = run.droplets() {
+        let track = table.table().curve("time", "x")?;
+        let late = track.iter().find(|(time, _)| *time >= 0.5 * run.scene.time()).zip(track.last());
         let mean = late.map(|(first, last)| (last.1 - first.1) / (last.0 - first.0));
         summary.put("droplet_speed_along", mean, "along the walls, mean over the second half (R0 per time)");
-        summary.put("droplet_height", last("y")?, "of its centroid, in the end (R0)");
     }
-    summary.put("minimum_gap", scene.system().minimum_gap(), "between interfaces, over the run (R0)");
-    summary.put("time", scene.time(), "simulated");
-    summary.put("steps", scene.steps(), "");
-    summary.put("evaluations", scene.system().work().evaluations, "of the flow");
-    summary.put("seconds", job.seconds, "of computation");
-    summary.put("warnings", job.warnings.clone(), "");
-    summary.put("failure", job.failure(), "if the run broke off");
-    let (draws, picture) = (job.draws(), job.directory.join("final.png"));
-    job.finish(&summary, || {
-        if draws {
-            let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
-            let seen = Snapshot::take(scene.system_mut(), raster)?;
-            let concentration = Some(Particles::default().concentration);
-            let caption = format!("wall activity {}, gap {}", flags.wall_activity, flags.gap).replace('-', "−");
-            Look { caption, concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
-        }
-        Ok(())
-    })
+    let concentration = Some(Particles::default().concentration);
+    let caption = format!("wall activity {}, gap {}", flags.wall_activity, flags.gap).replace('-', "−");
+    run.finish(&summary, &Look { caption, concentration, ..Look::default() })
 }
 
 /// The scene that the flags describe.
@@ -195,19 +151,4 @@ fn scene(flags: &Flags) -> Result<Setup> {
         "--gap {gap} is too small for a droplet of diameter 2: give more"
     );
     Ok(setup)
-}
-
-/// Results of a wall.
-fn put(summary: &mut Summary, name: &str, seen: &PeriodicObservables, start: &PeriodicObservables, setup: &Setup) {
-    let mut put = |key: &str, value: f64, about: &str| summary.put(&format!("{name}_{key}"), value, about);
-    put("height_change", seen.height - start.height, "of its mean height, since the start (R0)");
-    put("length", seen.length, "over a period (R0)");
-    put("particle_relative_change", seen.particle_number / start.particle_number - 1.0, "since the start");
-    let c0 = setup.interfaces[0].particles.map_or(1.0, |particles| particles.concentration);
-    let [most, least] = seen.concentration_range.unwrap_or([f64::NAN; 2]);
-    put("concentration_max", most / c0, "in c0");
-    put("concentration_min", least / c0, "in c0");
-    put("height_mode", seen.height_modes.amplitude(1), "amplitude of the longest wave (R0)");
-    put("concentration_mode", seen.concentration_modes.amplitude(1) / c0, "of the longest wave, in c0");
-    put("flux", seen.flux, "of particles along x (1/time)");
 }

@@ -19,7 +19,7 @@ use motile::active_interface::{
 };
 use motile::motile_base::Region;
 use motile::motile_base::Vec2;
-use motile::motile_scene::{Every, Handle, System};
+use motile::motile_scene::{Handle, System};
 use motile::setup::{AnyFlow, Built, DropletSetup, Particles};
 use motile_examples::{DropletFlags, MethodFlags, pair, positive};
 use motile_output::run::{Job, OutputFlags, Summary};
@@ -66,9 +66,6 @@ struct Flags {
     #[command(flatten)]
     output: OutputFlags,
 }
-
-/// Rows of the trajectory.
-const ROWS: f64 = 1000.0;
 
 fn main() -> ExitCode {
     motile_examples::run(meet)
@@ -130,8 +127,7 @@ fn meet(flags: &Flags) -> Result<()> {
         let row = look(system, droplets, sides)?;
         Ok(table.push_state(system, &row)?)
     };
-    let every = Every::StepAfter(job.end / ROWS);
-    job.go(&mut scene, vec![(every, &mut record)])?;
+    job.go(&mut scene, vec![(job.each_row(), &mut record)])?;
 
     // The results, also of a run that broke off.
     let [_, x1, y1, speed1, x2, y2, speed2, distance] = look(scene.system_mut(), droplets, sides)?;
@@ -152,12 +148,7 @@ fn meet(flags: &Flags) -> Result<()> {
         let change = polygon_moments(body.markers())?.area / body.initial_area() - 1.0;
         summary.put(name, change, "relative, since the start");
     }
-    summary.put("time", scene.time(), "simulated");
-    summary.put("steps", scene.steps(), "");
-    summary.put("evaluations", scene.system().work().evaluations, "of the flow");
-    summary.put("seconds", job.seconds, "of computation");
-    summary.put("warnings", job.warnings.clone(), "");
-    summary.put("failure", job.failure(), "if the run broke off");
+    job.put_cost(&mut summary, &scene);
     let (draws, picture) = (job.draws(), job.directory.join("final.png"));
     job.finish(&summary, || {
         if draws {

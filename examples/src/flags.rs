@@ -64,11 +64,27 @@ impl DropletFlags {
     /// Overrides the entries of a scene, those of droplets in its first one, and says so where there are others.
     ///
     /// # Errors
-    /// A seed of a start that is not random.
+    /// A seed of a start that is not random; flags of a droplet or of its particles where there are none.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         let common = self.viscosity.unwrap_or(setup.viscosity);
         setup.viscosity = self.viscosity_out.unwrap_or(common);
         let count = setup.droplets.len();
+        let particles = setup.droplets.first().map(|droplet| droplet.particles.is_some());
+        let of_particles = [
+            ("--activity", self.activity.is_some()),
+            ("--excluded-volume", self.excluded_volume.is_some()),
+            ("--initial", self.initial.is_some()),
+            ("--seed", self.seed.is_some()),
+        ];
+        let of_droplets = [("--viscosity-in", self.viscosity_in.is_some()), ("--angle", self.angle.is_some())];
+        for (flags, lacking, what) in [
+            (&of_particles[..], particles != Some(true), "no droplet with particles in the first place"),
+            (&of_droplets, particles.is_none(), "no droplet"),
+        ] {
+            if let Some((flag, _)) = flags.iter().find(|(_, given)| lacking && *given) {
+                bail!("{flag} means nothing in a scene that has {what}: leave it out");
+            }
+        }
         let Some(droplet) = setup.droplets.first_mut() else { return Ok(()) };
         let before = droplet.clone();
         let DropletSetup { particles, viscosity, angle, .. } = droplet;
@@ -114,14 +130,16 @@ impl BoxFlags {
     /// Overrides the entries of a scene.
     ///
     /// # Errors
-    /// A box that is unreasonably large.
+    /// A box that is unreasonably large, a place for a droplet that there is not.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         if let Some(side) = self.side {
             ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
             setup.region = Region::Box { lengths: [side, side] };
         }
-        if let (Some(offset), Some(droplet)) = (self.offset, setup.droplets.first_mut()) {
-            droplet.centre = offset;
+        match (self.offset, setup.droplets.first_mut()) {
+            (Some(offset), Some(droplet)) => droplet.centre = offset,
+            (Some(_), None) => bail!("--offset means nothing in a scene without droplets: leave it out"),
+            (None, _) => {}
         }
         self.impose(setup);
         Ok(())

@@ -14,14 +14,14 @@
 use std::f64::consts::PI;
 use std::process::ExitCode;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::ActiveDroplet;
 use motile::motile_base::Region;
-use motile::motile_scene::{Deformation, Every, Handle, System, integrator::IntegratorKind};
+use motile::motile_scene::{Deformation, Handle, System, integrator::IntegratorKind};
 use motile::setup::{AnyFlow, Built, DropletSetup, FlowSetup, IntegralMethod, Method, PoiseuilleSetup, Setup};
 use motile_examples::{pair, positive};
-use motile_output::run::{Job, OutputFlags, Summary, say};
+use motile_output::run::{CheckpointFlags, Job, OutputFlags, Summary, say};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
 use steady_states::SteadyState;
 
@@ -52,15 +52,15 @@ struct Flags {
     /// Sides of a periodic box, sheared; without it unbounded fluid
     #[arg(long = "box", value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     sides: Option<[f64; 2]>,
-    /// Half width of the Poiseuille flow
-    #[arg(long, default_value_t = 5.0, value_parser = positive, allow_hyphen_values = true)]
-    half_width: f64,
+    /// Half width of the Poiseuille flow [default: 5]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    half_width: Option<f64>,
     /// Place of the drop at the start [default: 0,0; in a Poiseuille flow 0,2]
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
     offset: Option<[f64; 2]>,
-    /// Time of the run
-    #[arg(long, default_value_t = 10.0, value_parser = positive, allow_hyphen_values = true)]
-    time: f64,
+    /// Time of the run [default: 10]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    time: Option<f64>,
     /// Nodes of the interface
     #[arg(long, default_value_t = 72)]
     nodes: usize,
@@ -71,8 +71,10 @@ struct Flags {
     output: OutputFlags,
 }
 
-/// Rows of the trajectory, and cells of the picture along a side.
-const ROWS: f64 = 1000.0;
+/// Half width of the Poiseuille flow and time of the run where none are given.
+const HALF_WIDTH: f64 = 5.0;
+const TIME: f64 = 10.0;
+/// Cells of the picture along a side.
 const CELLS: usize = 160;
 /// Side of the square that a picture of unbounded fluid shows.
 const VIEW: f64 = 8.0;
@@ -102,13 +104,36 @@ impl Flags {
         self.capillary_number.unwrap_or(if self.flow == FlowKind::Extension { 0.1 } else { 0.2 })
     }
 
+    /// Refuses flags without a meaning.
+    fn check(&self) -> Result<()> {
+        ensure!(
+            self.half_width.is_none() || self.flow == FlowKind::Poiseuille,
+            "--half-width is that of a Poiseuille flow: leave it out, or give --flow poiseuille"
+        );
+        let CheckpointFlags { checkpoint, resume, .. } = &self.output.checkpoints;
+        let of_runs = [
+            ("--offset", self.offset.is_some()),
+            ("--time", self.time.is_some()),
+            ("--rows", self.output.rows.is_some()),
+            ("--checkpoint", checkpoint.is_some()),
+            ("--resume", resume.is_some()),
+        ];
+        match of_runs.into_iter().find(|(_, given)| self.steady && *given) {
+            Some((flag, _)) => bail!(
+                "{flag} means nothing with --steady, which looks for a drop in the middle of the flow without a run: \
+                 leave one of them out"
+            ),
+            None => Ok(()),
+        }
+    }
+
     fn setup(&self) -> Result<Setup> {
         let mut flow = FlowSetup::default();
         match self.flow {
             FlowKind::Shear => flow.shear = 1.0,
             FlowKind::Extension => flow.extension = 1.0,
             FlowKind::Poiseuille => {
-                let half_width = self.half_width;
+                let half_width = self.half_width.unwrap_or(HALF_WIDTH);
                 flow.poiseuille = Some(PoiseuilleSetup { speed: 0.5 * half_width, half_width });
             }
         }
@@ -117,17 +142,14 @@ impl Flags {
             name: "drop".to_owned(),
             centre: self.offset.unwrap_or(usual),
             viscosity: Some(self.viscosity_ratio),
+            area_constraint: true,
             ..DropletSetup::passive(1.0 / self.capillary_number())
         };
-        ensure!(
-            !self.steady || self.offset.is_none(),
-            "--offset means nothing with --steady, which looks for a drop in the middle of the flow: leave it out"
-        );
+        self.check()?;
         let setup = Setup {
             region: self.sides.map_or(Region::Plane, |lengths| Region::Box { lengths }),
             viscosity: 1.0,
             flow,
-            // Products of modes alias on as many markers as nodes, which a drop carried along does not survive.
             method: Method::Integral(IntegralMethod { nodes: self.nodes, cells: (3 * self.nodes).div_ceil(2) }),
             integrator: IntegratorKind::RungeKutta,
             droplets: vec![drop],
@@ -181,15 +203,14 @@ fn steady(flags: &Flags, setup: &Setup) -> Result<()> {
 fn run(flags: &Flags, setup: &Setup) -> Result<()> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let drop = droplets[0];
-    let mut job = Job::new(&mut scene, setup, flags.time, &flags.output, "drop_in_shear")?;
+    let mut job = Job::new(&mut scene, setup, flags.time.unwrap_or(TIME), &flags.output, "drop_in_shear")?;
     let path = job.directory.join("trajectory.csv");
     let mut table = CsvTable::of_run(path, &COLUMNS, scene.system_mut(), "drop")?;
     let mut record = |system: &mut System<AnyFlow>| -> Result<()> {
         let row = look(system, drop)?;
         Ok(table.push_state(system, &row)?)
     };
-    let every = Every::StepAfter(job.end / ROWS);
-    job.go(&mut scene, vec![(every, &mut record)])?;
+    job.go(&mut scene, vec![(job.each_row(), &mut record)])?;
 
     // The results, also of a run that broke off.
     let seen = scene.system_mut().deformation(drop)?;
@@ -204,12 +225,7 @@ fn run(flags: &Flags, setup: &Setup) -> Result<()> {
         summary.put("strain", scene.system().hydrodynamics().strain(), "of the images of the box");
     }
     summary.put("area_change", seen.area / PI - 1.0, "relative, since the start");
-    summary.put("time", scene.time(), "simulated");
-    summary.put("steps", scene.steps(), "");
-    summary.put("evaluations", scene.system().work().evaluations, "of the flow");
-    summary.put("seconds", job.seconds, "of computation");
-    summary.put("warnings", job.warnings.clone(), "");
-    summary.put("failure", job.failure(), "if the run broke off");
+    job.put_cost(&mut summary, &scene);
     let (draws, picture) = (job.draws(), job.directory.join("final.png"));
     job.finish(&summary, || {
         if draws {

@@ -76,7 +76,7 @@ pub enum InterfaceError {
     /// Points whose distances are too uneven.
     #[error(
         "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \
-         them evenly, for instance by Curve::through_points"
+         them evenly"
     )]
     UnevenSpacing {
         /// Longest over shortest distance.

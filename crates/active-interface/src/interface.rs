@@ -223,7 +223,7 @@ impl ActiveInterface {
             self.scheme.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
             self.scheme.other.markers.clear();
             self.update();
-            if self.state.shape.advance != 0.0 {
+            if self.state.shape.advance != 0.0 || self.keeps_smooth_area() {
                 // Another measure of the same area.
                 self.account.area = self.area();
             }

@@ -3,6 +3,7 @@
 //! | for | there are |
 //! |---|---|
 //! | one droplet with all its observables | [`WatchedRun`] |
+//! | any droplets and interfaces | [`SceneRun`] |
 //! | any scene | [`Job`], with observers of your own |
 //! | results | [`Summary`] (`summary.json` and a table), [`write_results`] of many |
 //! | settings, as flags of a command line | [`OutputFlags`], [`CheckpointFlags`] |
@@ -12,6 +13,7 @@
 mod flags;
 mod job;
 mod places;
+mod scene_run;
 mod steady;
 mod summary;
 mod watched_run;
@@ -19,6 +21,7 @@ mod words;
 
 pub use flags::{CheckpointFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
+pub use scene_run::SceneRun;
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory, write_results};
 pub use watched_run::{View, WatchedRun};

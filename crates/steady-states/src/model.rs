@@ -17,6 +17,9 @@ use crate::{Profile, SteadyError};
 /// Relative accuracy to which the flow is solved for, near round-off, so that differences of rates keep their digits.
 pub(crate) const TOLERANCE: f64 = 1e-13;
 
+/// Capillary number below which the deformation is round-off.
+const LEAST_CAPILLARY: f64 = 1e-7;
+
 /// Velocity over D/R that counts as none: far above round-off, which the tension over D times the viscosity magnifies.
 const NO_FLOW: f64 = 1e-8;
 
@@ -136,8 +139,9 @@ impl Model {
         };
         if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
             return refuse(
-                "the scene has a shell or an interface that is periodic along x, whose points go on moving along it",
-                "run it until its deformation no longer changes (System::deformation)",
+                "shells and interfaces that are periodic along x go on moving along themselves, so that no state of \
+                 theirs is found here",
+                "run the scene until its deformation no longer changes (System::deformation)",
             );
         }
         let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
@@ -191,6 +195,16 @@ impl Model {
                 let relaxation = tension / ((viscosities[0] + viscosities[1]) * radius);
                 let rate = relaxation.max(imposed.rate());
                 motile_base::positive("the rate at which the droplet relaxes or is deformed", rate)?;
+                // The rate of strain, that of a Poiseuille flow a radius from its middle.
+                let [[along, up], [down, _]] = imposed.gradient;
+                let strain = along.abs().max((up + down).abs()).max(imposed.bend.abs() * radius);
+                let capillary = strain * setup.viscosity * radius / tension;
+                if capillary > 0.0 && capillary < LEAST_CAPILLARY {
+                    let what = format!("the capillary number is {capillary:.1e}");
+                    let remedy = "the deformation is lost in round-off: give at least 1e-7, or take D from the first \
+                                  order, once the capillary number in shear and twice in extension";
+                    return Err(SteadyError::Unsupported { what, remedy });
+                }
                 (ContractileTension::new(*tension, 0.0, ExcludedVolume::None)?, [0.0, 0.0, rate])
             }
         };

@@ -3,15 +3,13 @@
 use motile_base::{InputError, Region, boxes::Periods, within};
 use num_complex::Complex64;
 
-/// Largest ratio of the periods of a box: the rows of images of a pair of nodes grow in proportion to it, to 60 at a
-/// tolerance of 1e-8.
-const LARGEST_RATIO: f64 = 20.0;
+use crate::Settings;
 
 /// Refuses regions of bad numbers, and boxes that are too slender.
 pub(crate) fn check(region: &Region) -> Result<(), InputError> {
     region.check()?;
     if let Region::Box { lengths: [lx, ly] } = *region {
-        within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, LARGEST_RATIO)?;
+        within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, Settings::LARGEST_PERIOD_RATIO)?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Warning, checkpoint::SavedState, points,
 };
 
-use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, geometry::Geometry};
+use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, geometry::Geometry, geometry::outward};
 use crate::{InterfaceError, concentration::Repair, curve::polygon::raw_area};
 
 /// Multiples of the mean concentration at which the tension is compared to tell one law from another.
@@ -235,18 +235,29 @@ impl ActiveInterface {
         self.check_bounds(elsewhere)
     }
 
-    /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, else of the
-    /// curve through the markers; volume of a body of revolution (length cubed).
+    /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, unless that
+    /// of the smooth curve is held, else of the curve through the markers; volume of a body of revolution (length cubed).
     pub(crate) fn area(&self) -> f64 {
         if self.state.shape.of_revolution {
             return self.geometry().volume(self.markers());
         }
-        if self.advance() == 0.0 {
-            return raw_area(self.markers());
-        }
         let Geometry { tangents, weights, .. } = self.geometry();
+        if self.advance() == 0.0 {
+            if !self.keeps_smooth_area() {
+                return raw_area(self.markers());
+            }
+            let first = self.markers()[0];
+            let sectors = self.markers().iter().zip(tangents).zip(weights);
+            return 0.5 * sectors.map(|((x, tau), weight)| weight * (*x - first).dot(outward(*tau))).sum::<f64>();
+        }
         let columns = self.markers().iter().zip(tangents).zip(weights);
         -columns.map(|((marker, tangent), weight)| marker.y * tangent.x * weight).sum::<f64>()
+    }
+
+    /// True for a closed smooth curve whose area is restored after each step: that of the polygon through as many
+    /// markers changes with the shape.
+    pub(super) fn keeps_smooth_area(&self) -> bool {
+        self.law.keeps_area && self.scheme.spectral.is_some() && self.advance() == 0.0
     }
 
     /// Checks that area and particles are conserved, and that no tension law without a plateau has gathered the

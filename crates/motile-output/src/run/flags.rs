@@ -15,11 +15,12 @@ use super::summary::make_directory;
 const EVERY: usize = 500;
 
 /// Files that runs leave in their directory.
-const RESULTS: [&str; 10] = [
+const RESULTS: [&str; 11] = [
     "summary.json",
     "summary.json.part",
     "trajectory.csv",
     "droplets.csv",
+    "interfaces.csv",
     "final.png",
     "swim.gif",
     "time_series.svg",
@@ -44,7 +45,8 @@ pub struct CheckpointFlags {
     #[arg(long, value_name = "STEPS", value_parser = steps, requires = "checkpoint", allow_hyphen_values = true)]
     pub checkpoint_every: Option<usize>,
     /// Checkpoint to go on from; give the flags of the run that saved it. Results are those of the whole run, the
-    /// animation shows what follows
+    /// animation shows what follows. Bit by bit they are those of a run without a break, but after the end of a run
+    /// with a shorter --time, whose last steps are shorter
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
 }

@@ -12,6 +12,8 @@ use motile::setup::{AnyFlow, Setup};
 
 /// Most steps of a run: more would take weeks.
 const MOST_STEPS: f64 = 1e9;
+/// Rows of tables in a run.
+const ROWS: u32 = 1000;
 /// Name of the record of the computing time.
 const CLOCK: &str = "seconds of computation";
 
@@ -83,9 +85,15 @@ impl Job {
         !self.output.no_pictures
     }
 
-    /// Most rows of tables that were asked for.
-    pub(super) fn rows(&self) -> Option<u32> {
-        self.output.rows
+    /// Times of the rows of tables: as many over the run as were asked for, else 1000.
+    #[must_use]
+    pub fn each_row(&self) -> Every {
+        self.each(f64::from(self.output.rows.unwrap_or(ROWS)))
+    }
+
+    /// So many equal times over the run.
+    pub(super) fn each(&self, count: f64) -> Every {
+        Every::StepAfter(self.end / count)
     }
 
     /// Runs to the end, to an observer's error [`Decided`], or to a failure.
@@ -136,6 +144,39 @@ impl Job {
     #[must_use]
     pub fn failure(&self) -> Option<String> {
         self.outcome.as_ref().err().map(SceneError::explanation)
+    }
+
+    /// Adds what the run has cost to a summary: steps and their lengths, evaluations of the flow, computing time; its
+    /// warnings, and its failure if it failed.
+    pub fn put_cost(&self, summary: &mut Summary, scene: &Scene<AnyFlow>) {
+        summary.put("time", scene.time(), "simulated");
+        summary.put("steps", scene.steps(), "");
+        summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
+        let report = scene.step_report();
+        summary.put("dt_shortest", report.shortest, "");
+        summary.put("dt_longest", report.longest, "");
+        let limiting = report.most_limiting().map(|limiting| match limiting.body.as_str() {
+            "" => limiting.reason.clone(),
+            body => format!("{} of {body}", limiting.reason),
+        });
+        summary.put("dt_set_by", limiting, "for most steps");
+        summary.put("step_error", report.largest_error, "largest estimate of a step's, in parts of R0 and of c0");
+        summary.put("steps_rejected", report.rejections, "for their error");
+        summary.put("steps_failed", report.failures, "and retried");
+        summary.put("stages", scene.integrator_work().stages, "of all steps");
+        let work = scene.system().work();
+        summary.put("evaluations", work.evaluations, "of the flow");
+        summary.put("stokes_solves", work.stokes_solves, "on the grid");
+        let mean = work.iterations as f64 / work.evaluations.max(1) as f64;
+        summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
+        summary.put("solver_iterations_max", work.most_iterations, "");
+        summary.put("seconds", self.seconds, "of computation");
+        summary.put("warnings", self.warnings.clone(), "");
+        let failure = self.failure();
+        summary.put("finished", failure.is_none(), "");
+        if let Some(failure) = failure {
+            summary.put("failure", failure, "");
+        }
     }
 
     /// Writes `summary.json`, prints its table, calls `pictures` to draw, and returns the outcome of the run.

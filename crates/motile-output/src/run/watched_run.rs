@@ -5,29 +5,24 @@ mod results;
 use anyhow::{Context, Result, bail};
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
-use motile::motile_base::Region;
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
 use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Numbers, Particles, Setup};
 
+use super::scene_run::view as view_of;
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
 use crate::plot::{concentration_plot, time_series};
 use crate::{CsvTable, DropletsCsv, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
-/// Rows of the trajectory and files for ParaView in a run.
-const ROWS: u32 = 1000;
+/// Files for ParaView in a run.
 const FILES: f64 = 20.0;
 /// Time between the frames of the animation, and the smallest and largest number of frames.
 const FRAME_INTERVAL: f64 = 1.2;
 const FRAMES: [f64; 2] = [50.0, 150.0];
-/// Most cells in a direction of the fields in pictures and files.
-const MOST_CELLS: usize = 512;
 /// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
 const COARSER: f64 = 2.0;
 /// Depth to which a droplet may enter an elastic solid before its run ends with an error (grid spacings).
 const SOLID_OVERLAP: f64 = 0.25;
-/// Side of the square that pictures show of unbounded fluid (R0).
-const VIEW: f64 = 12.0;
 /// Distance of streamlines (R0).
 const STREAMLINES: f64 = 0.24;
 
@@ -90,21 +85,7 @@ impl WatchedRun {
         let area = body.initial_area();
         let numbers = setup.numbers(&setup.droplets[0])?;
         let job = Job::new(&mut scene, described, end, output, name)?;
-        let raster = |spacing: f64| match setup.region {
-            Region::Tube { radius, .. } => {
-                let half = setup.region.half_length().map_or(0.5 * VIEW.max(4.0 * radius), |half| half);
-                let [_, height] = setup.region.lengths();
-                let (middle, sides) =
-                    (if setup.region.half_length().is_some() { 0.0 } else { x }, [2.0 * half, height]);
-                let cells = sides.map(|side| ((side / spacing).round() as usize).clamp(1, MOST_CELLS));
-                Raster::new([middle - half, -0.5 * height], sides, cells, [false; 2])
-            }
-            Region::Plane | Region::Space => {
-                let cells = (VIEW / spacing).round() as usize;
-                Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
-            }
-            _ => Raster::of(scene.system(), spacing),
-        };
+        let raster = |spacing: f64| view_of(setup.region, &scene, Vec2::new(x, y), spacing);
         let (method, spacing) = (setup.method.kind(), view.spacing);
         let watched = raster(if method != MethodKind::Integral { spacing } else { COARSER * spacing })?;
         let still = raster(spacing)?;
@@ -146,7 +127,7 @@ impl WatchedRun {
     /// Files that cannot be written. The failure of the run itself is returned by [`WatchedRun::finish`].
     pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
         let time = self.job.end;
-        let row = Every::StepAfter(time / f64::from(self.job.rows().unwrap_or(ROWS)));
+        let row = self.job.each_row();
         let mut observers: Vec<Watch<'_>> = vec![(row, &mut self.recorder), (Every::Steps(1), &mut self.gap)];
         if let Some(table) = &mut self.droplets {
             observers.push((row, table));
@@ -157,7 +138,7 @@ impl WatchedRun {
         if let Some((_, film, vtk)) = &mut self.pictures {
             let frames = (time / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             observers.push((Every::StepAfter(time / frames), film));
-            observers.push((Every::StepAfter(time / FILES), vtk));
+            observers.push((self.job.each(FILES), vtk));
         }
         self.job.go(&mut self.scene, observers)?;
         if self.job.is_stopped() {

@@ -124,7 +124,9 @@ impl Setup {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let markers = self.outline(&curve, self.marker_count(&curve, &droplet.name)?)?;
+        // The energy of bending is no polynomial of the shape either.
+        let count = if droplet.bending > 0.0 { Self::membrane_count } else { Self::marker_count };
+        let markers = self.outline(&curve, count(self, &curve, &droplet.name)?)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {

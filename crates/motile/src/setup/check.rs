@@ -1,6 +1,7 @@
 //! Checks of descriptions before any work.
 
 use active_interface::Motion;
+use boundary_integral::Settings;
 use ib_core::AnyKernel;
 use motile_base::{Drive, Region, TubeShape};
 use motile_scene::{StepSize, integrator::IntegratorKind};
@@ -32,6 +33,7 @@ impl Setup {
             Region::Box { lengths } => {
                 top.length("region.box.lengths[0]", lengths[0])?;
                 top.length("region.box.lengths[1]", lengths[1])?;
+                self.check_sides(lengths)?;
             }
             Region::Channel { length, width, drive } => {
                 top.length("region.channel.length", length)?;
@@ -91,6 +93,17 @@ impl Setup {
             wall.check(&format!("walls[{number}]"), self)?;
         }
         self.check_correction()
+    }
+
+    /// Refuses a box that is too narrow for the sums over its images.
+    fn check_sides(&self, [x, y]: [f64; 2]) -> Result<(), SetupError> {
+        let most = Settings::LARGEST_PERIOD_RATIO;
+        if self.method.kind() != MethodKind::Integral || x.max(y) <= most * x.min(y) {
+            return Ok(());
+        }
+        let (key, value) = if x < y { ("lengths[0]", x) } else { ("lengths[1]", y) };
+        let remedy = format!("it is less than a {most:.0}th of the other one: give a box that is less narrow");
+        Checked { place: "region.box" }.refuse(key, &value, remedy)
     }
 
     /// Refuses a tube whose wall, drive or length cannot be.

@@ -5,6 +5,15 @@ use crate::SetupError;
 /// Lengths of a region.
 const LENGTHS: [f64; 2] = [1e-100, 1e100];
 
+/// Most characters of a number that is told as it was given.
+const MOST_DIGITS: usize = 20;
+
+/// A number as it was given, but not with hundreds of digits.
+pub(super) fn short(value: f64) -> String {
+    let text = value.to_string();
+    if text.len() > MOST_DIGITS { format!("{value:e}") } else { text }
+}
+
 /// Values with their place in the description.
 pub(super) struct Checked<'a> {
     pub(super) place: &'a str,
@@ -18,7 +27,9 @@ impl Checked<'_> {
         remedy: impl Into<String>,
     ) -> Result<T, SetupError> {
         let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
-        Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
+        let text = value.to_string();
+        let value = text.parse().map_or(text, short);
+        Err(SetupError::Value { key, value, remedy: remedy.into() })
     }
 
     pub(super) fn require(&self, holds: bool, key: &str, value: f64, remedy: &str) -> Result<(), SetupError> {
@@ -33,12 +44,7 @@ impl Checked<'_> {
     pub(super) fn length(&self, key: &str, value: f64) -> Result<(), SetupError> {
         let [least, most] = LENGTHS;
         let remedy = format!("give a number from {least:e} to {most:e}, or the region plane where nothing is near");
-        if (least..=most).contains(&value) {
-            return Ok(());
-        }
-        // Not with hundreds of digits.
-        let text = if value.abs() > 1e9 || value.abs() < 1e-9 { format!("{value:e}") } else { value.to_string() };
-        self.refuse(key, &text, remedy)
+        self.require((least..=most).contains(&value), key, value, &remedy)
     }
 
     pub(super) fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {

@@ -4,7 +4,10 @@ use motile_base::{ImposedFlow, Region};
 use motile_scene::FlowError;
 use serde::{Deserialize, Serialize};
 
-use super::{Setup, checked::Checked};
+use super::{
+    Setup,
+    checked::{Checked, short},
+};
 use crate::SetupError;
 
 /// A flow that is imposed from outside, the sum of its parts: linear flows and a Poiseuille flow in the plane, a shear
@@ -91,6 +94,8 @@ impl FlowSetup {
         if let Some(PoiseuilleSetup { speed, half_width }) = self.poiseuille {
             checked.finite("poiseuille.speed", speed)?;
             checked.positive("poiseuille.half-width", half_width)?;
+            let finite = (speed / half_width / half_width).is_finite();
+            checked.require(finite, "poiseuille.half-width", half_width, "its curvature is not finite: give more")?;
         }
         for (number, velocity) in self.wall_velocity.into_iter().flatten().enumerate() {
             checked.finite(&format!("wall-velocity[{number}]"), velocity)?;
@@ -120,14 +125,15 @@ impl FlowSetup {
                 if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
                     let slide = 0.5 * value * width;
                     let remedy = if key == "shear" {
-                        format!("the walls of a channel hold it fast: give wall-velocity = [{}, {slide}]", -slide)
+                        let [below, above] = [-slide, slide].map(short);
+                        format!("the walls of a channel hold it fast: give wall-velocity = [{below}, {above}]")
                     } else {
                         "a channel with straight walls has none: give the region \"plane\"".to_owned()
                     };
                     return checked.refuse(key, &value, remedy);
                 }
                 if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
-                    let flux = 2.0 / 3.0 * speed * width;
+                    let flux = short(2.0 / 3.0 * speed * width);
                     let remedy = format!("give region.channel.drive = {{ flux = {flux} }} in its place");
                     return checked.refuse("poiseuille.speed", &speed, remedy);
                 }

@@ -9,6 +9,8 @@ use motile_scene::{
 use super::{AnyFlow, DropletSetup, DropletShape, Particles, Setup, body::Planned};
 use crate::SetupError;
 
+/// Part of a period that a body may fill: beyond it, but for round-off, it touches its own image.
+const APART: f64 = 1.0 - 1e-6;
 /// Ratio of a radius to that of the defaults from which the units are likely to be others.
 const MIXED: f64 = 3.0;
 
@@ -64,8 +66,8 @@ impl Setup {
                 let fits = |corner: &Vec2| corner.y.abs() <= shape.radius(radius, half, corner.x) + slack;
                 low.x > -half && high.x < half && corners.iter().all(fits)
             }
-            Region::Box { .. } => extent.x < length && extent.y < width,
-            Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
+            Region::Box { .. } => extent.x < APART * length && extent.y < APART * width,
+            Region::Channel { .. } => extent.x < APART * length && high.y.max(-low.y) <= 0.5 * width + slack,
         };
         if fits {
             return Ok(());

@@ -38,7 +38,7 @@ impl WatchedRun {
             summary.put("viscosity_ratio", numbers.viscosity_ratio, "eta_in/eta_ext");
         }
         self.put_droplet(&mut summary, &self.last()?.observables)?;
-        self.put_cost(&mut summary);
+        self.job.put_cost(&mut summary, &self.scene);
         summary.put("method", self.method.name(), "for the flow");
         if let Some(values) = self.recorder.last_solids() {
             for ((name, value), about) in SolidMeter::NAMES.iter().zip(values).zip(SOLIDS) {
@@ -133,37 +133,5 @@ impl WatchedRun {
         let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
         summary.put("steady", steady.json(), steady.criterion());
         Ok(())
-    }
-
-    fn put_cost(&self, summary: &mut Summary) {
-        let scene = &self.scene;
-        summary.put("time", scene.time(), "simulated");
-        summary.put("steps", scene.steps(), "");
-        summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
-        let report = scene.step_report();
-        summary.put("dt_shortest", report.shortest, "");
-        summary.put("dt_longest", report.longest, "");
-        let limiting = report.most_limiting().map(|limiting| match limiting.body.as_str() {
-            "" => limiting.reason.clone(),
-            body => format!("{} of {body}", limiting.reason),
-        });
-        summary.put("dt_set_by", limiting, "for most steps");
-        summary.put("step_error", report.largest_error, "largest estimate of a step's, in parts of R0 and of c0");
-        summary.put("steps_rejected", report.rejections, "for their error");
-        summary.put("steps_failed", report.failures, "and retried");
-        summary.put("stages", scene.integrator_work().stages, "of all steps");
-        let work = scene.system().work();
-        summary.put("evaluations", work.evaluations, "of the flow");
-        summary.put("stokes_solves", work.stokes_solves, "on the grid");
-        let mean = work.iterations as f64 / work.evaluations.max(1) as f64;
-        summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
-        summary.put("solver_iterations_max", work.most_iterations, "");
-        summary.put("seconds", self.job.seconds, "of computation");
-        summary.put("warnings", self.job.warnings.clone(), "");
-        let failure = self.job.failure();
-        summary.put("finished", failure.is_none(), "");
-        if let Some(failure) = failure {
-            summary.put("failure", failure, "");
-        }
     }
 }
