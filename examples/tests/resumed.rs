@@ -179,3 +179,23 @@ fn cores_that_are_none_are_refused() {
     refused("nucleus", "--core-offset 3,0", &["--core-offset 3,0", "shorter than 0.5000"]);
     refused("nucleus", "--core shell --core-offset 0.4,-0.4", &["out of the droplet", "shorter than 0.5000"]);
 }
+
+/// Scenes of drops and interfaces without a swimmer are written to files that run.
+#[test]
+fn scenes_without_swimmers_run_from_their_files() {
+    let directory = std::env::temp_dir().join(format!("motile-scenes-{}", std::process::id()));
+    fs::create_dir_all(&directory).expect("a directory");
+    let file = directory.join("walls.toml");
+    let name = file.to_str().expect("a path");
+    for flags in ["--nodes 32 --droplet none", "--nodes 32 --gap 2.5 --droplet passive"] {
+        let flags: Vec<&str> = flags.split(' ').chain(["--time", "0.2", "--no-pictures"]).collect();
+        let out = ["written", "read"].map(|name| directory.join(name));
+        let written = start("active_walls", &[flags.as_slice(), &["--write-scene", name]].concat(), &out[0]);
+        assert!(finish(written).success());
+        let read = start("swimming_droplet", &["--scene", name, "--time", "0.2", "--no-pictures"], &out[1]);
+        assert!(finish(read).success());
+        let [one, other] = out.map(|out| fs::read_to_string(out.join("interfaces.csv")).expect("a table"));
+        assert!(one.lines().count() > 4 && one == other);
+    }
+    fs::remove_dir_all(&directory).expect("a directory that can go");
+}

@@ -89,6 +89,22 @@ fn drops_deform_alike_wherever_they_are() {
     }
 }
 
+/// The area that long steps lose is restored, that of the smooth curve, and the deformation is none the worse.
+#[test]
+fn restored_areas_are_those_of_the_smooth_curve() {
+    let at = |area_constraint: bool, step: StepSize| {
+        let mut setup = drop_by_runge_kutta(SHEAR, 8.0, 0.4, 72, 0.1);
+        setup.droplets[0].area_constraint = area_constraint;
+        deformed(&Setup { step, ..setup }, 10.0).0
+    };
+    let [free, held] = [false, true].map(|held| at(held, StepSize::default()));
+    let fine = at(false, StepSize::Fixed(0.02));
+    let lost = |seen: &Deformation| (seen.area / PI - 1.0).abs();
+    assert!(lost(&held) < 1e-13 && lost(&free) > 1e-5, "{:e} {:e}", lost(&held), lost(&free));
+    let [with, without] = [held, free].map(|seen| (seen.by_moments / fine.by_moments - 1.0).abs());
+    assert!(with < 2.0 * without && with < 1e-4, "{with:e} {without:e}");
+}
+
 /// A bubble, of a millionth of the viscosity outside, stays an ellipse of known axes, in time too.
 #[test]
 fn inviscid_bubbles_are_ellipses() {

@@ -73,6 +73,22 @@ pub enum InterfaceError {
         /// The first of the two.
         index: usize,
     },
+    /// An elastic interface that is compressed to nearly nothing, which the energy of its stretching does not prevent.
+    #[error(
+        "the elastic interface is compressed to {stretch:.3} of its length at rest near ({x:.4}, {y:.4}), below \
+         {least}: its energy of stretching does not resist that, give it a larger modulus or its particles less \
+         activity"
+    )]
+    Crushed {
+        /// Smallest stretch (no dimension).
+        stretch: f64,
+        /// Stretch below which a step is an error (no dimension).
+        least: f64,
+        /// Its place in x (length).
+        x: f64,
+        /// Its place in y (length).
+        y: f64,
+    },
     /// Points whose distances are too uneven.
     #[error(
         "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \

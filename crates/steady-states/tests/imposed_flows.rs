@@ -176,3 +176,13 @@ fn a_drop_beyond_the_turning_point_does_not_converge() {
     let error = SteadyState::find(&drop_in(EXTENSION, 1.0, 0.2, 32)).unwrap_err();
     assert!(matches!(error, steady_states::SteadyError::NoConvergence { .. }), "{error}");
 }
+
+/// Deformations that would be round-off are refused.
+#[test]
+fn tiny_capillary_numbers_are_refused() {
+    assert!(SteadyState::find(&drop_in(SHEAR, 1.0, 1e-6, 32)).is_ok());
+    for flow in [SHEAR, EXTENSION] {
+        let error = SteadyState::find(&drop_in(flow, 1.0, 1e-9, 32)).unwrap_err().to_string();
+        assert!(error.starts_with("the capillary number is 1.0e-9: "), "{error}");
+    }
+}

@@ -47,6 +47,25 @@ fn all_flags_with_their_values() {
     assert_eq!(setup.droplets[0].centre, [0.0, -0.2]);
 }
 
+/// Flags of droplets and particles are refused where there are none.
+#[test]
+fn flags_of_what_there_is_not() {
+    let passive = || Some(Setup { droplets: vec![DropletSetup::passive(5.0)], ..Setup::default() });
+    let none = || Some(Setup { droplets: Vec::new(), ..Setup::default() });
+    assert!(over(passive(), "--angle 10 --viscosity-in 3 --offset 1,0").is_ok());
+    assert!(over(none(), "--viscosity 3").is_ok());
+    for (file, line) in [
+        (passive(), "--activity -3"),
+        (passive(), "--seed 3"),
+        (none(), "--initial polarised"),
+        (none(), "--angle 10"),
+        (none(), "--offset 1,0"),
+    ] {
+        let error = over(file, line).unwrap_err();
+        assert!(error.contains("means nothing in a scene") && error.contains(&line[..6]), "{error}");
+    }
+}
+
 /// The scene of a command line, in a box.
 fn setup(line: &str) -> Result<Setup, String> {
     over(None, line)

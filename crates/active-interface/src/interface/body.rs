@@ -16,6 +16,9 @@ const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 3
 /// coarsest interface has when all are equal.
 const COLLAPSED: f64 = 0.15;
 
+/// Stretch of an elastic interface below which a step is an error.
+const LEAST_STRETCH: f64 = 0.1;
+
 impl From<InterfaceError> for BodyError {
     fn from(error: InterfaceError) -> Self {
         Self::Other(Box::new(error))
@@ -232,7 +235,8 @@ impl ActiveInterface {
             let place = self.markers()[first];
             return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
         }
-        self.check_bounds(elsewhere)
+        self.check_bounds(elsewhere)?;
+        self.check_stretch()
     }
 
     /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, unless that
@@ -283,6 +287,29 @@ impl ActiveInterface {
             if most > COLLAPSED * total {
                 return Err(InterfaceError::Collapse { part: most / total }.into());
             }
+        }
+        Ok(())
+    }
+
+    /// Refuses an elastic interface that is compressed to nearly nothing: stable steps fall with the fourth power of the
+    /// stretch, so that a run would stand still without an end.
+    fn check_stretch(&mut self) -> Result<(), BodyError> {
+        let advance = Vec2::new(self.advance(), 0.0);
+        let (Some(elasticity), markers) = (&mut self.law.elasticity, &self.state.shape.markers) else {
+            return Ok(());
+        };
+        elasticity.move_to(markers, advance)?;
+        let stretches = elasticity.strains().map(|[stretch, _]| stretch).zip(markers);
+        let least =
+            stretches.fold(
+                (f64::INFINITY, Vec2::ZERO),
+                |least, (stretch, place)| {
+                    if stretch < least.0 { (stretch, *place) } else { least }
+                },
+            );
+        let (stretch, Vec2 { x, y }) = least;
+        if stretch < LEAST_STRETCH {
+            return Err(InterfaceError::Crushed { stretch, least: LEAST_STRETCH, x, y }.into());
         }
         Ok(())
     }

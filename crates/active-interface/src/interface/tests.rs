@@ -246,3 +246,24 @@ fn a_bent_membrane_is_at_rest_where_it_was_made() {
     membrane.add_forces(&mut forces).unwrap();
     assert!(forces.iter().any(|force| force.length() > 1e-2));
 }
+
+/// An elastic interface whose points are pressed together is refused at the end of a step, with the place.
+#[test]
+fn crushed_interfaces_are_refused() {
+    let turn = std::f64::consts::TAU;
+    let body = |part: f64| {
+        let flat = crate::wave(0.5, 6.0, &[], &[], 64).unwrap();
+        let mut body = ActiveInterface::periodic_passive(&flat, 6.0, 1.0).unwrap().with_motion(Motion::WithFluid);
+        body = body.with_elasticity(3.0, 0.1).unwrap();
+        let view = Converging { smooth: true }.fluid_view();
+        body.write_forces(&view, &mut [Vec2::ZERO; 64]).unwrap();
+        // The stretch is 1 - part cos(2 pi x/L).
+        let pressed = flat.iter().map(|x| x.x - part * 6.0 / turn * (turn * x.x / 6.0).sin());
+        let state: Vec<f64> = pressed.flat_map(|x| [x, 0.5]).collect();
+        body.read_state(&state).unwrap();
+        body.end_step(&view, 0.01)
+    };
+    body(0.85).unwrap();
+    let error = body(0.95).unwrap_err().to_string();
+    assert!(error.contains("compressed to 0.050 of its length") && error.contains(", 0.5000)"), "{error}");
+}

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use anyhow::Result;
-use motile::active_interface::observables::{Observables, PeriodicObservables};
+use motile::active_interface::observables::PeriodicObservables;
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::motile_base::{Region, Vec2};
 use motile::motile_scene::{Handle, Scene};
@@ -34,7 +34,8 @@ pub struct SceneRun {
     region: Region,
     /// Spacing of the fields in the picture (length).
     spacing: f64,
-    droplets: Vec<Recorded<ActiveDroplet, Observables>>,
+    /// Droplets with their areas at the start (length squared, or volumes).
+    droplets: Vec<Recorded<ActiveDroplet, f64>>,
     interfaces: Vec<Recorded<ActiveInterface, PeriodicObservables>>,
     of_droplets: Option<DropletsCsv>,
     of_interfaces: Option<InterfacesCsv>,
@@ -59,7 +60,7 @@ impl SceneRun {
         // At the start, also of a run that goes on from a checkpoint.
         let of_droplets = droplets.iter().zip(&setup.droplets);
         let droplets = of_droplets
-            .map(|(&handle, droplet)| Ok((key(&droplet.name), handle, scene.observe(handle)?)))
+            .map(|(&handle, droplet)| Ok((key(&droplet.name), handle, area(&mut scene, setup.region, handle)?)))
             .collect::<Result<Vec<_>>>()?;
         let of_interfaces = interfaces.iter().zip(&setup.interfaces);
         let interfaces = of_interfaces
@@ -116,12 +117,12 @@ impl SceneRun {
             put("x", seen.centroid.x, "of its centroid, in the end (R0)");
             put("y", seen.centroid.y, "of its centroid, in the end (R0)");
             put("speed", seen.velocity.length(), "of its centroid, in the end (R0 per time)");
-            if matches!(self.region, Region::Plane | Region::Box { .. } | Region::Channel { .. }) {
+            if !self.region.is_of_revolution() {
                 let shape = scene.system_mut().deformation(*handle)?;
                 put("deformation", shape.by_moments, "D = (L - B)/(L + B) by area moments");
                 put("angle", shape.angle_of_moments.to_degrees(), "of the long axis by area moments (degrees)");
             }
-            put("area_relative_change", seen.area / start.area - 1.0, "since the start");
+            put("area_relative_change", area(scene, self.region, *handle)? / start - 1.0, "since the start");
         }
         for (name, handle, start) in &self.interfaces {
             let seen = scene.observe(*handle)?;
@@ -159,6 +160,14 @@ impl SceneRun {
             Ok(look.write_picture(&seen, &[], picture)?)
         })
     }
+}
+
+/// Area of the smooth curve through a droplet's markers (length squared), or its volume (length cubed).
+fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<ActiveDroplet>) -> Result<f64> {
+    if region.is_of_revolution() {
+        return Ok(scene.observe(droplet)?.area);
+    }
+    Ok(scene.system_mut().deformation(droplet)?.area)
 }
 
 /// The mean of a droplet's markers (length), or the origin.

@@ -15,6 +15,9 @@ const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
 /// Least and largest relative accuracy of layers.
 const TOLERANCES: [f64; 2] = [1e-15, 1e-3];
 
+/// Largest width of a channel over its length by integrals: beyond it hyperbolic functions of their ratio overflow.
+const WIDEST: f64 = 100.0;
+
 impl Setup {
     /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What
     /// only shows when shapes are made is refused by [`Setup::build`].
@@ -38,6 +41,9 @@ impl Setup {
             Region::Channel { length, width, drive } => {
                 top.length("region.channel.length", length)?;
                 top.length("region.channel.width", width)?;
+                let remedy = "it is less than a hundredth of the width: give more";
+                let wide = self.method.kind() == MethodKind::Integral && width > WIDEST * length;
+                top.require(!wide, "region.channel.length", length, remedy)?;
                 match drive {
                     Drive::Gradient(value) => top.finite("region.channel.drive.gradient", value)?,
                     Drive::Flux(value) => top.finite("region.channel.drive.flux", value)?,

@@ -94,7 +94,7 @@ impl FlowSetup {
         if let Some(PoiseuilleSetup { speed, half_width }) = self.poiseuille {
             checked.finite("poiseuille.speed", speed)?;
             checked.positive("poiseuille.half-width", half_width)?;
-            let finite = (speed / half_width / half_width).is_finite();
+            let finite = (2.0 * speed / (half_width * half_width)).is_finite();
             checked.require(finite, "poiseuille.half-width", half_width, "its curvature is not finite: give more")?;
         }
         for (number, velocity) in self.wall_velocity.into_iter().flatten().enumerate() {

@@ -891,3 +891,31 @@ fn interfaces_through_points_from_either_end() {
         assert!((one.y - other.y).abs() < 1e-9 && (one.x - other.x).abs() < 1e-9, "{one:?} {other:?}");
     }
 }
+
+/// The energy of bending takes three markers for each two nodes.
+#[test]
+fn droplets_that_bend_have_markers_enough() {
+    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 48 });
+    let setup = Setup { method, ..Setup::default() };
+    let markers = |bending: f64| {
+        let droplet = DropletSetup { bending, ..DropletSetup::passive(1.0) };
+        setup.droplet(&droplet).unwrap().markers().len()
+    };
+    assert_eq!([markers(0.0), markers(0.1)], [48, 72]);
+}
+
+/// Boxes that a droplet fills, and regions too slender for integrals, are refused with their keys.
+#[test]
+fn narrow_regions_are_refused() {
+    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 72 });
+    let of = |region: Region| Setup { region, method, ..Setup::default() };
+    let error = refused(&of(Region::Box { lengths: [2.0, 2.0] }));
+    assert!(error.contains("droplets[0]") && error.contains("2 x 2 does not hold it"), "{error}");
+    let error = refused(&of(Region::Box { lengths: [60.0, 2.5] }));
+    assert!(error.starts_with("region.box.lengths[1] = 2.5: "), "{error}");
+    let error = refused(&of(Region::Channel { length: 1e-60, width: 4.0, drive: Drive::ZeroGradient }));
+    assert!(error.starts_with("region.channel.length = 1e-60: "), "{error}");
+    let poiseuille = Some(PoiseuilleSetup { speed: 1.0, half_width: 1e-300 });
+    let error = refused(&Setup { flow: FlowSetup { poiseuille, ..FlowSetup::default() }, ..of(Region::Plane) });
+    assert!(error.starts_with("flow.poiseuille.half-width = 1e-300: "), "{error}");
+}
