@@ -106,8 +106,8 @@ pub struct IntegralMethod {
     /// Nodes of an interface's shape, 16 to 4096. With fewer than 24 runs warn: the speed is off by up to two per cent
     /// with however many cells.
     pub nodes: usize,
-    /// Cells of the concentration along an interface, which are its markers; at least as many as nodes, and half as
-    /// many again where an imposed flow carries droplets far, since products of modes alias on fewer.
+    /// Cells of the concentration along an interface, which are its markers; at least as many as nodes.
+    /// Elastic interfaces, shells and droplets that resist bending have half as many again as nodes if that is more.
     pub cells: usize,
 }
 
