@@ -78,11 +78,11 @@ impl DropletFlags {
         ];
         let of_droplets = [("--viscosity-in", self.viscosity_in.is_some()), ("--angle", self.angle.is_some())];
         for (flags, lacking, what) in [
-            (&of_particles[..], particles != Some(true), "no droplet with particles in the first place"),
-            (&of_droplets, particles.is_none(), "no droplet"),
+            (&of_particles[..], particles != Some(true), "without a first droplet that has particles"),
+            (&of_droplets, particles.is_none(), "without droplets"),
         ] {
             if let Some((flag, _)) = flags.iter().find(|(_, given)| lacking && *given) {
-                bail!("{flag} means nothing in a scene that has {what}: leave it out");
+                bail!("{flag} means nothing in a scene {what}: leave it out");
             }
         }
         let Some(droplet) = setup.droplets.first_mut() else { return Ok(()) };
