@@ -139,9 +139,8 @@ impl Model {
         };
         if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
             return refuse(
-                "shells and interfaces that are periodic along x go on moving along themselves, so that no state of \
-                 theirs is found here",
-                "run the scene until its deformation no longer changes (System::deformation)",
+                "the scene has a shell or an interface that is periodic along x, whose points go on moving along it",
+                "run it until its deformation no longer changes (System::deformation)",
             );
         }
         let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
