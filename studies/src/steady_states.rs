@@ -5,6 +5,7 @@
 
 mod bifurcations;
 mod parameters;
+mod revolution;
 mod swimmers;
 
 use anyhow::Result;
@@ -49,6 +50,12 @@ enum Which {
     Cost,
     /// Limit cycles of width 5 from their Hopf point on
     Cycle,
+    /// Swimmers in tubes in three dimensions
+    Tubes,
+    /// Onset of swimming in three dimensions: folds, runs up and down
+    Folds,
+    /// Leading growth rates in three dimensions over the nodes
+    Headings,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -62,6 +69,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Which::Regimes => bifurcations::regimes(nodes),
         Which::Length => parameters::length(nodes),
         Which::Contrast => parameters::contrast(nodes),
+        Which::Tubes => revolution::tubes(),
+        Which::Folds => revolution::folds(),
+        Which::Headings => revolution::headings(),
     }?;
     let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
     keep.tables(&format!("steady-{name}"), &format!("steady_states {name} --nodes {nodes}"), &INPUTS, &found)

@@ -15,14 +15,14 @@ use super::{channel, nodes};
 
 /// The threshold of polarisation along x: where the slowest symmetric mode of the droplet at rest neither grows nor
 /// decays.
-fn polarisation(setup: &Setup) -> Result<Critical> {
+pub(super) fn polarisation(setup: &Setup) -> Result<Critical> {
     let state = SteadyState::uniform(setup)?;
     let spectrum = state.spectrum()?;
     let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).context("no modes")?;
     Ok(state.critical(mode, Parameter::Activity)?)
 }
 
-fn activity(critical: &Critical) -> f64 {
+pub(super) fn activity(critical: &Critical) -> f64 {
     Parameter::Activity.get(critical.state.setup()).unwrap_or(f64::NAN)
 }
 
@@ -44,7 +44,7 @@ fn onset(critical: Critical, diffusion: f64) -> Result<f64> {
 }
 
 /// Value with that many significant digits, or four decimal places where these are fewer; no sign of zero.
-fn digits(value: f64, count: i32) -> String {
+pub(super) fn digits(value: f64, count: i32) -> String {
     let places = (count - 1 - value.abs().log10().floor().clamp(-9.0, 9.0) as i32).max(0) as usize;
     let text = format!("{value:.*}", places.min(if count < 4 { 4 } else { 9 }));
     if text.chars().any(|c| ('1'..='9').contains(&c)) { text } else { "0".to_owned() }
