@@ -52,10 +52,6 @@ enum Which {
     Cycle,
     /// Swimmers in tubes in three dimensions
     Tubes,
-    /// Onset of swimming in three dimensions: folds, runs up and down
-    Folds,
-    /// Leading growth rates in three dimensions over the nodes
-    Headings,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -70,8 +66,6 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Which::Length => parameters::length(nodes),
         Which::Contrast => parameters::contrast(nodes),
         Which::Tubes => revolution::tubes(),
-        Which::Folds => revolution::folds(),
-        Which::Headings => revolution::headings(),
     }?;
     let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
     keep.tables(&format!("steady-{name}"), &format!("steady_states {name} --nodes {nodes}"), &INPUTS, &found)
