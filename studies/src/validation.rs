@@ -9,6 +9,7 @@ mod channels;
 mod contrast;
 mod curved_walls;
 mod elastic_walls;
+mod fast_sums;
 mod headings;
 mod imposed_flows;
 mod interfaces;
@@ -53,7 +54,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 37] = [
+const STUDIES: [(&str, Run); 38] = [
     ("fixed-shapes", fixed),
     ("relaxation", relax),
     ("growth", grow),
@@ -90,6 +91,7 @@ const STUDIES: [(&str, Run); 37] = [
     ("curved-walls", curved_walls::curved_walls),
     ("elastic-walls", elastic_walls::elastic_walls),
     ("solids", solids::solids),
+    ("fast-sums", fast_sums::fast_sums),
     ("cost", interfaces::cost),
 ];
 /// The name for all of them.

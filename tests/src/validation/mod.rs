@@ -15,6 +15,7 @@ pub mod channel;
 pub mod contrast;
 pub mod curved_walls;
 pub mod exchange;
+pub mod fast_sums;
 pub mod fixed_shapes;
 pub mod flat;
 pub mod growth;
