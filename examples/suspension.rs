@@ -251,6 +251,9 @@ fn scene(flags: &Flags) -> Result<Setup> {
         seed: flags.seed.unwrap_or(usual.seed),
         ..usual
     };
+    ensure!(suspension.count != Some(0), "--count 0: give a number above 0");
+    let least = suspension.radius.map_or(1.0, |radius| radius.bounds()[0]);
+    ensure!(least > 0.0, "--radius {least}: give radii above 0");
     // The region has the size that the part of its area asks for.
     let fraction = flags.area_fraction.unwrap_or(0.3);
     ensure!(fraction < 0.9, "--area-fraction {fraction}: no places are found for so many, give at most 0.6 or so");
