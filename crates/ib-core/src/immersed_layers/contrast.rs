@@ -25,6 +25,8 @@ const MOST_ITERATIONS: usize = 200;
 #[derive(Debug, Clone)]
 pub(super) struct LayerContrast {
     tolerance: f64,
+    /// Iterations before giving up.
+    pub(super) most_iterations: usize,
     gmres: Gmres,
     series: PeriodicSeries,
     /// For each interface its first wave number (1/length).
@@ -47,6 +49,7 @@ impl LayerContrast {
     pub(super) fn new(nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
         Ok(Self {
             tolerance,
+            most_iterations: MOST_ITERATIONS,
             gmres: Gmres::recycling(),
             series: PeriodicSeries::new(nodes)?,
             waves: Vec::new(),
@@ -107,7 +110,7 @@ impl LayerContrast {
             out.copy_from_slice(&response[..out.len()]);
             curves.complete(y, out);
         };
-        let outcome = gmres.solve(product, right, unknown, *tolerance, MOST_ITERATIONS);
+        let outcome = gmres.solve(product, right, unknown, *tolerance, self.most_iterations);
         if let Some(error) = failure {
             unknown.clear();
             return Err(error.into());

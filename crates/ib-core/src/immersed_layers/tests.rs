@@ -175,6 +175,42 @@ fn interfaces_beside_points_move_as_without_a_grid() {
     }
 }
 
+/// Each evaluation beside inner points solves twice on the grid, with the transforms that the solver alone counts.
+#[test]
+fn an_evaluation_counts_the_transforms_of_its_two_solutions() {
+    let mut flow = channel(4.0, 0.2);
+    let (density, mut velocity) = (StaggeredField::zeros(*flow.grid()), StaggeredField::zeros(*flow.grid()));
+    let mut alone = flow.solver.clone();
+    alone.solve(&density, &mut velocity).unwrap();
+    let one = alone.work().forward_transforms + alone.work().inverse_transforms;
+    let mut markers = droplet_and_disc(0.3, 0.2);
+    forces(&mut markers);
+    for evaluations in 1..4 {
+        flow.velocities(&mut markers).unwrap();
+        let work = flow.work();
+        assert_eq!([work.evaluations, work.stokes_solves], [evaluations, 2 * evaluations]);
+        assert!(one > 0 && work.transforms == 2 * evaluations * one, "{} of {one}", work.transforms);
+    }
+}
+
+/// Forces that are not found within the iterations are an error with its numbers, which leaves nothing behind.
+#[test]
+fn forces_that_are_not_found_are_an_error() {
+    let mut markers = droplet(Some(20.0));
+    push_disc(&mut markers, Vec2::new(0.3, 1.8), 0.5, 0.2);
+    forces(&mut markers);
+    let mut flow = channel(4.0, 0.2);
+    flow.contrast.most_iterations = 3;
+    let error = flow.velocities(&mut markers).unwrap_err();
+    let FlowError::NoConvergence { what, iterations, residual, tolerance } = error else { panic!("{error}") };
+    assert_eq!(what, "the flow around interfaces to another viscosity");
+    assert_eq!((iterations, tolerance), (3, TOLERANCE));
+    assert!(residual > 2.0 * TOLERANCE && residual < 1.0, "{residual:e}");
+    flow.contrast.most_iterations = 100;
+    let found = flow.velocities(&mut markers).unwrap();
+    assert!(found.iterations > 3 && found.residual <= 2.0 * TOLERANCE, "{found:?}");
+}
+
 /// The flow of layers at inner points away from them is of second order, inside and outside; so are samples.
 #[test]
 fn inner_points_move_with_the_flow_of_the_layers() {

@@ -45,6 +45,25 @@ fn lines_keep_apart_and_fill_a_periodic_box() {
     assert_eq!(gaps, 0);
 }
 
+/// Lines of a uniform flow along no axis start beside each other: the distances of the long ones from the anchor are
+/// multiples of that of seeds, which no lattice of seeds has.
+#[test]
+fn lines_start_beside_others() {
+    let along = Vec2::from_angle(0.4);
+    let (spacing, anchor) = (0.13, Vec2::new(0.11, -0.07));
+    let lines = streamlines(&sampled(false, |_| along), spacing, anchor).unwrap();
+    let long: Vec<_> = lines.iter().filter(|line| line[0].distance(line[line.len() - 1]) > 8.0 * spacing).collect();
+    assert!(long.len() > 12, "{}", long.len());
+    let mut numbers = Vec::new();
+    for line in long {
+        let number = along.perp_dot(line[0] - anchor) / (1.001 * spacing);
+        assert!((number - number.round()).abs() < 1e-3, "{number}");
+        numbers.push(number.round() as i64);
+    }
+    numbers.sort_unstable();
+    assert!(numbers.windows(2).all(|pair| pair[1] == pair[0] + 1), "{numbers:?}");
+}
+
 #[test]
 fn a_fluid_at_rest_has_no_streamlines_and_a_bad_spacing_is_refused() {
     let field = sampled(true, |_| Vec2::ZERO);

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use motile::prelude::*;
 use motile_output::plot::{Figure, Plot, SERIES_COLOURS, Series};
-use motile_output::{Look, Raster, Snapshot};
+use motile_output::{Look, Raster, Snapshot, SolidColour, SolidShape};
 
 use crate::{Directory, svg};
 
@@ -112,6 +112,36 @@ fn a_picture_has_what_is_switched_on() {
     let (lower, lines, texts) = words(&none);
     assert!(lower < height && lines == 0 && has(&texts, "x"));
     assert!(["1", "1 µm", "pressure p"].iter().filter(|label| has(&texts, label)).count() <= 1, "{texts:?}");
+}
+
+/// Solid whose stress is known in one of the two triangles of its square: the other one has the grey of solids.
+#[test]
+fn a_solid_is_filled_where_its_triangles_have_no_colour() {
+    let directory = Directory::new("solid");
+    let (region, method) = (Region::Box { lengths: [6.0, 6.0] }, Method::Grid(GridMethod::of_spacing(0.25)));
+    let mut scene = Setup { region, method, ..Setup::default() }.build().unwrap().scene;
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
+    let mut seen = Snapshot::take(scene.system_mut(), raster).unwrap();
+    let square = [[1.6, 1.6], [2.8, 1.6], [2.8, 2.8], [1.6, 2.8]].map(Vec2::from);
+    let mut solid = SolidShape::default();
+    solid.area = vec![square.to_vec()];
+    solid.triangles = vec![[square[0], square[1], square[2]]];
+    solid.stress = vec![1.0];
+    seen.solids.push(solid);
+    let look = Look { solids: SolidColour::Stress, scale_bar: false, streamlines: false, ..Look::default() };
+    let (png, text) = (directory.0.join("solid.png"), directory.0.join("solid.svg"));
+    look.write_picture(&seen, &[], &png).unwrap();
+    look.write_picture(&seen, &[], &text).unwrap();
+    let text = directory.text("solid.svg");
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let ([left, top, right, bottom], image) = (svg::area(&document), Image::read(&png));
+    let at = |[x, y]: [f64; 2]| {
+        image.at([left + (x + 3.0) / 6.0 * (right - left), bottom + (y + 3.0) / 6.0 * (top - bottom)])
+    };
+    let (coloured, plain) = (at([2.5, 1.9]), at([1.9, 2.5]));
+    assert_eq!(plain, [196, 190, 180]);
+    let [red, green, blue] = coloured.map(i32::from);
+    assert!((red - blue).abs().max((green - blue).abs()) > 100, "{coloured:?}");
 }
 
 /// Ends of the colour bar that pressures exceed are triangles, in the colours of the ends.

@@ -72,7 +72,7 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// Rectangle of the axes: left, top, right and bottom.
-fn area(document: &Document<'_>) -> [f64; 4] {
+pub(crate) fn area(document: &Document<'_>) -> [f64; 4] {
     let border = strokes(document, [34, 38, 46]).into_iter().flatten().find(|line| line.len() == 5);
     let [a, _, c, ..] = border.expect("a border")[..] else { panic!("five points") };
     [a[0], a[1], c[0], c[1]]

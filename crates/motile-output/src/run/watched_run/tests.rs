@@ -4,7 +4,7 @@ use super::*;
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::motile_scene::StepSize;
-use motile::setup::{GridMethod, Method, Setup};
+use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 
 fn directory(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
@@ -46,6 +46,34 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     let [steps, evaluations, longest] = ["steps", "evaluations", "dt_longest"].map(|name| summary.number(name));
     assert!(steps >= 1.0 && evaluations >= 2.0 * steps && longest >= 1.0 / steps);
     assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+/// Pictures of unbounded fluid show a square of 12 around the droplet in cells of the spacing, files for ParaView in
+/// cells of twice that, since every sample without a grid costs as much.
+#[test]
+fn pictures_of_the_plane_have_the_cells_of_their_spacing() {
+    let directory = directory("plane-run");
+    let droplet = DropletSetup { centre: [0.4, -0.2], ..DropletSetup::default() };
+    let setup = Setup {
+        region: Region::Plane,
+        method: Method::Integral(IntegralMethod::default()),
+        droplets: vec![droplet],
+        ..Setup::default()
+    };
+    let view = View { spacing: 0.75, region: String::new() };
+    let run = WatchedRun::new(setup.build().unwrap(), &setup, 0.01, &output(&directory, false), "", &view).unwrap();
+    let raster = run.raster;
+    assert_eq!((raster.cells(), raster.size, raster.periodic), ([16; 2], [12.0; 2], [false; 2]));
+    let near = |found: Vec2, expected: [f64; 2]| found.distance(expected.into()) < 1e-12;
+    let points = raster.points();
+    assert!(near(points[0], [-5.6 + 0.375, -6.2 + 0.375]) && near(points[255], [6.4 - 0.375, 5.8 - 0.375]));
+    let mut run = run;
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    run.finish(&summary).unwrap();
+    let text = std::fs::read_to_string(directory.join("vtk/fields_0000.vti")).unwrap();
+    assert!(text.contains("WholeExtent=\"0 8 0 8 0 0\"") && text.contains("Spacing=\"1.5 1.5 1\""));
     std::fs::remove_dir_all(&directory).unwrap();
 }
 
