@@ -45,10 +45,10 @@ const MEMBERS: [&str; 8] = ["time", "droplet", "x", "y", "heading_x", "heading_y
 /// `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start; `contacts`,
 /// pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below the reach
 /// (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`, the largest
-/// pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a droplet since the start; `stress_xx`,
-/// `stress_xy`, `stress_yy` of the droplets in a box, over its area, and `contact_stress`, the pressure that a repulsion
-/// transmits between them (force per length). The columns of `members.csv`:
-/// `time`, `droplet`, centroid, heading and velocity of each droplet.
+/// pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a droplet
+/// since the start; `stress_xx`, `stress_xy`, `stress_yy` of the droplets in a box, over its area, and
+/// `contact_stress`, the pressure that a repulsion transmits between them (force per length). The columns of
+/// `members.csv`: `time`, `droplet`, centroid, heading and velocity of each droplet.
 ///
 /// ```
 /// use motile::prelude::*;

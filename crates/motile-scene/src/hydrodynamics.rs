@@ -146,8 +146,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
-    /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror image,
-    /// with the forces on halves of rings; by default false.
+    /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror
+    /// image, with the forces on halves of rings; by default false.
     fn of_revolution(&self) -> bool {
         false
     }

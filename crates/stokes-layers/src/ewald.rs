@@ -52,8 +52,8 @@ pub(crate) struct Ewald {
     split: Split,
     window: Window,
     lattice: Lattice,
-    /// Width of a channel (length), whose box is higher by the cut-off: then no image beyond its upper and lower side is
-    /// within the cut-off of the channel.
+    /// Width of a channel (length), whose box is higher by the cut-off: then no image beyond its upper and lower side
+    /// is within the cut-off of the channel.
     width: Option<f64>,
     /// Distance beyond which the smooth part is all there is (length).
     cutoff: f64,
@@ -61,9 +61,9 @@ pub(crate) struct Ewald {
     rows: Vec<Rows>,
     columns: Vec<Columns>,
     cells: Cells,
-    /// What the entries of the cells carry.
+    /// Sources of the entries of the cells.
     carried: [Vec<f64>; 3],
-    /// What the nodes carry, curve after curve, then the flow there.
+    /// Sources at the nodes, curve after curve, then the flow there.
     nodes: [Vec<f64>; 3],
     modes: Vec<Complex64>,
 }
@@ -151,7 +151,7 @@ impl Ewald {
         shares::each(columns, |share| share.set_symbol(lattice, *cutoff, split, window));
     }
 
-    /// What walls are to correct in the sums.
+    /// Part of the sums that walls are to correct.
     pub(crate) fn uncorrected(&self) -> Uncorrected {
         if self.width.is_some() { Uncorrected::Box { reach: self.cutoff } } else { Uncorrected::Row }
     }

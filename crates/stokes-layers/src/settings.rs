@@ -34,8 +34,8 @@ impl Settings {
     /// Fewest and most nodes of a curve: 16 carry waves up to 7, and the Stokeslets stored between 4096 take 200 MB.
     pub const NODES: [usize; 2] = [16, 4096];
 
-    /// Largest ratio of the periods of a box: the rows of images of a pair of nodes grow in proportion to it, to 60 at a
-    /// tolerance of 1e-8.
+    /// Largest ratio of the periods of a box: the rows of images of a pair of nodes grow in proportion to it, to 60 at
+    /// a tolerance of 1e-8.
     pub const LARGEST_PERIOD_RATIO: f64 = 20.0;
 
     pub(crate) fn check(&self) -> Result<(), InputError> {

@@ -240,7 +240,8 @@ impl ActiveInterface {
     }
 
     /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, unless that
-    /// of the smooth curve is held, else of the curve through the markers; volume of a body of revolution (length cubed).
+    /// of the smooth curve is held, else of the curve through the markers; volume of a body of revolution (length
+    /// cubed).
     pub(crate) fn area(&self) -> f64 {
         if self.state.shape.of_revolution {
             return self.geometry().volume(self.markers());
@@ -291,8 +292,8 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Refuses an elastic interface that is compressed to nearly nothing: stable steps fall with the fourth power of the
-    /// stretch, so that a run would stand still without an end.
+    /// Refuses an elastic interface that is compressed to nearly nothing: stable steps fall with the fourth power of
+    /// the stretch, so that a run would stand still without an end.
     fn check_stretch(&mut self) -> Result<(), BodyError> {
         let advance = Vec2::new(self.advance(), 0.0);
         let (Some(elasticity), markers) = (&mut self.law.elasticity, &self.state.shape.markers) else {

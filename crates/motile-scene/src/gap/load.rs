@@ -1,9 +1,9 @@
-//! What a repulsion carries.
+//! Load of a repulsion.
 
 use super::{Films, Repulsion, Surfaces, films::Contact};
 use motile_base::Vec2;
 
-/// What a repulsion carries in a state: its part of the stress, and the films that it holds.
+/// Load of a repulsion in a state: its part of the stress, and the films that it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RepulsionLoad {

@@ -38,8 +38,8 @@ impl Repulsion {
         })
     }
 
-    /// The repulsion that holds a film of this thickness (length) against this pressure (force per length). Its range is
-    /// twice the film. Where the range is two distances of neighbouring nodes or more, nodes carry the force and no
+    /// The repulsion that holds a film of this thickness (length) against this pressure (force per length). Its range
+    /// is twice the film. Where the range is two distances of neighbouring nodes or more, nodes carry the force and no
     /// film closes; where it is less the force has waves that they do not carry. It opens films at rates of the order
     /// of the pressure over the viscosity, so that it does not shorten the steps of bodies whose shapes relax as fast.
     ///

@@ -165,9 +165,9 @@ impl Setup {
         })
     }
 
-    /// So many markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, and in
-    /// three dimensions, the area of the smooth curve through them is that of the outline; otherwise, as on grids, that
-    /// of the polygon is.
+    /// So many markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, and
+    /// in three dimensions, the area of the smooth curve through them is that of the outline; otherwise, as on grids,
+    /// that of the polygon is.
     pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         let mut markers = curve.markers(count)?;
         if !self.flow.is_none() || self.region.is_of_revolution() {

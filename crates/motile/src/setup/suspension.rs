@@ -189,7 +189,8 @@ impl Setup {
             let ([_, radius], gap) = (suspension.radii().bounds(), suspension.gap);
             if 2.0 * radius + gap > length || 2.0 * radius + walls * gap > width {
                 let remedy = format!(
-                    "a region of {length} x {width} has no room for it and a gap of {gap}: give less, or a larger region"
+                    "a region of {length} x {width} has no room for it and a gap of {gap}: give less, or a larger \
+                     region"
                 );
                 return Checked { place: &format!("suspension[{number}]") }.refuse("radius", &radius, remedy);
             }

@@ -14,7 +14,7 @@ const AWAY: f64 = 3.0;
 
 type Lanes = [f64; LANES];
 
-/// What the sources carry: forces, or the products xx, s, yy of dipoles.
+/// Strengths of the sources: forces, or the products xx, s, yy of dipoles.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Carried<'a> {
     Forces([&'a [f64]; 2]),

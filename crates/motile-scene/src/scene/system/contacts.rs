@@ -64,7 +64,7 @@ impl Contacts {
         }
     }
 
-    /// What the repulsion carries in the present films.
+    /// Load of the repulsion in the present films.
     pub(super) fn load(&self) -> Option<RepulsionLoad> {
         self.repulsion.map(|repulsion| self.films.load(&repulsion, &self.surfaces))
     }

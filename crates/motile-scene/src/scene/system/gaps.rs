@@ -172,7 +172,7 @@ impl<H: Hydrodynamics> System<H> {
         self.contacts.repulsion.as_ref()
     }
 
-    /// What the repulsion carries in the present state; `None` where it is off. The flow is computed if it is not known
+    /// Load of the repulsion in the present state; `None` where it is off. The flow is computed if it is not known
     /// yet.
     ///
     /// # Errors
