@@ -20,6 +20,7 @@ mod shared_benchmark;
 mod site;
 mod steady_states;
 mod step_cost;
+mod suspensions;
 mod tables;
 mod threads;
 mod time_steps;
@@ -57,6 +58,7 @@ enum Study {
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
     Many(many::Flags),
+    Suspensions(suspensions::Flags),
     Nucleus(nucleus::Flags),
     Exchange(exchange::Flags),
     /// Lists the tables that are older than the last change of what they measure
@@ -85,6 +87,7 @@ fn main() -> ExitCode {
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
         Study::Many(flags) => many::run(flags),
+        Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(flags) => exchange::run(flags),
         Study::Stale => tables::stale(),
