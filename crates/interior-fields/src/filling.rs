@@ -79,17 +79,19 @@ macro_rules! in_droplet {
 pub(crate) use in_droplet;
 
 impl Filling {
-    /// Mesh of a spacing (length) in `droplet`, which is or will be the body `host` of the scene.
+    /// Mesh of a spacing (length), which grows by a factor from ring to ring, in `droplet`, which is or will be the
+    /// body `host` of the scene.
     pub(crate) fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
         spacing: f64,
+        growth: f64,
     ) -> Result<Self, InteriorError> {
         if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
             return Err(InteriorError::ChangingMarkers);
         }
         let radius = droplet.segment_lengths().iter().sum::<f64>() / TAU;
-        let mesh = DiscMesh::new(droplet.markers().len(), spacing / radius)?;
+        let mesh = DiscMesh::graded(droplet.markers().len(), spacing / radius, growth)?;
         let [nodes, fluid, motion] = [(); 3].map(|()| vec![Vec2::ZERO; mesh.node_count()]);
         let mut filling = Self { host, mesh, nodes, fluid, motion, fits: true };
         filling.update_host(droplet, |_| true);

@@ -28,6 +28,7 @@ use elements::Elements;
 use crate::{
     InteriorError,
     filling::{Filling, in_droplet},
+    mesh::GROWTH,
 };
 
 /// Error of growth rates around an aster on a mesh of that spacing over the radius, and its order in the spacing
@@ -67,7 +68,7 @@ impl GelInDroplet {
         start: &DirectorStart,
         spacing: f64,
     ) -> Result<Self, InteriorError> {
-        let filling = Filling::new(droplet, host, spacing)?;
+        let filling = Filling::new(droplet, host, spacing, GROWTH)?;
         let (nodes, markers) = (&filling.nodes, filling.markers());
         let angle = start.angles(markers.iter().sum::<Vec2>() / markers.len() as f64)?;
         let angles = nodes.iter().copied().map(angle).collect();

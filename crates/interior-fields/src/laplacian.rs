@@ -155,9 +155,9 @@ impl Laplacian {
             [&mut self.residual, &mut self.scaled, &mut self.direction, &mut self.image].map(std::mem::take);
         self.preconditioner.set(&self.edges, self.held, (strength, &self.weights, &self.masses));
         let masses = &self.masses[self.held..];
-        residual.iter_mut().zip(masses).zip(&*values).for_each(|((r, mass), c)| *r = mass * c);
-        self.preconditioner.apply(&residual, &mut scaled);
-        let goal = self.tolerance * self.tolerance * dot(&residual, &scaled);
+        // The norm of `r` by the inverse of the operator, in which the residual is measured, is at most that by masses.
+        let size: f64 = masses.iter().zip(&*values).map(|(mass, c)| mass * c * c).sum();
+        let goal = self.tolerance * self.tolerance * size;
         // From c itself the residual is that of the second term alone.
         self.multiply(values, &mut image);
         residual.iter_mut().zip(&image).for_each(|(r, image)| *r = -strength * image);

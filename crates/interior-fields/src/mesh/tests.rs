@@ -55,4 +55,23 @@ fn the_number_of_nodes_is_that_of_the_spacing() {
     for (markers, spacing) in [(7, 0.1), (100, 0.0), (100, f64::NAN), (100_000, 1e-6)] {
         DiscMesh::new(markers, spacing).unwrap_err();
     }
+    for growth in [0.99, 2.01, f64::NAN] {
+        DiscMesh::graded(100, 0.1, growth).unwrap_err();
+    }
+}
+
+#[test]
+fn a_mesh_that_grows_faster_has_fewer_nodes_and_good_triangles() {
+    for (markers, spacing) in [(288, 0.1), (96, 0.3), (200, 0.5)] {
+        let counts = [1.25, 2.0].map(|growth| {
+            let mut mesh = DiscMesh::graded(markers, spacing, growth).unwrap();
+            let nodes = placed(&mut mesh, Vec2::from_angle);
+            let angle = |[a, b, c]: [usize; 3]| (nodes[b] - nodes[a]).angle_to(nodes[c] - nodes[a]).to_degrees();
+            let corners = mesh.triangles().iter().flat_map(|&[a, b, c]| [[a, b, c], [b, c, a], [c, a, b]]);
+            let least = corners.map(angle).fold(f64::INFINITY, f64::min);
+            assert!(least > 15.0, "{markers} {spacing} {growth}: {least}");
+            mesh.node_count() as f64
+        });
+        assert!(counts[1] < 0.7 * counts[0], "{markers} {spacing}: {counts:?}");
+    }
 }
