@@ -1,4 +1,4 @@
-//! Fast sums of layers over many nodes in a periodic box or a channel, linear in their number.
+//! Fast sums of layers over many nodes in the plane, a periodic box or a channel, linear in their number.
 //!
 //! The Green's function is split into a part that ends at a cut-off, summed over the nodes within it ([`near`]), and a
 //! smooth part with a bounded spectrum: its sources are spread to a grid, transformed, multiplied by the spectrum,
@@ -8,17 +8,19 @@
 //! the weights of Kress one cyclic product a curve.
 
 mod cells;
+mod cluster;
 mod columns;
 mod lattice;
 mod near;
 mod polynomial;
 mod prolate;
 mod rows;
+mod sampled;
 mod shares;
 mod split;
 mod window;
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
 use motile_base::{InputError, Region};
 use num_complex::Complex64;
@@ -32,10 +34,13 @@ use crate::{
     plan::Plan,
 };
 use cells::{Cells, FEWEST};
-use columns::Columns;
+use cluster::Cluster;
+pub(crate) use cluster::filling;
+use columns::{Columns, Part};
 use lattice::Lattice;
 use near::Carried;
 use rows::Rows;
+use sampled::Smooth;
 use split::Split;
 use window::{OVERSAMPLING, Window};
 
@@ -46,21 +51,31 @@ const CUTOFF: f64 = 3.0;
 /// nodes change neither grid nor memory.
 const CLASSES: f64 = 2.0;
 
-/// Fast sums over the nodes of closed curves in a box or a channel, with plans and working memory.
+/// Cut-off in the plane, whose nodes fill a part of the box, over that in a box of as many nodes (measured).
+const IN_PLANE: f64 = 0.6;
+
+/// Fast sums over the nodes of curves in the plane, a box or a channel, with plans and working memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Ewald {
     split: Split,
+    /// What samples of the flow need besides, once there have been some.
+    smooth: Option<Smooth>,
+    tolerance: f64,
     window: Window,
     lattice: Lattice,
     /// Width of a channel (length), whose box is higher by the cut-off: then no image beyond its upper and lower side
     /// is within the cut-off of the channel.
     width: Option<f64>,
+    /// What makes the box of nodes in the plane.
+    cluster: Option<Box<Cluster>>,
     /// Distance beyond which the smooth part is all there is (length).
     cutoff: f64,
     size: [usize; 2],
     rows: Vec<Rows>,
     columns: Vec<Columns>,
     cells: Cells,
+    /// Points at which the flow is sampled.
+    targets: Cells,
     /// Sources of the entries of the cells.
     carried: [Vec<f64>; 3],
     /// Sources at the nodes, curve after curve, then the flow there.
@@ -69,8 +84,7 @@ pub(crate) struct Ewald {
 }
 
 impl Ewald {
-    /// Sums to a relative tolerance in a box with images or in the box around a channel, for so many nodes; none in
-    /// other regions.
+    /// Sums to a relative tolerance over the nodes of curves; none in regions of revolution.
     ///
     /// # Errors
     /// A grid too large for a transform.
@@ -78,38 +92,56 @@ impl Ewald {
         region: &Region,
         images: &Images,
         tolerance: f64,
-        count: usize,
+        curves: &[Curve],
     ) -> Result<Option<Self>, InputError> {
         let width = if let Region::Channel { width, .. } = region { Some(*width) } else { None };
-        let Some(lattice) = Lattice::of(images, width.unwrap_or(0.0)) else { return Ok(None) };
+        let mut cluster = (*region == Region::Plane).then(|| Box::new(Cluster::new(tolerance)));
+        let around = cluster.as_mut().map(|cluster| cluster.set(curves)).transpose()?;
+        let Some(lattice) = Lattice::of(around.as_ref().unwrap_or(images), width.unwrap_or(0.0)) else {
+            return Ok(None);
+        };
         let (split, window) = (Split::new(tolerance), Window::new(tolerance));
-        let (rows, columns, cells, carried, nodes, modes) = Default::default();
+        let (rows, columns, cells, targets, carried, nodes, modes) = Default::default();
         let mut ewald = Self {
             split,
+            smooth: None,
+            tolerance,
             window,
             lattice,
             width,
+            cluster,
             cutoff: 0.0,
             size: [0; 2],
             rows,
             columns,
             cells,
+            targets,
             carried,
             nodes,
             modes,
         };
-        ewald.plan(count)?;
+        ewald.plan(curves.iter().map(Curve::len).sum())?;
         Ok(Some(ewald))
     }
 
-    /// Takes over the images of a box and the number of nodes; grid and transforms are kept where they fit.
+    /// Relative tolerance.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Takes over the images of a box and the curves; grid and transforms are kept where they fit.
     ///
     /// # Errors
     /// A grid too large for a transform.
-    pub(crate) fn set(&mut self, images: &Images, nodes: usize) -> Result<(), InputError> {
+    pub(crate) fn set(&mut self, images: &Images, curves: &[Curve]) -> Result<(), InputError> {
+        let nodes = curves.iter().map(Curve::len).sum();
+        let around = self.cluster.as_mut().map(|cluster| cluster.set(curves)).transpose()?;
         let before = self.lattice;
-        self.lattice = Lattice::of(images, before.lengths[1]).unwrap_or(before);
-        if before.steepest != self.lattice.steepest || self.cutoff != self.cutoff_for(nodes) {
+        self.lattice = Lattice::of(around.as_ref().unwrap_or(images), before.lengths[1]).unwrap_or(before);
+        if before.steepest != self.lattice.steepest
+            || self.cutoff != self.cutoff_for(nodes)
+            || self.cluster.is_some() && before != self.lattice
+        {
             return self.plan(nodes);
         }
         if before != self.lattice {
@@ -126,7 +158,8 @@ impl Ewald {
         let height = self.width.unwrap_or(ly);
         let most = [lx / self.lattice.stretch(), self.width.map_or(ly, |width| 2.0 * width)];
         let most = most.map(|length| 2.0 / FEWEST as f64 * length);
-        (CUTOFF * (lx * height / class).sqrt()).min(most[0]).min(most[1])
+        let part = if self.cluster.is_some() { IN_PLANE } else { 1.0 };
+        (part * CUTOFF * (lx * height / class).sqrt()).min(most[0]).min(most[1])
     }
 
     fn plan(&mut self, nodes: usize) -> Result<(), InputError> {
@@ -158,25 +191,27 @@ impl Ewald {
 
     /// Takes over the nodes of curves.
     pub(crate) fn place(&mut self, curves: &[Curve]) {
+        if let Some(cluster) = &mut self.cluster {
+            cluster.place(curves);
+        }
         let points = curves
             .iter()
             .flat_map(|curve| curve.nodes.position.iter().map(|z| [z.re + curve.centre.re, z.im + curve.centre.im]));
         self.cells.sort(&self.lattice, self.cutoff, true, points);
     }
 
-    /// Adds the single layers of all curves at their nodes, that of a curve on itself by the rule of Kress.
-    pub(crate) fn add_forces(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
-        self.nodes.iter_mut().for_each(Vec::clear);
-        for force in curves.iter().flat_map(|curve| &curve.nodes.force) {
-            self.nodes[0].push(force.re);
-            self.nodes[1].push(force.im);
-        }
+    /// Adds the single layers of some curves at the nodes of all, that of a curve on itself by the rule of Kress.
+    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, plans: &mut [Plan], out: &mut [Vectors]) {
+        self.load_forces(curves, from.clone());
         self.carry(2);
         self.sum(false);
+        if let Some(cluster) = &mut self.cluster {
+            cluster.remove_forces([&self.nodes[0], &self.nodes[1]], out);
+        }
         // The smooth part of a node at itself; without the logarithm of the cut-off, which is in that of each pair.
         let own = self.split.own - self.cutoff.ln();
         self.scatter(out);
-        for (curve, out) in curves.iter().zip(out) {
+        for (curve, out) in curves[from.clone()].iter().zip(&mut out[from]) {
             let Plan { transforms, kress_modes, .. } = &mut plans[curve.plan];
             self.modes.clear();
             let weight = curve.weight();
@@ -196,25 +231,47 @@ impl Ewald {
 
     /// Adds the double layers of all curves at their nodes, of zero mean over the box.
     pub(crate) fn add_dipoles(&mut self, curves: &[Curve], density: Density<'_>, out: &mut [Vectors]) {
+        self.load_dipoles(curves, density);
+        self.carry(3);
+        self.sum(true);
+        if let Some(cluster) = &mut self.cluster {
+            cluster.remove_dipoles(self.nodes.each_ref().map(Vec::as_slice), out);
+        }
+        self.scatter(out);
+        for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {
+            let (x, y) = density.of(index);
+            let weight = contrast * curve.weight();
+            for i in 0..curve.len() {
+                add_dipole_at_node(curve, i, dipole([x[i], y[i]], curve.nodes.tangent[i] * weight), &mut out[index]);
+            }
+        }
+    }
+
+    /// Takes over the forces at the nodes of some curves, none at others.
+    fn load_forces(&mut self, curves: &[Curve], from: Range<usize>) {
         self.nodes.iter_mut().for_each(Vec::clear);
         for (index, curve) in curves.iter().enumerate() {
+            let part = if from.contains(&index) { 1.0 } else { 0.0 };
+            for force in &curve.nodes.force {
+                self.nodes[0].push(part * force.re);
+                self.nodes[1].push(part * force.im);
+            }
+        }
+    }
+
+    /// Takes over the dipoles at the nodes of the curves that have a density, none at others.
+    fn load_dipoles(&mut self, curves: &[Curve], density: Density<'_>) {
+        self.nodes.iter_mut().for_each(Vec::clear);
+        for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {
             let (x, y) = density.of(index);
-            let weight = density.contrasts[index] * curve.weight();
+            let weight = contrast * curve.weight();
             for ((x, y), tangent) in x.iter().zip(y).zip(&curve.nodes.tangent) {
                 let dipole = dipole([*x, *y], tangent * weight);
                 self.nodes.iter_mut().zip(dipole).for_each(|(array, value)| array.push(value));
             }
         }
-        self.carry(3);
-        self.sum(true);
-        self.scatter(out);
-        for ((index, curve), out) in curves.iter().enumerate().zip(out) {
-            let (x, y) = density.of(index);
-            let weight = density.contrasts[index] * curve.weight();
-            for i in 0..curve.len() {
-                add_dipole_at_node(curve, i, dipole([x[i], y[i]], curve.nodes.tangent[i] * weight), out);
-            }
-        }
+        let all = curves.iter().map(Curve::len).sum();
+        self.nodes.iter_mut().for_each(|array| array.resize(all, 0.0));
     }
 
     /// Distributes what the nodes carry, in the first arrays, to the entries of the cells.
@@ -228,40 +285,44 @@ impl Ewald {
 
     /// Computes near part and smooth part at the entries.
     fn sum(&mut self, double: bool) {
-        let Self { split, window, lattice, cutoff, rows, columns, cells, carried: [a, b, c], .. } = self;
-        let (split, window, lattice, cells) = (&*split, &*window, &*lattice, &*cells);
+        self.spread(double, Part::Velocity);
+        let Self { split, window, cutoff, rows, cells, carried: [a, b, c], .. } = self;
+        let (split, window, cells) = (&*split, &*window, &*cells);
+        let (a, b, c) = (a.as_slice(), b.as_slice(), c.as_slice());
+        let (carried, factor) =
+            if double { (Carried::Dipoles([a, b, c]), 1.0 / *cutoff) } else { (Carried::Forces([a, b]), 1.0) };
+        shares::each(rows, |share| {
+            let first = share.begin(cells);
+            let Rows { cells: range, candidates, flow, .. } = share;
+            near::add(split, [cells; 2], carried, range.clone(), candidates, first, flow);
+            for flow in flow {
+                flow.iter_mut().for_each(|value| *value *= factor);
+            }
+            share.interpolate(cells, window);
+        });
+    }
+
+    /// Computes a part of the smooth flow of what the entries carry on the grid.
+    fn spread(&mut self, double: bool, part: Part) {
+        let Self { window, lattice, rows, columns, cells, carried: [a, b, c], .. } = self;
+        let (window, lattice, cells) = (&*window, &*lattice, &*cells);
         let (a, b, c) = (a.as_slice(), b.as_slice(), c.as_slice());
         if double {
             shares::each(rows, |share| share.spread(cells, window, |i| [a[i] + c[i], 0.0]));
             transform(rows, columns, true);
             shares::each(rows, |share| share.spread(cells, window, |i| [0.5 * (a[i] - c[i]), 0.5 * b[i]]));
             transform(rows, columns, false);
-            shares::each(columns, |share| share.apply_stress(lattice));
+            shares::each(columns, |share| share.apply_stress(lattice, part));
         } else {
             shares::each(rows, |share| share.spread(cells, window, |i| [a[i], b[i]]));
             transform(rows, columns, false);
-            shares::each(columns, |share| share.apply_stokeslet(lattice));
+            shares::each(columns, |share| share.apply_stokeslet(lattice, part));
         }
         {
             let columns = columns.as_slice();
             shares::each(rows, |share| share.transform_back(columns));
         }
         rows::unfold(rows);
-        let (carried, factor) =
-            if double { (Carried::Dipoles([a, b, c]), 1.0 / *cutoff) } else { (Carried::Forces([a, b]), 1.0) };
-        shares::each(rows, |share| {
-            let entries = share.entries(cells);
-            for flow in &mut share.flow {
-                flow.clear();
-                flow.resize(entries.len(), 0.0);
-            }
-            let Rows { cells: range, candidates, flow, .. } = share;
-            near::add(split, [cells; 2], carried, range.clone(), candidates, entries.start, flow);
-            for flow in flow {
-                flow.iter_mut().for_each(|value| *value *= factor);
-            }
-            share.interpolate(cells, window);
-        });
     }
 
     /// Adds the flow at the entries to that at the nodes.

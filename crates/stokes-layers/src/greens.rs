@@ -10,4 +10,4 @@ pub(crate) mod walls;
 
 pub(crate) use nodes::{Nodes, Vectors, Window};
 pub(crate) use pair::{AnyPair, FreePair, LatticePair, PairKernel, RowPair, Stokeslet};
-pub(crate) use point::{Flow, GreensFunction, Kernels, half_turns, ln};
+pub(crate) use point::{Flow, GreensFunction, Kernels, free, half_turns, ln};

@@ -272,6 +272,7 @@ impl InterfaceFlow {
         let nodes = self.settings.nodes;
         let given = |Interface { positions, forces, period, .. }| (LayerCurve { positions, period, nodes }, forces);
         let before = self.len();
+        self.layers.sharpness = self.equation.sharpness(self.viscosity);
         self.layers.load(interfaces.map(given), false)?;
         let changed = before != self.len();
         if let Some(walls) = &mut self.walls

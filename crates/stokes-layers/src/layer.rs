@@ -2,8 +2,8 @@
 //!
 //! A layer is the sum of four contributions: of the nodes of curves that are close to each other, summed directly; of
 //! all other curves and images, by multipoles; of what the region adds (walls, a mean flow); and of a correction at
-//! nodes that are so close to a curve that its nodes do not resolve the Green's function. Many nodes in a box or
-//! a channel are summed together in place of the first two.
+//! nodes that are so close to a curve that its nodes do not resolve the Green's function. Many nodes are summed
+//! together in place of the first two.
 
 mod close;
 mod rows;
@@ -24,19 +24,21 @@ use crate::{
     curve::{Curve, LayerCurve},
     density::{Density, StoredLayers},
     direct::DirectSums,
-    ewald::Ewald,
+    ewald::{Ewald, filling},
     greens::{GreensFunction, Vectors, walls::Uncorrected},
     multipole::Multipoles,
     plan::Plan,
     transforms::REFINEMENT,
 };
 use close::CloseCorrection;
-pub(crate) use close::Crossing;
+pub(crate) use close::{Crossing, bounding_box};
 use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
 
-/// Nodes of a box or a channel from which on fast sums cost less than sums over pairs and series (measured).
+/// Nodes from which on fast sums cost less than sums over pairs and series (measured).
 const MANY_NODES: usize = 1000;
+/// Least part of a circle around all curves in the plane that they fill where fast sums cost less (measured).
+const FILLED: f64 = 0.005;
 
 /// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
 #[derive(Debug, Clone)]
@@ -55,8 +57,11 @@ pub(crate) struct Layers {
     fixed: usize,
     direct: DirectSums,
     multipoles: Multipoles,
+    /// Tolerance of the sums over many nodes over that of all else, at most 1: where a small part of what they sum is
+    /// to be right to the tolerance.
+    pub(crate) sharpness: f64,
     /// Sums over many nodes, while they are used.
-    fast: Option<Box<Ewald>>,
+    pub(crate) fast: Option<Box<Ewald>>,
     pub(crate) walls: Option<Walls>,
     /// The imposed flow, without what the drive of a channel drives.
     pub(crate) imposed: ImposedFlow,
@@ -96,6 +101,7 @@ impl Layers {
             fixed: 0,
             direct: DirectSums::default(),
             multipoles: Multipoles::new(region, tolerance)?,
+            sharpness: 1.0,
             fast: None,
             walls,
             imposed: ImposedFlow::NONE,
@@ -164,19 +170,20 @@ impl Layers {
         }
     }
 
-    /// Prepares for fast sums where they pay: for many nodes of closed curves of which none is stored, in a box or a
-    /// channel.
+    /// Prepares for fast sums where they pay: for many nodes of closed curves whose layers are not stored, in the plane
+    /// as far as these are not far between.
     fn plan_fast(&mut self) -> Result<(), LayerError> {
-        let Self { region, fast, images, stored, curves, starts, multipoles, .. } = self;
-        let nodes = starts[curves.len()];
-        let pays = images.periods.lengths[0].is_some()
-            && nodes >= MANY_NODES
-            && stored.first == curves.len()
-            && !curves.iter().any(Curve::is_open);
+        let Self { region, fast, images, stored, curves, starts, multipoles, sharpness, .. } = self;
+        let tolerance = *sharpness * multipoles.tolerance();
+        let given = &curves[..stored.first];
+        let pays = starts[stored.first] >= MANY_NODES
+            && !stored.mutual
+            && !given.iter().any(Curve::is_open)
+            && (*region != Region::Plane || filling(curves) > FILLED);
         match fast {
             _ if !pays => *fast = None,
-            Some(fast) => fast.set(images, nodes)?,
-            None => *fast = Ewald::new(region, images, multipoles.tolerance(), nodes)?.map(Box::new),
+            Some(fast) if fast.tolerance() == tolerance => fast.set(images, curves)?,
+            _ => *fast = Ewald::new(region, images, tolerance, curves)?.map(Box::new),
         }
         Ok(())
     }
@@ -220,7 +227,7 @@ impl Layers {
         if let Some(fast) = fast {
             close.find(curves, plans, images, stored);
             fast.place(curves);
-            fast.add_forces(curves, plans, flow);
+            fast.add_forces(curves, 0..stored.first, plans, flow);
             if let Some(walls) = walls {
                 walls.add_forces(curves, 0..stored.first, fast.uncorrected(), flow);
             }
@@ -249,9 +256,18 @@ impl Layers {
 
     /// Computes the stored single layers for forces at the nodes of their curves, x then y, curve after curve.
     pub(crate) fn stored_layer(&mut self, forces: &[f64]) {
-        self.set_stored(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
+        self.set_stored(forces, false);
         self.clear();
-        let Self { direct, curves, plans, flow, stored, .. } = self;
+        let Self { direct, fast, walls, close, curves, plans, flow, stored, .. } = self;
+        if let Some(fast) = fast {
+            let from = stored.first..curves.len();
+            fast.add_forces(curves, from.clone(), plans, flow);
+            if let Some(walls) = walls {
+                walls.add_forces(curves, from, fast.uncorrected(), flow);
+            }
+            close.add_stored(curves, plans, flow);
+            return;
+        }
         direct.add_stored(curves, plans, *stored, flow);
         self.add_indirect();
     }
@@ -262,7 +278,7 @@ impl Layers {
         let mut forces = vec![0.0; matrix.ncols()];
         for column in 0..matrix.ncols() {
             forces[column] = 1.0;
-            self.set_stored(&forces, self.walls.as_ref().is_some_and(Walls::is_refined));
+            self.set_stored(&forces, false);
             self.clear();
             self.add_indirect();
             matrix.column_mut(column).fill(0.0);
@@ -309,7 +325,7 @@ impl Layers {
     pub(crate) fn set_stored(&mut self, forces: &[f64], fine: bool) {
         let mut first = 0;
         for (index, curve) in self.curves.iter_mut().enumerate().skip(self.stored.first) {
-            let fine = fine || self.close.reads(index);
+            let fine = fine || self.close.reads(index) || self.walls.as_ref().is_some_and(|walls| walls.refines(index));
             let values = &forces[first..first + 2 * curve.len()];
             curve.set_forces(&mut self.plans[curve.plan].transforms, values, fine);
             first += values.len();
@@ -318,8 +334,9 @@ impl Layers {
 
     /// Computes the double layer at the nodes, walls and multipoles to an `accuracy` relative to the velocities.
     pub(crate) fn double_layer(&mut self, density: Density<'_>, accuracy: f64) {
-        if self.walls.as_ref().is_some_and(Walls::is_refined) {
-            self.refine(density);
+        if let Some(walls) = self.walls.take_if(|walls| walls.is_refined()) {
+            self.refine(density, |curve| walls.refines(curve));
+            self.walls = Some(walls);
         }
         let mean = self.mean_flow(density);
         self.clear();
@@ -395,13 +412,14 @@ impl Layers {
             .map_or(0.0, |walls| walls.pressure_gradient(&self.curves, density, &self.forcing(), viscosity))
     }
 
-    /// Interpolates velocities to the fine nodes.
-    pub(crate) fn refine(&mut self, density: Density<'_>) {
+    /// Interpolates velocities to the fine nodes of some curves.
+    pub(crate) fn refine(&mut self, density: Density<'_>, of: impl Fn(usize) -> bool) {
         let nodes = density.nodes();
         let len = REFINEMENT * nodes;
         self.fine.resize(len * density.contrasts.len(), Complex64::default());
         let values = density.values.chunks_exact((2 * nodes).max(1));
-        for ((fine, values), curve) in self.fine.chunks_exact_mut(len.max(1)).zip(values).zip(&self.curves) {
+        let all = self.fine.chunks_exact_mut(len.max(1)).zip(values).zip(&self.curves).enumerate();
+        for (_, ((fine, values), curve)) in all.filter(|(index, _)| of(*index)) {
             self.plans[curve.plan].transforms.at_fine(values, fine);
         }
     }

@@ -18,9 +18,9 @@ use crate::{
     direct::{CurvePair, Dipoles},
     greens::{AnyPair, FreePair, LatticePair, RowPair, Vectors},
 };
-use expansion::{Expansion, Moments};
+pub(crate) use expansion::{Expansion, Moments};
 use motile_base::Region;
-use series::{Extent, LARGEST_RATIO, MOST_DEGREES, Series, SeriesFinder};
+pub(crate) use series::{Extent, LARGEST_RATIO, MOST_DEGREES, Series, SeriesFinder};
 
 /// Least degree of a series: the background terms of a box read moments up to the second, and two degrees more cost
 /// nothing.

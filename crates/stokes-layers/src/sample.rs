@@ -2,14 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{FlowSample, Vec2};
+use motile_base::{
+    FlowSample, Vec2,
+    boxes::{BoxTree, Frame},
+};
 use num_complex::Complex64;
 
 use crate::{
     close_weights::{CloseWeights, reach},
+    curve::Curve,
     density::Density,
-    greens::{Flow, GreensFunction, Kernels},
-    layer::Layers,
+    greens::{Flow, GreensFunction, Kernels, walls::Uncorrected},
+    layer::{Layers, bounding_box},
     plan::Plan,
     rigid_motion::RigidMotion,
     transforms::REFINEMENT,
@@ -29,6 +33,13 @@ pub(crate) struct Sampler {
     mean: Complex64,
     /// The image of the last point in a curve itself, not in an image of the curve (length).
     home: Vec2,
+    /// The flow of the nodes at all points by fast sums; empty without them.
+    fast: Vec<Flow>,
+    /// Boxes around the curves, and the numbers of those that may be close to the last point.
+    tree: BoxTree,
+    near: Vec<usize>,
+    /// Distance at which points are close to the curve with the largest spacing (length).
+    farthest: f64,
 }
 
 /// Place of a point among curves.
@@ -49,7 +60,8 @@ pub(crate) enum Place {
 
 impl Sampler {
     pub(crate) fn new(tolerance: f64) -> Self {
-        Self { reach: reach(tolerance), close: Vec::new(), mean: Complex64::default(), home: Vec2::ZERO }
+        let (close, mean, fast, tree, near) = Default::default();
+        Self { reach: reach(tolerance), close, mean, home: Vec2::ZERO, fast, tree, near, farthest: 0.0 }
     }
 
     /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a curve,
@@ -66,10 +78,11 @@ impl Sampler {
     ) {
         let points = points.iter().map(|point| Complex64::new(point.x, point.y));
         layers.curves.iter_mut().for_each(|curve| curve.refine(&mut layers.plans[curve.plan].transforms));
-        layers.refine(density);
+        layers.refine(density, |_| true);
+        let uncorrected = self.sum_nodes(layers, density, points.clone());
         self.mean = layers.mean_flow(density).unwrap_or_default();
         if let Some(walls) = &mut layers.walls {
-            walls.prepare_points(&layers.curves, density, &layers.fine, points.clone());
+            walls.prepare_points(&layers.curves, density, &layers.fine, uncorrected, points.clone());
         }
         let exterior = viscosity(Place::Exterior);
         let forced = layers.forced_flow(exterior);
@@ -106,13 +119,46 @@ impl Sampler {
         }
     }
 
+    /// Sums over the nodes at all points at once where the nodes are many, and the part of the sums that walls are to
+    /// correct. In the plane points lie anywhere, so that there is no box for them.
+    fn sum_nodes(
+        &mut self,
+        layers: &mut Layers,
+        density: Density<'_>,
+        points: impl Iterator<Item = Complex64>,
+    ) -> Uncorrected {
+        self.fast.clear();
+        self.near.clear();
+        match &mut layers.fast {
+            Some(fast) if layers.images.periods.lengths[0].is_some() => {
+                fast.sample(&layers.curves, density, points, &mut self.fast);
+                let boxes: Vec<Frame> = layers.curves.iter().map(bounding_box).collect();
+                self.tree.build_by_place(&boxes);
+                self.farthest = self.reach * layers.curves.iter().map(Curve::spacing).fold(0.0, f64::max);
+                fast.uncorrected()
+            }
+            _ => {
+                self.near.extend(0..layers.curves.len());
+                Uncorrected::Row
+            }
+        }
+    }
+
     /// Flow at the point of that number, and its place among the curves with a density.
     fn flow_at(&mut self, layers: &mut Layers, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Place) {
         let mut flow = Flow::default();
         let mut inside = Place::Exterior;
         let mut nearest = f64::INFINITY;
         let images = layers.images;
-        for number in 0..layers.curves.len() {
+        if let Some(summed) = self.fast.get(index) {
+            flow = *summed;
+            self.near.clear();
+            let place = Frame::around([Vec2::new(point.re, point.im)]);
+            self.tree.each_near(&place, images.periods, self.farthest, &mut |number| self.near.push(number));
+            self.near.sort_unstable();
+        }
+        for near in 0..self.near.len() {
+            let number = self.near[near];
             let curve = &layers.curves[number];
             let (apart, distance) = (images.wrap(point - curve.centre), self.reach * curve.spacing());
             let open = curve.is_open();
@@ -223,6 +269,26 @@ impl Sampler {
         let weight = curve.weight() * contrast;
         let velocities = (contrast != 0.0).then(|| density.of(number));
         let greens = curve.greens();
+        if let (Some(fast), false) = (&layers.fast, self.fast.is_empty()) {
+            // The nodes are in the sums over all, and in the quadrature for close points.
+            for (point, (i, z)) in self
+                .close
+                .iter()
+                .flat_map(|point| curve.nodes.position.iter().enumerate().map(move |node| (point, node)))
+            {
+                let d = curve.wrap(z - point);
+                let kernels = match fast.leaves_out(d) {
+                    false => greens.at(d),
+                    true if curve.is_open() => greens.without_nearest(d),
+                    true => continue,
+                };
+                flow.add_force(&kernels, curve.nodes.force[i], -1.0);
+                if let Some((vx, vy)) = velocities {
+                    flow.add_dipole(&kernels, Complex64::new(vx[i], vy[i]), curve.nodes.tangent[i] * weight, -1.0);
+                }
+            }
+            return;
+        }
         // The quadrature for close points has all images of an open curve in a channel.
         if curve.is_open() && !self.close.is_empty() && matches!(layers.greens, GreensFunction::Row { .. }) {
             return;

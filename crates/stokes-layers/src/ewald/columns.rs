@@ -11,6 +11,17 @@ const I: Complex64 = Complex64::new(0.0, 1.0);
 /// Rows that are taken at a time, as in [`Rows`].
 const BATCH: usize = 8;
 
+/// Part of a flow as complex numbers; see [`crate::greens::Flow`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// Velocity u + i v.
+    Velocity,
+    /// Its derivative by conj(z).
+    Strain,
+    /// Minus half of the pressure, and the spin as imaginary part.
+    Pull,
+}
+
 /// Columns of the wave numbers m and -m along x, for some m.
 #[derive(Debug, Clone)]
 pub(super) struct Columns {
@@ -79,24 +90,43 @@ impl Columns {
     }
 
     /// Multiplies by the spectrum of the Stokeslet and transforms back: `W(k) = A [Z(k) - kappa^2/k^2 conj Z(-k)]` with
-    /// the spectrum Z of the forces as complex numbers and kappa = kx + i ky.
-    pub(super) fn apply_stokeslet(&mut self, lattice: &Lattice) {
-        self.each_pair(lattice, |kappa, symbol, [here, there], _| {
+    /// the spectrum Z of the forces as complex numbers and kappa = kx + i ky; the pull is `i A conj(kappa) Z(k)`.
+    pub(super) fn apply_stokeslet(&mut self, lattice: &Lattice, part: Part) {
+        let velocity = |kappa: Complex64, symbol: f64, [here, there]: [Complex64; 2]| {
             let (square, turn) = (kappa.norm_sqr() * symbol, kappa * kappa * symbol);
             [here * square - turn * there.conj(), there * square - turn * here.conj()]
-        });
+        };
+        match part {
+            Part::Velocity => self.each_pair(lattice, |kappa, symbol, pair, _| velocity(kappa, symbol, pair)),
+            Part::Strain => {
+                self.each_pair(lattice, |kappa, symbol, pair, _| strain(kappa, velocity(kappa, symbol, pair)));
+            }
+            Part::Pull => self.each_pair(lattice, |kappa, symbol, [here, there], _| {
+                let factor = I * kappa.conj() * (kappa.norm_sqr() * symbol);
+                [factor * here, -factor * there]
+            }),
+        }
     }
 
     /// Multiplies by the spectrum of the stress and transforms back:
     /// `W(k) = -2 i A [conj(kappa) Z(k) - kappa^3/k^2 conj Z(-k) + kappa T(k)]` with the spectrum Z of half of
-    /// (xx - yy) + i s of the dipoles, and T of their trace.
-    pub(super) fn apply_stress(&mut self, lattice: &Lattice) {
-        self.each_pair(lattice, |kappa, symbol, [here, there], trace| {
+    /// (xx - yy) + i s of the dipoles, and T of their trace; the pull is `2 A conj(kappa)^2 Z(k)`.
+    pub(super) fn apply_stress(&mut self, lattice: &Lattice, part: Part) {
+        let velocity = |kappa: Complex64, symbol: f64, [here, there]: [Complex64; 2], trace: Complex64| {
             let (square, cube) = (kappa.norm_sqr(), kappa * kappa * kappa);
             let one = (kappa.conj() * here + kappa * trace) * square - cube * there.conj();
             let other = cube * here.conj() - (kappa.conj() * there + kappa * trace.conj()) * square;
             [one, other].map(|value| -2.0 * symbol * I * value)
-        });
+        };
+        match part {
+            Part::Velocity => self.each_pair(lattice, velocity),
+            Part::Strain => self
+                .each_pair(lattice, |kappa, symbol, pair, trace| strain(kappa, velocity(kappa, symbol, pair, trace))),
+            Part::Pull => self.each_pair(lattice, |kappa, symbol, pair, _| {
+                let factor = 2.0 * kappa.norm_sqr() * symbol * kappa.conj() * kappa.conj();
+                pair.map(|value| factor * value)
+            }),
+        }
     }
 
     /// Replaces the values of each pair of opposite waves and transforms back; `take` gets kappa and the factor of the
@@ -145,6 +175,12 @@ impl Columns {
             take(column_of(&self.waves, index, self.size[0]), values);
         }
     }
+}
+
+/// Derivative by conj(z) of the waves of kappa and -kappa.
+fn strain(kappa: Complex64, [here, there]: [Complex64; 2]) -> [Complex64; 2] {
+    let factor = 0.5 * I * kappa;
+    [factor * here, -factor * there]
 }
 
 /// The place in a row of the column of that number in a share.

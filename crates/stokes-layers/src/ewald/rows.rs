@@ -79,6 +79,16 @@ impl Rows {
         cells.row(self.cells.start).start..cells.row(self.cells.end - 1).end
     }
 
+    /// Sets the flow at the entries of its rows of cells to zero; the first of these entries.
+    pub(super) fn begin(&mut self, cells: &Cells) -> usize {
+        let entries = self.entries(cells);
+        for flow in &mut self.flow {
+            flow.clear();
+            flow.resize(entries.len(), 0.0);
+        }
+        entries.start
+    }
+
     /// The grid point at or before an entry and the parts of a distance that it lies behind it, along x and y.
     #[inline(always)]
     fn place(&self, parts: [f64; 2]) -> ([usize; 2], [f64; 2]) {

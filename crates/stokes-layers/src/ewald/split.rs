@@ -52,22 +52,9 @@ pub(super) struct Split {
 
 impl Split {
     pub(super) fn new(tolerance: f64) -> Self {
-        let tolerance = (MARGIN * tolerance).max(LEAST);
-        // Measured: what the single layer of random nodes leaves out, relative to the largest velocity, is
-        // 2.7e-3 exp(-.934 (c - 8)).
-        let c = 8.0 + (2.7e-3 / tolerance).ln() / 0.934;
-        let prolate = Prolate::new(c);
-        let alpha = 0.5 * prolate.bend / (c * c);
-        let phi = |x: f64| (1.0 + alpha * x * x) * prolate.at(x / c);
-        let nodes: Vec<[f64; 2]> = gauss_legendre(QUADRATURE)
-            .into_iter()
-            .map(|[x, weight]| {
-                let k = 0.5 * c * (1.0 + x);
-                [k, 0.5 * c * weight * phi(k)]
-            })
-            .collect();
-        let integral = |term: &dyn Fn(f64) -> f64| nodes.iter().map(|[k, phi]| phi * term(*k)).sum::<f64>();
-        let radius = |t: f64| (0.5 * (1.0 + t)).max(0.0).sqrt();
+        let spectrum = Spectrum::new(tolerance);
+        let Spectrum { tolerance, c, .. } = spectrum;
+        let (phi, integral) = (|x: f64| spectrum.phi(x), |term: &dyn Fn(f64) -> f64| spectrum.integral(term));
         let even = |t: f64| {
             let r = radius(t);
             0.5 + 2.0 * integral(&|k| (bessel::<0>(k * r) - bessel::<1>(k * r) - 0.5 * bessel::<0>(k)) / k)
@@ -87,6 +74,65 @@ impl Split {
     pub(super) fn phi(&self, x: f64) -> f64 {
         value(&self.phi, 2.0 * (x / self.c).powi(2) - 1.0)
     }
+}
+
+/// phi by its prolate function, and a quadrature of integrals with it over k.
+struct Spectrum {
+    /// What the split of a single layer may err by.
+    tolerance: f64,
+    c: f64,
+    prolate: Prolate,
+    alpha: f64,
+    /// Nodes, and phi there times their weight.
+    nodes: Vec<[f64; 2]>,
+}
+
+impl Spectrum {
+    fn new(tolerance: f64) -> Self {
+        let tolerance = (MARGIN * tolerance).max(LEAST);
+        // Measured: what the single layer of random nodes leaves out, relative to the largest velocity, is
+        // 2.7e-3 exp(-.934 (c - 8)).
+        let c = 8.0 + (2.7e-3 / tolerance).ln() / 0.934;
+        let prolate = Prolate::new(c);
+        let alpha = 0.5 * prolate.bend / (c * c);
+        let mut spectrum = Self { tolerance, c, prolate, alpha, nodes: Vec::new() };
+        let nodes = gauss_legendre(QUADRATURE).into_iter().map(|[x, weight]| {
+            let k = 0.5 * c * (1.0 + x);
+            [k, 0.5 * c * weight * spectrum.phi(k)]
+        });
+        spectrum.nodes = nodes.collect();
+        spectrum
+    }
+
+    fn phi(&self, x: f64) -> f64 {
+        (1.0 + self.alpha * x * x) * self.prolate.at(x / self.c)
+    }
+
+    fn integral(&self, term: &dyn Fn(f64) -> f64) -> f64 {
+        self.nodes.iter().map(|[k, phi]| phi * term(*k)).sum()
+    }
+}
+
+/// b + ln r_c, then g and its first and second derivative by the square of the distance, as powers of t, for samples
+/// of the flow of a split of that tolerance.
+pub(super) fn derivatives(tolerance: f64) -> [Vec<f64>; 4] {
+    let spectrum = Spectrum::new(tolerance);
+    let integral = |term: &dyn Fn(f64) -> f64| spectrum.integral(term);
+    let accuracy = POLYNOMIALS * spectrum.tolerance;
+    [
+        powers(accuracy, |t| {
+            let r = radius(t);
+            0.5 + 2.0 * integral(&|k| (bessel::<0>(k * r) - bessel::<1>(k * r) - 0.5 * bessel::<0>(k)) / k)
+        }),
+        powers(accuracy, |t| 2.0 * integral(&|k| k * bessel::<2>(k * radius(t)))),
+        powers(accuracy, |t| -integral(&|k| k.powi(3) * bessel::<3>(k * radius(t)))),
+        powers(accuracy, |t| 0.5 * integral(&|k| k.powi(5) * bessel::<4>(k * radius(t)))),
+    ]
+}
+
+/// The distance in units of the cut-off at t.
+fn radius(t: f64) -> f64 {
+    (0.5 * (1.0 + t)).max(0.0).sqrt()
 }
 
 /// Even and odd powers of two polynomials together.

@@ -69,9 +69,13 @@ impl Flow {
     /// and weight.
     pub(crate) fn add_dipole(&mut self, k: &Kernels, velocity: Complex64, tangent: Complex64, sign: f64) {
         let velocity = velocity * sign;
-        let product = velocity * tangent;
         let flux = velocity * tangent.conj();
-        let flux = flux - flux.conj();
+        self.add_products(k, velocity * tangent, flux - flux.conj());
+    }
+
+    /// Adds the flow of the product of velocity and element of a double layer, and of `flux`, that of the velocity with
+    /// the conjugate of the element, less its own conjugate.
+    pub(crate) fn add_products(&mut self, k: &Kernels, product: Complex64, flux: Complex64) {
         self.velocity -= I * product * k.c[0] + I * (flux * k.c[0] - product * k.e[1]).conj();
         let turn = product * k.c[1];
         self.spin -= 2.0 * I * turn.re;

@@ -15,8 +15,9 @@ mod points;
 pub(crate) use points::WallPoints;
 use points::{LANES, Lanes};
 
-/// Largest number of modes: at a tolerance of 1e-8 as many resolve gaps down to 1/2500 of the period.
-const MOST_MODES: usize = 4096;
+/// Largest number of modes, whose memory is some 100 MB: at a tolerance of 1e-8 they resolve gaps down to 1/160,000 of
+/// the period.
+const MOST_MODES: usize = 1 << 18;
 
 /// Sums over sources for some modes, real and imaginary parts: of e q (`plain`) and of e (p - k s q) (`mixed`), with
 /// e = exp(-k s - i k x), q complex and p real.

@@ -24,6 +24,10 @@ const PRODUCTS: f64 = 100.0;
 /// Largest relative residual that is asked for in place of a smaller one that turns out not to be attainable.
 const LOOSEST: f64 = 1e-10;
 
+/// Part of the tolerance that the sums and the residual may err by for many interfaces: they bound a mean over all,
+/// and where films are thin the error is larger (measured).
+const MANY: f64 = 0.125;
+
 const FOUR_PI: f64 = 4.0 * PI;
 
 /// Interior and exterior of an interface.
@@ -95,6 +99,19 @@ impl Equation {
         self.contrasts.iter().any(|contrast| *contrast != 0.0)
     }
 
+    /// Part of its largest value that a product is to be right to for each part of the tolerance of velocities, where
+    /// the exterior fluid has that viscosity. A rigid motion is multiplied by eta_out alone, one of several interfaces
+    /// together by the exterior viscosity, so an error in it counts that much more.
+    fn sensitivity(&self, viscosity: f64) -> f64 {
+        let least = |sides: &Sides| sides.outside.min(viscosity) * sides.mobility();
+        self.sides.iter().map(least).fold(1.0, f64::min)
+    }
+
+    /// Tolerance of fast sums over that of velocities, a power of 2.
+    pub(super) fn sharpness(&self, viscosity: f64) -> f64 {
+        if self.has_contrast() { (MANY * self.sensitivity(viscosity)).log2().floor().exp2() } else { 1.0 }
+    }
+
     /// The right-hand side of zeros for so many nodes of each interface.
     pub(super) fn begin(&mut self, nodes: usize) {
         self.right.clear();
@@ -144,14 +161,13 @@ impl Equation {
         &Settings { tolerance, most_iterations, .. }: &Settings,
         viscosity: f64,
     ) -> Result<Outcome, LayerError> {
-        // A rigid motion is multiplied by eta_out alone, one of several interfaces together by the exterior viscosity,
-        // so a residual in it counts that much more.
-        let least = |sides: &Sides| tolerance * sides.outside.min(viscosity) * sides.mobility();
-        let mut goal = self.sides.iter().map(least).fold(tolerance, f64::min).max(ATTAINABLE);
+        let many = if layers.sums_fast() { MANY } else { 1.0 };
+        let mut goal = (many * tolerance * self.sensitivity(viscosity)).max(ATTAINABLE);
         let Self { sides, contrasts, gmres, right, solution, image, scaled } = self;
         let operator = Operator { sides, contrasts };
         // Of few interfaces the iteration finds the rigid motions by itself.
         let preconditioned = layers.sums_fast();
+        let finest = if preconditioned { layers.sharpness * tolerance } else { tolerance };
         if preconditioned {
             operator.scale_motions(&layers.curves, solution, f64::recip);
         }
@@ -163,7 +179,7 @@ impl Equation {
                 operator.scale_motions(&layers.curves, scaled, |factor| factor);
                 v = scaled;
             }
-            operator.apply(layers, walls.as_deref_mut(), v, accuracy.max(tolerance), out);
+            operator.apply(layers, walls.as_deref_mut(), v, accuracy.max(finest), out);
         };
         let mut outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
         while outcome.iterations > TRUSTED {

@@ -1,4 +1,5 @@
 mod free_body;
+mod many;
 mod sheared;
 
 use std::f64::consts::PI;

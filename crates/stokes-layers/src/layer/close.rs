@@ -305,7 +305,7 @@ impl CloseCorrection {
 }
 
 /// A box around a curve; an open one runs across the period.
-fn bounding_box(curve: &Curve) -> Frame {
+pub(crate) fn bounding_box(curve: &Curve) -> Frame {
     let centre = Vec2::new(curve.centre.re, curve.centre.im);
     let half = Vec2::splat(curve.radius);
     Frame::around([centre - half, centre + half])

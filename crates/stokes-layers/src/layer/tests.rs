@@ -106,12 +106,13 @@ fn fast_sums_are_the_sums_over_pairs_to_the_tolerance() {
         (flat, -0.7, [8, 3]),
         (channel(Drive::ZeroGradient), 0.0, [5, 4]),
         (channel(Drive::ZeroFlux), 0.0, [5, 4]),
+        (Region::Plane, 0.0, [5, 5]),
     ];
     for (region, strain, counts) in cases {
         let lengths = match region {
             Region::Box { lengths } => lengths,
             Region::Channel { length, width, .. } => [length, width],
-            _ => continue,
+            _ => [14.0, 14.0],
         };
         let curves = ellipses(lengths, counts);
         let mut layers = loaded(region, strain, 1e-13, &curves);
@@ -174,7 +175,7 @@ fn fast_single_layers_are_reciprocal() {
         layers.clear();
         let Layers { fast: Some(fast), curves, plans, flow, .. } = &mut layers else { return Default::default() };
         fast.place(curves);
-        fast.add_forces(curves, plans, flow);
+        fast.add_forces(curves, 0..curves.len(), plans, flow);
         let forces: Vec<Vec<Complex64>> = curves.iter().map(|curve| curve.nodes.force.clone()).collect();
         (forces, flow.clone())
     };

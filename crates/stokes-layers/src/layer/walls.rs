@@ -34,11 +34,13 @@ pub(crate) struct Walls {
     tolerance: f64,
     modes: WallModes,
     nodes: WallPoints,
-    fine: WallPoints,
     /// Curve and number of each node.
     owners: Vec<[usize; 2]>,
-    /// True where a gap to a wall is so narrow that sources are taken from the fine nodes.
-    refined: bool,
+    /// Sources where some are taken from the fine nodes, and the curve and the number of each; empty otherwise.
+    sources: WallPoints,
+    source_owners: Vec<[usize; 2]>,
+    /// True for curves with a gap to a wall so narrow that sources are taken from their fine nodes.
+    refined: Vec<bool>,
     /// Smallest distance of a node from a wall (length).
     gap: f64,
     /// Points off the curves.
@@ -56,17 +58,23 @@ impl Walls {
             tolerance,
             modes: WallModes::new(length, half, drive.flux().is_some()),
             nodes: points.clone(),
-            fine: points.clone(),
             owners: Vec::new(),
-            refined: false,
+            sources: points.clone(),
+            source_owners: Vec::new(),
+            refined: Vec::new(),
             gap: 0.0,
             points,
         }
     }
 
-    /// True where sources are taken from the fine nodes, so that velocities are needed there.
+    /// True where some sources are taken from fine nodes.
     pub(crate) fn is_refined(&self) -> bool {
-        self.refined
+        self.refined.contains(&true)
+    }
+
+    /// True for a curve whose sources are taken from the fine nodes, so that forces and velocities are needed there.
+    pub(crate) fn refines(&self, curve: usize) -> bool {
+        self.refined.get(curve).is_some_and(|refined| *refined)
     }
 
     /// Takes over the present shapes.
@@ -76,9 +84,10 @@ impl Walls {
     pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut [Plan]) -> Result<(), LayerError> {
         self.nodes.clear();
         self.owners.clear();
-        let mut spacing = 0.0f64;
-        for (number, curve) in curves.iter().enumerate() {
-            spacing = spacing.max(curve.spacing());
+        self.refined.clear();
+        self.gap = f64::INFINITY;
+        for (number, curve) in curves.iter_mut().enumerate() {
+            let mut least = f64::INFINITY;
             for (node, z) in curve.nodes.position.iter().enumerate() {
                 let z = z + curve.centre;
                 let depth = z.im.abs() - self.half;
@@ -86,77 +95,106 @@ impl Walls {
                 if depth > allowed {
                     return Err(LayerError::BeyondWall { curve: number, node, x: z.re, y: z.im, depth, allowed });
                 }
+                let y = z.im.clamp(-self.half, self.half);
+                least = least.min(self.half - y.abs());
                 self.owners.push([number, node]);
-                self.nodes.push(z.re, z.im.clamp(-self.half, self.half));
+                self.nodes.push(z.re, y);
             }
+            // The image of a node behind the wall is two gaps away from the node.
+            let refined = 2.0 * least < reach(self.tolerance) * curve.spacing();
+            self.refined.push(refined);
+            if refined {
+                curve.refine(&mut plans[curve.plan].transforms);
+                let fine = curve.fine.position.iter().map(|z| self.half - (z.im + curve.centre.im).abs());
+                least = fine.fold(least, f64::min).max(LEAST_GAP * curve.spacing());
+            }
+            self.gap = self.gap.min(least);
         }
-        self.gap = self.nodes.gap();
-        // The image of a node behind the wall is two gaps away from the node.
-        self.refined = 2.0 * self.gap < reach(self.tolerance) * spacing;
-        if self.refined {
-            curves.iter_mut().for_each(|curve| curve.refine(&mut plans[curve.plan].transforms));
-            self.load_fine(curves);
-            self.gap = self.gap.min(self.fine.gap()).max(LEAST_GAP * spacing);
-        }
+        self.load_sources(curves, |refined, number| refined[number]);
         Ok(())
     }
 
-    fn load_fine(&mut self, curves: &[Curve]) {
-        self.fine.clear();
-        for curve in curves {
-            for z in &curve.fine.position {
+    /// Takes over the sources, if those of some curve are its fine nodes.
+    fn load_sources(&mut self, curves: &[Curve], fine: impl Fn(&[bool], usize) -> bool) {
+        self.sources.clear();
+        self.source_owners.clear();
+        if !(0..curves.len()).any(|number| fine(&self.refined, number)) {
+            return;
+        }
+        for (number, curve) in curves.iter().enumerate() {
+            for (node, z) in curve.samples(fine(&self.refined, number)).position.iter().enumerate() {
                 let z = z + curve.centre;
-                self.fine.push(z.re, z.im);
+                self.sources.push(z.re, z.im);
+                self.source_owners.push([number, node]);
             }
         }
     }
 
-    /// Adds the forces at the nodes or fine nodes of some curves to the modes.
-    fn put_forces(&mut self, curves: &[Curve], from: Range<usize>, fine: bool, target_gap: f64) {
-        let owners = &self.owners;
-        let force = |j: usize| {
-            let [curve, i] = owner(owners, j, fine);
-            if from.contains(&curve) { curves[curve].samples(fine).force[i] } else { Complex64::default() }
-        };
-        let points = if fine { &self.fine } else { &self.nodes };
-        self.modes.add_forces(points, target_gap, force);
+    /// The sources with curve and number of each, and the mode sums.
+    fn sources(&mut self) -> (&WallPoints, &[[usize; 2]], &mut WallModes) {
+        if self.source_owners.is_empty() {
+            (&self.nodes, &self.owners, &mut self.modes)
+        } else {
+            (&self.sources, &self.source_owners, &mut self.modes)
+        }
     }
 
-    /// Adds `sign` times the dipoles to the modes: those at the fine nodes if `fine` has the velocities there, those at
-    /// the nodes otherwise.
+    /// Adds the forces at the sources of some curves to the modes; `fine` is true for curves whose sources are their
+    /// fine nodes.
+    fn put_forces(
+        &mut self,
+        curves: &[Curve],
+        from: Range<usize>,
+        fine: impl Fn(&[bool], usize) -> bool,
+        target_gap: f64,
+    ) {
+        let refined = std::mem::take(&mut self.refined);
+        let (points, owners, modes) = self.sources();
+        let force = |j: usize| {
+            let [curve, i] = owners[j];
+            let samples = || curves[curve].samples(fine(&refined, curve));
+            if from.contains(&curve) { samples().force[i] } else { Complex64::default() }
+        };
+        modes.add_forces(points, target_gap, force);
+        self.refined = refined;
+    }
+
+    /// Adds `sign` times the dipoles at the sources to the modes, `values` being the velocities at the fine nodes of
+    /// all curves, where they are needed.
     fn put_dipoles(
         &mut self,
         curves: &[Curve],
         density: Density<'_>,
-        fine: Option<&[Complex64]>,
-        target_gap: f64,
-        sign: f64,
+        values: &[Complex64],
+        fine: impl Fn(&[bool], usize) -> bool,
+        (target_gap, sign): (f64, f64),
     ) {
-        let points = if fine.is_some() { &self.fine } else { &self.nodes };
-        let owners = &self.owners;
+        let refined = std::mem::take(&mut self.refined);
+        let (points, owners, modes) = self.sources();
         let dipole = |j: usize| {
-            let [curve, i] = owner(owners, j, fine.is_some());
+            let [curve, i] = owners[j];
             let contrast = density.contrast(curve);
             if contrast == 0.0 {
                 return [0.0; 3];
             }
-            let v = fine.map_or_else(
-                || {
-                    let (x, y) = density.of(curve);
-                    Complex64::new(x[i], y[i])
-                },
-                |values| values[j],
-            );
-            let samples = curves[curve].samples(fine.is_some());
+            let fine = fine(&refined, curve);
+            let v = if fine {
+                values[REFINEMENT * density.nodes() * curve + i]
+            } else {
+                let (x, y) = density.of(curve);
+                Complex64::new(x[i], y[i])
+            };
+            let samples = curves[curve].samples(fine);
             let weight = sign * TAU / samples.position.len() as f64;
             let t = samples.tangent[i] * (contrast * weight);
             [v.re * t.im, v.im * t.im - v.re * t.re, -v.im * t.re]
         };
         let x = |j: usize| {
-            let [curve, i] = owner(owners, j, fine.is_some());
-            curves[curve].samples(fine.is_some()).position[i].re
+            let [curve, i] = owners[j];
+            curves[curve].samples(fine(&refined, curve)).position[i].re
         };
-        self.modes.add_dipoles(points, target_gap, dipole, x);
+        modes.add_dipoles(points, target_gap, dipole, x);
+        self.refined = refined;
     }
 
     /// Adds the flow of the modes at the nodes.
@@ -179,7 +217,7 @@ impl Walls {
     ) {
         if !curves.is_empty() {
             self.modes.begin(uncorrected, self.gap, self.gap, self.tolerance);
-            self.put_forces(curves, from, self.refined, self.gap);
+            self.put_forces(curves, from, |refined, curve| refined[curve], self.gap);
             self.add_modes(out);
         }
     }
@@ -195,7 +233,7 @@ impl Walls {
         out: &mut [Vectors],
     ) {
         self.modes.begin(uncorrected, self.gap, self.gap, accuracy);
-        self.put_dipoles(curves, density, self.refined.then_some(fine), self.gap, 1.0);
+        self.put_dipoles(curves, density, fine, |refined, curve| refined[curve], (self.gap, 1.0));
         self.add_modes(out);
     }
 
@@ -267,40 +305,32 @@ impl Walls {
         curves: &[Curve],
         density: Density<'_>,
         fine: &[Complex64],
+        uncorrected: Uncorrected,
         points: impl Iterator<Item = Complex64>,
     ) {
         self.points.clear();
         for z in points {
             self.points.push(z.re, z.im.clamp(-self.half, self.half));
         }
-        self.load_fine(curves);
+        self.load_sources(curves, |_, _| true);
         if curves.is_empty() {
             self.modes.begin(Uncorrected::Row, self.half, self.half, self.tolerance);
         } else {
             let spacing = curves.iter().map(Curve::spacing).fold(0.0, f64::max);
-            let source_gap = self.fine.gap().max(LEAST_GAP * spacing);
+            let source_gap = self.sources.gap().max(LEAST_GAP * spacing);
             let target_gap = self.points.gap().min(self.half);
-            self.modes.begin(Uncorrected::Row, source_gap, target_gap, self.tolerance);
-            self.put_forces(curves, 0..curves.len(), true, target_gap);
+            self.modes.begin(uncorrected, source_gap, target_gap, self.tolerance);
+            self.put_forces(curves, 0..curves.len(), |_, _| true, target_gap);
             if !density.vanishes() {
-                self.put_dipoles(curves, density, Some(fine), target_gap, -1.0);
+                self.put_dipoles(curves, density, fine, |_, _| true, (target_gap, -1.0));
             }
         }
         self.modes.solve();
+        self.load_sources(curves, |refined, number| refined[number]);
     }
 
     /// Adds the contribution of the walls to the flow at the point of that number.
     pub(crate) fn add_flow(&self, index: usize, flow: &mut Flow) {
         *flow += self.modes.flow(&self.points, index);
-    }
-}
-
-/// Curve and number in it of node j, or of fine node j.
-fn owner(owners: &[[usize; 2]], j: usize, fine: bool) -> [usize; 2] {
-    if fine {
-        let [curve, node] = owners[j / REFINEMENT];
-        [curve, REFINEMENT * node + j % REFINEMENT]
-    } else {
-        owners[j]
     }
 }

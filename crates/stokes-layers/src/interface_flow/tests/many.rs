@@ -1,0 +1,206 @@
+//! Many droplets beside rigid bodies, between curved walls, and the flow between them: fast sums against sums over
+//! pairs.
+
+use std::f64::consts::TAU;
+
+use motile_base::Drive;
+
+use super::*;
+use crate::{PeriodicCalculus, TensionPlacement};
+
+const NODES: usize = 80;
+const SIDE: f64 = 10.4;
+/// Droplets along a side of the lattice.
+const COUNT: usize = 4;
+
+fn angle(k: usize, count: usize) -> f64 {
+    TAU * k as f64 / count as f64
+}
+
+/// Outlines on a lattice over a square about the middle, of different shapes, with their forces; films between some
+/// are 0.2 wide.
+fn droplets(side: f64) -> Vec<(Vec<Vec2>, Vec<Vec2>)> {
+    let cell = side / COUNT as f64;
+    let mut calculus = PeriodicCalculus::new(NODES).unwrap();
+    let outline = |number: usize| -> (Vec<Vec2>, Vec<Vec2>) {
+        let place = |k: usize| (k as f64 + 0.5) * cell - 0.5 * side;
+        let centre = Vec2::new(place(number % COUNT), place(number / COUNT));
+        let (along, across) = (0.5 * cell - 0.1, 0.4 * cell + 0.02 * (number % 4) as f64);
+        let at = |k: usize| angle(k, NODES);
+        let positions: Vec<Vec2> =
+            (0..NODES).map(|k| centre + Vec2::new(along * at(k).cos(), across * at(k).sin())).collect();
+        let tension: Vec<f64> = (0..NODES).map(|k| 1.0 + 0.5 * (at(k) - number as f64).cos()).collect();
+        let mut forces = vec![Vec2::ZERO; NODES];
+        calculus.tension_forces(&positions, &tension, TensionPlacement::Points, &mut forces).unwrap();
+        (positions, forces)
+    };
+    (0..COUNT * COUNT).map(outline).collect()
+}
+
+/// A flow with the droplets, of which every fourth one is rigid where `rigid` says so, by fast sums or by others.
+fn solved(mut flow: InterfaceFlow, inside: f64, rigid: bool, fast: bool) -> InterfaceFlow {
+    let all = droplets(SIDE);
+    let given = all.iter().enumerate().map(|(number, (positions, forces))| {
+        if rigid && number % 4 == 0 {
+            Interface::rigid(positions, forces, 1.0)
+        } else {
+            Interface::closed(positions, forces, [inside, 1.0])
+        }
+    });
+    flow.load(given).unwrap();
+    assert!(flow.layers.sums_fast());
+    if !fast {
+        flow.layers.fast = None;
+    }
+    flow.solve().unwrap();
+    flow
+}
+
+/// Velocities at the points of all droplets.
+fn velocities(flow: &mut InterfaceFlow) -> Vec<Vec2> {
+    let mut all = vec![Vec2::ZERO; NODES * flow.len()];
+    for (number, out) in all.chunks_exact_mut(NODES).enumerate() {
+        flow.velocities(number, out).unwrap();
+    }
+    all
+}
+
+fn settings(tolerance: f64) -> Settings {
+    Settings { nodes: NODES, tolerance, warm_start: false, ..Settings::default() }
+}
+
+/// Largest difference over the largest value.
+fn error(found: &[Vec2], expected: &[Vec2]) -> f64 {
+    let largest = expected.iter().map(|v| v.length()).fold(0.0, f64::max);
+    found.iter().zip(expected).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / largest
+}
+
+const BOX: Region = Region::Box { lengths: [SIDE, SIDE] };
+const CHANNEL: Region = Region::Channel { length: SIDE, width: SIDE + 0.4, drive: Drive::ZeroFlux };
+
+#[test]
+fn velocities_are_right_to_the_tolerance_at_any_ratio() {
+    for region in [BOX, CHANNEL, Region::Plane] {
+        for (inside, rigid) in [(0.1, false), (10.0, false), (10.0, true)] {
+            let new = |tolerance| InterfaceFlow::new(region, 1.0, settings(tolerance)).unwrap();
+            let expected = velocities(&mut solved(new(1e-13), inside, rigid, false));
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let error = error(&velocities(&mut solved(new(tolerance), inside, rigid, true)), &expected);
+                println!("{region:?} {inside} {rigid} {tolerance:e}: {:.2}", error / tolerance);
+                assert!(error < tolerance, "{region:?} {inside} {rigid} {tolerance:e}: {error:e}");
+            }
+        }
+    }
+}
+
+/// A side of a channel, a sine about the height y of walls with the fluid between them.
+fn side(y: f64, count: usize) -> (Vec<Vec2>, Vec2) {
+    let fluid = -y.signum();
+    let x = |k: usize| fluid * SIDE * (k as f64 / count as f64 - 0.5);
+    let height = |x: f64| y + 0.3 * (TAU * x / SIDE).sin();
+    ((0..count).map(|k| Vec2::new(x(k), height(x(k)))).collect(), Vec2::new(fluid * SIDE, 0.0))
+}
+
+#[test]
+fn curved_walls_stand_beside_many_droplets() {
+    let walls = [-0.5 * SIDE - 0.4, 0.5 * SIDE + 0.4].map(|y| side(y, 160));
+    let region = Region::Channel { length: SIDE, width: SIDE + 2.0, drive: Drive::Flux(0.3) };
+    let walled = |tolerance: f64| {
+        let curves = walls.iter().map(|(positions, period)| LayerCurve { positions, period: *period, nodes: 160 });
+        InterfaceFlow::new(region, 1.0, settings(tolerance)).unwrap().with_walls(curves).unwrap()
+    };
+    for inside in [1.0, 5.0] {
+        let expected = velocities(&mut solved(walled(1e-13), inside, false, false));
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            let error = error(&velocities(&mut solved(walled(tolerance), inside, false, true)), &expected);
+            println!("walls, {inside} {tolerance:e}: {:.2}", error / tolerance);
+            assert!(error < tolerance, "{inside} {tolerance:e}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn samples_are_those_of_sums_over_pairs() {
+    // In the fluid, in droplets, in a film, at and beside a node, beside a wall and outside of the first image.
+    let cell = SIDE / COUNT as f64;
+    let node = droplets(SIDE)[7].0[5];
+    let points = [
+        Vec2::new(0.3 - 0.5 * SIDE, 0.01 - 0.5 * SIDE),
+        Vec2::new(0.0, 0.0),
+        Vec2::new(0.5 * cell, 0.0),
+        Vec2::new(0.5 * cell - 0.02, 0.1),
+        node,
+        node + Vec2::new(1e-7, 2e-7),
+        node + Vec2::new(3e-3, -2e-3),
+        Vec2::new(0.2, 0.5 * SIDE),
+        Vec2::new(2.2, -0.5 * SIDE + 0.02),
+        Vec2::new(SIDE, 1.0),
+        Vec2::new(-1.37 * SIDE, 2.3),
+    ];
+    for region in [BOX, CHANNEL] {
+        for (inside, rigid) in [(1.0, false), (10.0, false), (10.0, true)] {
+            for tolerance in [1e-4, 1e-6, 1e-9] {
+                let new = InterfaceFlow::new(region, 1.0, settings(tolerance)).unwrap();
+                let mut flow = solved(new, inside, rigid, true);
+                let mut sampled = || {
+                    let mut out = vec![FlowSample::default(); points.len()];
+                    flow.sample(&points, &mut out).unwrap();
+                    flow.layers.fast = None;
+                    out
+                };
+                let [found, expected] = [sampled(), sampled()];
+                let largest = |of: &dyn Fn(&FlowSample) -> f64| expected.iter().map(of).fold(0.0, f64::max);
+                let speed = largest(&|sample| sample.velocity.length());
+                let pressure = largest(&|sample| sample.pressure.abs());
+                let slope = largest(&|sample| sample.gradient.as_flattened().iter().fold(0.0, |a, b| a.max(b.abs())));
+                let mut errors = [0.0f64; 3];
+                for (found, expected) in found.iter().zip(&expected) {
+                    let slopes = found.gradient.as_flattened().iter().zip(expected.gradient.as_flattened());
+                    errors = [
+                        errors[0].max(found.velocity.distance(expected.velocity) / speed),
+                        errors[1].max((found.pressure - expected.pressure).abs() / pressure),
+                        errors[2].max(slopes.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / slope),
+                    ];
+                }
+                println!("samples, {region:?} {inside} {rigid} {tolerance:e}: {:?}", errors.map(|e| e / tolerance));
+                assert!(errors[0] < tolerance, "{region:?} {inside} {rigid} {tolerance:e}: {errors:?}");
+                // Pressure and gradient, a derivative further, err by more.
+                assert!(errors[1].max(errors[2]) < 10.0 * tolerance, "{region:?} {inside} {rigid}: {errors:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_droplet_near_a_wall_refines_no_other() {
+    // The first one, of fewer nodes than the film needs, has its fine nodes; the other's are as they were.
+    let region = Region::Channel { length: 8.0, width: 6.0, drive: Drive::ZeroGradient };
+    let moved = |nodes: usize| {
+        let at = |k: usize| angle(k, nodes);
+        let circle = |x: f64, y: f64| (0..nodes).map(|k| Vec2::new(x + at(k).cos(), y + at(k).sin())).collect();
+        let outlines: [Vec<Vec2>; 2] = [circle(-1.5, -1.9), circle(1.5, 0.5)];
+        let mut calculus = PeriodicCalculus::new(nodes).unwrap();
+        let tension: Vec<f64> = (0..nodes).map(|k| 1.0 + 0.5 * at(k).sin()).collect();
+        let mut forces = [(); 2].map(|()| vec![Vec2::ZERO; nodes]);
+        for (outline, forces) in outlines.iter().zip(&mut forces) {
+            calculus.tension_forces(outline, &tension, TensionPlacement::Points, forces).unwrap();
+        }
+        let settings = Settings { nodes, tolerance: 1e-10, ..Settings::default() };
+        let mut flow = InterfaceFlow::new(region, 1.0, settings).unwrap();
+        let given = outlines.iter().zip(&forces);
+        flow.load(given.map(|(outline, forces)| Interface::closed(outline, forces, [3.0, 1.0]))).unwrap();
+        flow.solve().unwrap();
+        let walls = flow.layers.walls.as_ref().unwrap();
+        let refined = [walls.refines(0), walls.refines(1)];
+        let velocities = [0, 1].map(|number| {
+            let mut out = vec![Vec2::ZERO; nodes];
+            flow.velocities(number, &mut out).unwrap();
+            out.into_iter().step_by(nodes / 64).collect::<Vec<_>>()
+        });
+        (refined, velocities.concat())
+    };
+    let ((refined, found), (_, expected)) = (moved(64), moved(256));
+    assert_eq!(refined, [true, false]);
+    let error = error(&found, &expected);
+    assert!(error < 1e-7, "{error:e}");
+}

@@ -1,0 +1,90 @@
+//! Sixteen droplets by a grid, by layers and without a grid: error against cost.
+
+use std::cell::RefCell;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use motile::active_interface::suspension::Member;
+use motile::motile_base::Vec2;
+use motile::setup::{Built, GridMethod, LayersMethod, Method, Setup};
+use motile_tests::validation::Table;
+use motile_timing::{PlainPair, Turns};
+
+use super::{CELLS, Rows, integral, suspension};
+
+const COUNT: usize = 16;
+const FRACTION: f64 = 0.3;
+const ACTIVITY: f64 = -2.0;
+/// Nodes of what all are compared with, and those that the repulsion is made for.
+const FINEST: usize = 96;
+const HELD: usize = 48;
+const TIME: f64 = 2.0;
+/// Time over which a method's steps are measured (seconds).
+const BUDGET: f64 = 6.0;
+
+pub(super) fn table(rows: &mut Rows) -> Result<Table> {
+    let columns = ["method", "error in % of the way", "steps", "FFT pairs a unit of time"];
+    let mut table = Table::new("sixteen droplets in a box, area fraction 0.3: error at t = 2 against cost", &columns);
+    let layers = |spacing| {
+        Method::Layers(LayersMethod { nodes: HELD, cells: CELLS * HELD, ..LayersMethod::of_spacing(spacing) })
+    };
+    let all = [
+        ("integrals, 24 nodes", integral(24)),
+        ("integrals, 32 nodes", integral(32)),
+        ("integrals, 48 nodes", integral(48)),
+        ("integrals, 64 nodes", integral(64)),
+        ("layers, h = 0.1", layers(0.1)),
+        ("layers, h = 0.06", layers(0.06)),
+        ("grid, h = 0.1", Method::Grid(GridMethod::of_spacing(0.1))),
+        ("grid, h = 0.06", Method::Grid(GridMethod::of_spacing(0.06))),
+    ];
+    let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, HELD)?;
+    let by = |method| Setup { method, ..usual.clone() };
+    let mut exact = None;
+    for (name, method) in all {
+        table.push(rows.row(&format!("method {name}"), || {
+            if exact.is_none() {
+                exact = Some(way(&by(integral(FINEST)))?.0);
+            }
+            let (found, steps) = way(&by(method))?;
+            let (mut error, mut length) = (0.0_f64, 0.0_f64);
+            for ([start, end], [_, other]) in exact.iter().flatten().zip(&found) {
+                error = error.max(end.distance(*other));
+                length = length.max(end.distance(*start));
+            }
+            let cost = cost(&by(method), steps as f64 / TIME)?;
+            let error = format!("{:.2}", 100.0 * error / length);
+            Ok(vec![name.to_owned(), error, steps.to_string(), format!("{cost:.0}")])
+        })?);
+    }
+    Ok(table)
+}
+
+/// Centroids at the start and the end, and the number of steps.
+fn way(setup: &Setup) -> Result<(Vec<[Vec2; 2]>, usize)> {
+    let Built { mut scene, .. } = setup.build()?;
+    let start = Member::all(scene.system_mut())?;
+    scene.run(TIME).go()?;
+    let end = Member::all(scene.system_mut())?;
+    Ok((start.iter().zip(&end).map(|(start, end)| [start.centroid, end.centroid]).collect(), scene.steps()))
+}
+
+/// Cost of a unit of time with so many steps in it, in FFT pairs measured by turns.
+fn cost(setup: &Setup, rate: f64) -> Result<f64> {
+    let Built { mut scene, .. } = setup.build()?;
+    // What is kept from step to step is there.
+    for _ in 0..3 {
+        scene.step(1.0 / rate)?;
+    }
+    let mut pair = PlainPair::new(120, 120);
+    let failed = RefCell::new(None);
+    let mut plain = || pair.run();
+    let mut step = || {
+        if let Err(error) = scene.step(1.0 / rate) {
+            failed.replace(Some(error));
+        }
+    };
+    let turns = Turns::measure(Duration::from_secs_f64(BUDGET), &mut [&mut plain, &mut step]);
+    failed.into_inner().map_or(Ok(()), Err).context("a step of measured length")?;
+    Ok(rate * turns.least(1) / turns.least(0))
+}
