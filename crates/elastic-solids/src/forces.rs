@@ -1,14 +1,18 @@
 //! Elastic forces of a deformed mesh: springs along its edges, hyperelastic material, or a law of your own.
 
 mod hyperelastic;
+mod inner_stress;
 mod springs;
 
 use motile_base::Vec2;
 
 use crate::material::Mat2;
+use crate::mesh::TriangleMesh;
 use crate::{Moduli, SolidError};
 
+pub(crate) use hyperelastic::Element;
 pub use hyperelastic::Hyperelastic;
+pub(crate) use inner_stress::add_stress_of_bar;
 pub use springs::Springs;
 
 /// Elastic forces of a deformed mesh, as minus the gradient of an energy: [`Hyperelastic`] material or [`Springs`].
@@ -50,6 +54,15 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
+    /// Bars along all edges of a mesh, in their order, at their reference lengths.
+    pub(crate) fn all(mesh: &TriangleMesh) -> impl Iterator<Item = Self> {
+        mesh.edges().iter().map(|edge| Self {
+            ends: edge.points.map(|point| point as u32),
+            shift: f64::from(edge.periods) * mesh.period().unwrap_or(0.0),
+            length: mesh.edge_vector(edge, mesh.points()).length(),
+        })
+    }
+
     /// Vector from the first end to the second (length).
     #[inline]
     pub(crate) fn span(&self, positions: &[Vec2]) -> Vec2 {

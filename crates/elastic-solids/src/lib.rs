@@ -42,6 +42,8 @@
 //!   ([`check`]).
 //! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`],
 //!   of any outline, that the fluid carries along.
+//! * **Relaxation and activity**: [`Maxwell`] elements beside any law ([`Solid::with_maxwell`]), for viscoelastic
+//!   solids; [`ActiveSprings`] that contract at random ([`Solid::with_active_springs`]).
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
 //! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls.
 //!
@@ -54,6 +56,7 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
+mod active_springs;
 mod channel;
 pub mod check;
 mod error;
@@ -62,11 +65,14 @@ mod material;
 pub mod mesh;
 mod mesher;
 mod outline;
+mod random;
+mod relaxation;
 mod rigid_body;
 mod shell;
 mod skin;
 mod solid;
 
+pub use active_springs::ActiveSprings;
 pub use channel::{Channel, ChannelShape, Walls, Width, width_between};
 pub use error::SolidError;
 pub use forces::{ElasticForces, Hyperelastic, Springs};
@@ -74,6 +80,7 @@ pub use material::{DeformationGradient, EnergyDensity, Mat2, Moduli, MooneyRivli
 pub use mesher::Mesher;
 pub use motile_base::BendingMeasure;
 pub use outline::{Interior, Outline};
+pub use relaxation::Maxwell;
 pub use rigid_body::{RigidBody, RigidBodyMotion};
 pub use shell::{Shell, ShellStrains};
 pub use solid::{Deformation, Solid, Tether};

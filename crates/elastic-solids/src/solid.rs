@@ -10,7 +10,9 @@ use motile_base::{Vec2, all_points_finite, at_least, positive, same_length};
 use crate::forces::{Hyperelastic, Springs};
 use crate::mesh::TriangleMesh;
 use crate::skin::Skin;
-use crate::{ElasticForces, EnergyDensity, SolidError};
+use crate::active_springs::Bonds;
+use crate::relaxation::{NoElasticity, Relaxation};
+use crate::{ActiveSprings, ElasticForces, EnergyDensity, Maxwell, SolidError};
 
 pub use deformation::Deformation;
 
@@ -53,6 +55,10 @@ pub struct Solid {
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
     pub(crate) skin: Option<Skin>,
+    /// True where the law is of springs along the edges.
+    springs: bool,
+    pub(crate) relaxation: Option<Relaxation>,
+    pub(crate) bonds: Option<Bonds>,
 }
 
 /// A spring from a point to a fixed place.
@@ -94,7 +100,7 @@ impl Solid {
     /// A shear modulus that is not positive and finite.
     pub fn springs_graded(mesh: TriangleMesh, shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
         let law = Springs::graded(&mesh, shear)?;
-        Ok(Self::at_rest(mesh, law))
+        Ok(Self { springs: true, ..Self::at_rest(mesh, law) })
     }
 
     /// A solid of one hyperelastic material everywhere, in its reference state.
@@ -126,6 +132,15 @@ impl Solid {
         Ok(Self::at_rest(mesh, law))
     }
 
+    /// A solid without an elasticity of its own, for one that flows: all its stress is that of Maxwell elements
+    /// ([`Solid::with_maxwell`]), on its triangles, and relaxes entirely. As it creeps its triangles are sheared; where
+    /// one is inverted the run ends in [`SolidError::Inverted`], at the time that the scene's error tells.
+    #[must_use]
+    pub fn fluid_like(mesh: TriangleMesh) -> Self {
+        let law = NoElasticity { points: mesh.points().len(), triangles: mesh.triangles().len() };
+        Self::at_rest(mesh, law)
+    }
+
     fn at_rest(mesh: TriangleMesh, law: impl ElasticForces) -> Self {
         let count = mesh.points().len();
         Self {
@@ -138,6 +153,9 @@ impl Solid {
             spacing: mesh.quality().mean_edge,
             may_invert: false,
             skin: None,
+            springs: false,
+            relaxation: None,
+            bonds: None,
             mesh,
         }
     }
@@ -168,6 +186,50 @@ impl Solid {
     pub fn with_skin(mut self, stretching: f64, bending: f64) -> Result<Self, SolidError> {
         self.skin = Some(Skin::new(&self.mesh, stretching, bending)?);
         Ok(self)
+    }
+
+    /// Puts a [`Maxwell`] element beside the elastic forces, everywhere the same: beside the springs where the solid
+    /// is made of springs, otherwise in all triangles. Several calls put several of them there. The element is without
+    /// stress in the reference state, also where the solid starts deformed.
+    ///
+    /// ```
+    /// use elastic_solids::{Maxwell, NeoHookean, Solid, SolidError, mesh::equilateral_strip};
+    /// use motile_base::Vec2;
+    ///
+    /// // A standard linear solid: G(t) = 100 + 400 exp(-t/2).
+    /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 60, 9, 0.2)?;
+    /// let wall = Solid::hyperelastic(mesh, NeoHookean::new(100.0, 1000.0)?).with_maxwell(Maxwell::new(400.0, 2.0)?)?;
+    /// let sheared = wall.deformed(|s| Vec2::new(s.x + 0.1 * s.y, s.y))?;
+    /// let energy = 0.5 * 500.0 * 0.01 * sheared.mesh().area();
+    /// println!("energy {:.2}, of the moduli {energy:.2}", sheared.elastic_energy()? + sheared.relaxing_energy()?);
+    /// assert!((sheared.elastic_energy()? + sheared.relaxing_energy()? - energy).abs() < 0.01 * energy);
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// None for a valid element.
+    pub fn with_maxwell(self, element: Maxwell) -> Result<Self, SolidError> {
+        self.with_maxwell_graded(|_| Ok(element))
+    }
+
+    /// Puts a [`Maxwell`] element there that is a function of the reference position (length), taken at the centroid of
+    /// each triangle; see [`Solid::with_maxwell`].
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn with_maxwell_graded(
+        mut self,
+        element: impl FnMut(Vec2) -> Result<Maxwell, SolidError>,
+    ) -> Result<Self, SolidError> {
+        self.relaxation.get_or_insert_default().add(&self.mesh, self.springs, element)?;
+        Ok(self)
+    }
+
+    /// Puts [`ActiveSprings`] along all edges of the mesh, beside all other forces.
+    #[must_use]
+    pub fn with_active_springs(mut self, law: ActiveSprings) -> Self {
+        self.bonds = Some(Bonds::new(&self.mesh, law));
+        self
     }
 
     /// Gives the solid a name for messages ("solid" otherwise).
@@ -261,12 +323,18 @@ impl Solid {
         &mut self.tethers
     }
 
-    /// Computes the forces on the fluid (force) of all points, from law, skin and tethers.
+    /// Computes the forces on the fluid (force) of all points, from law, skin, inner stresses and tethers.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
         self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;
         if let Some(skin) = &self.skin {
             skin.add_forces(&self.positions, &mut self.forces);
+        }
+        if let Some(relaxation) = &self.relaxation {
+            relaxation.add_forces(&self.positions, &mut self.forces)?;
+        }
+        if let Some(bonds) = &self.bonds {
+            bonds.add_forces(&self.positions, &mut self.forces);
         }
         for tether in &self.tethers {
             self.forces[tether.point] += (tether.anchor - self.positions[tether.point]) * tether.stiffness;

@@ -86,24 +86,24 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
 
 /// A triangle, prepared for its deformation gradient `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Element {
+pub(crate) struct Element {
     corners: [u32; 3],
     /// Additions to x of the second and third corner across the seam of a periodic mesh (length).
     shifts: [f64; 2],
     /// Inverse of the matrix of the reference sides (1/length).
     inverse: Mat2,
     /// Reference area (length squared).
-    pub(super) area: f64,
+    pub(crate) area: f64,
 }
 
 impl Element {
     /// Elements of all triangles of a mesh.
-    fn all(mesh: &TriangleMesh) -> Vec<Self> {
+    pub(crate) fn all(mesh: &TriangleMesh) -> Vec<Self> {
         (0..mesh.triangles().len()).map(|number| Self::of(mesh, number)).collect()
     }
 
     /// Element of a triangle of a mesh.
-    pub(super) fn of(mesh: &TriangleMesh, number: usize) -> Self {
+    pub(crate) fn of(mesh: &TriangleMesh, number: usize) -> Self {
         let at = mesh.raw_corners(number, mesh.points());
         let home = mesh.triangles()[number];
         Self {
@@ -116,7 +116,7 @@ impl Element {
 
     /// Deformation gradient A (no dimension) with the points of the mesh at `positions` (length).
     #[inline]
-    pub(super) fn gradient(&self, positions: &[Vec2]) -> Mat2 {
+    pub(crate) fn gradient(&self, positions: &[Vec2]) -> Mat2 {
         let [a, b, c] = self.corners.map(|point| positions[point as usize]);
         let first = Vec2::new(b.x + self.shifts[0] - a.x, b.y - a.y);
         let second = Vec2::new(c.x + self.shifts[1] - a.x, c.y - a.y);
@@ -125,13 +125,13 @@ impl Element {
 
     /// Deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
     #[inline]
-    fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {
+    pub(crate) fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {
         DeformationGradient::checked(self.gradient(positions)).ok_or_else(|| self.inverted(triangle, positions))
     }
 
     /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero to round-off.
     #[inline]
-    pub(super) fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
+    pub(crate) fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
         let pull = *stress * self.inverse.transpose() * self.area;
         let (first, second) = (pull.x_axis, pull.y_axis);
         let [a, b, c] = self.corners.map(|point| point as usize);

@@ -69,21 +69,27 @@ impl Springs {
             })
             .collect::<Result<Vec<_>, SolidError>>()?;
         let even = |triangle: usize| uneven.binary_search_by_key(&triangle, |(number, _)| *number).is_err();
-        let springs = mesh
-            .edges()
-            .iter()
-            .map(|edge| {
-                let span = mesh.edge_vector(edge, mesh.points());
+        let springs = Bar::all(mesh)
+            .zip(mesh.edges())
+            .map(|(bar, edge)| {
                 let weight =
                     |triangle: usize| if even(triangle) { sides[triangle].1 * mesh.areas()[triangle] } else { 0.0 };
                 let (left, right) = edge.triangles;
-                let length = span.length();
-                let shift = f64::from(edge.periods) * mesh.period().unwrap_or(0.0);
-                let bar = Bar { ends: edge.points.map(|point| point as u32), shift, length };
-                (bar, stiffness(weight(left) + right.map_or(0.0, weight), length))
+                (bar, stiffness(weight(left) + right.map_or(0.0, weight), bar.length))
             })
             .collect();
         Ok(Self { springs, uneven, sides, points: mesh.points().len() })
+    }
+
+    /// Springs along the edges of the mesh, in their order, each with its spring constant (force per length); that of
+    /// an edge between uneven triangles is zero.
+    pub(crate) fn bars(&self) -> &[(Bar, f64)] {
+        &self.springs
+    }
+
+    /// Triangles of uneven sides, by index, which have no springs along their sides.
+    pub(crate) fn uneven(&self) -> &[(usize, Element)] {
+        &self.uneven
     }
 }
 

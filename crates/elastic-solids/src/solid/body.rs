@@ -3,12 +3,13 @@
 use motile_base::{Vec2, same_length};
 use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepLimit,
+    StepCause, StepInfo,
     checkpoint::SavedState,
     gap::{SurfaceCurve, SurfacePoint},
     points,
 };
 
-use crate::{Solid, SolidError, skin::Skin};
+use crate::{Solid, SolidError, active_springs::Bonds, relaxation::Relaxation, skin::Skin};
 
 impl From<SolidError> for BodyError {
     fn from(error: SolidError) -> Self {
@@ -49,11 +50,14 @@ impl Body for Solid {
         Ok(())
     }
 
+    /// Free points, internal variables of Maxwell elements, and active springs, 1 where one is on and 0 otherwise.
     fn state_len(&self) -> usize {
-        2 * self.free.len()
+        2 * self.free.len() + self.internal_len() + self.bonds.as_ref().map_or(0, |bonds| bonds.on().len())
     }
 
     fn write_state(&self, state: &mut [f64]) {
+        let (state, inner) = state.split_at_mut(2 * self.free.len());
+        self.write_internal(inner);
         for (pair, &point) in state.chunks_exact_mut(2).zip(&self.free) {
             pair.copy_from_slice(&self.positions[point].to_array());
         }
@@ -61,8 +65,11 @@ impl Body for Solid {
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
         if let Some(index) = state.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "point coordinate", index, value: state[index] });
+            let what = if index < 2 * self.free.len() { "point coordinate" } else { "internal variable" };
+            return Err(BodyError::NonFinite { what, index, value: state[index] });
         }
+        let (state, inner) = state.split_at(2 * self.free.len());
+        self.read_internal(inner);
         for (pair, &point) in state.chunks_exact(2).zip(&self.free) {
             self.positions[point] = Vec2::new(pair[0], pair[1]);
         }
@@ -70,18 +77,56 @@ impl Body for Solid {
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let (rate, inner) = rate.split_at_mut(2 * self.free.len());
+        inner.fill(0.0);
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(&velocity.to_array());
         }
     }
 
-    fn end_step(&mut self, _view: &FluidView, _dt: f64) -> Result<(), BodyError> {
-        if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
+    fn begin_step(&mut self, _view: &FluidView, _step: StepInfo) -> Result<(), BodyError> {
+        if let Some(relaxation) = &mut self.relaxation {
+            relaxation.begin_step(&self.positions);
+        }
+        Ok(())
     }
 
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        if let Some(relaxation) = &mut self.relaxation {
+            relaxation.add_rate((&self.positions, &self.free), state, factor, out);
+        }
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        if let Some(relaxation) = &mut self.relaxation {
+            relaxation.solve_rate((&self.positions, &self.free), factor, state);
+        }
+    }
+
+    /// Puts the exact solution in place of what an integrator makes of the internal variables.
+    fn end_step(&mut self, _view: &FluidView, dt: f64) -> Result<(), BodyError> {
+        if !self.may_invert {
+            self.check_inversion()?;
+        }
+        if let Some(relaxation) = &mut self.relaxation {
+            relaxation.end_step(&self.positions, dt);
+        }
+        if let Some(bonds) = &mut self.bonds {
+            bonds.end_step(&self.positions, dt);
+        }
+        Ok(())
+    }
+
+    fn keep_step(&mut self) {
+        if let Some(bonds) = &mut self.bonds {
+            bonds.keep_step();
+        }
+    }
+
+    /// Not of solids with internal variables.
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         points::mirror(markers, state, image);
-        true
+        self.relaxation.is_none() && self.bonds.is_none()
     }
 
     /// Its whole surface; pinned points are fixed.
@@ -123,22 +168,42 @@ impl Body for Solid {
             ),
             ("the energy of its skin there", mean(&|state| self.skin.as_ref().map_or(0.0, |skin| skin.energy(state)))),
         ];
-        properties.map(|(name, value)| (name.to_owned(), value)).to_vec()
+        let relaxing = self.relaxation.iter().flat_map(|relaxation| {
+            let [modulus, viscosity] = relaxation.sums();
+            [("the integral of the moduli of its Maxwell elements", modulus), ("that of their viscosities", viscosity)]
+        });
+        let active = self.bonds.iter().flat_map(Bonds::properties);
+        let properties = properties.into_iter().chain(relaxing).chain(active);
+        properties.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Positions of all points, pinned ones too, and the tethers.
+    /// Positions of all points, pinned ones too, the tethers, internal variables, and steps of the active springs.
     fn save(&self) -> SavedState {
         let mut reals: Vec<f64> = self.positions.iter().flat_map(|place| [place.x, place.y]).collect();
         reals.extend(self.tethers.iter().flat_map(|tether| [tether.anchor.x, tether.anchor.y, tether.stiffness]));
-        let counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
+        let first = reals.len();
+        reals.resize(first + self.state_len() - 2 * self.free.len(), 0.0);
+        self.write_internal(&mut reals[first..]);
+        let mut counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
+        counts.extend(self.bonds.iter().map(Bonds::steps));
         SavedState { reals, counts }
     }
 
     fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
-        let [points, _] = saved.counts_of()?;
+        let points = if let Some(bonds) = &mut self.bonds {
+            let [points, _, steps] = saved.counts_of()?;
+            bonds.set_steps(steps);
+            points
+        } else {
+            let [points, _] = saved.counts_of()?;
+            points
+        };
         same_length("a saved solid", self.positions.len(), points as usize)?;
         let split = 2 * self.positions.len();
-        let (positions, numbers) = saved.reals_of(split + 3 * self.tethers.len())?.split_at(split);
+        let inner = self.state_len() - 2 * self.free.len();
+        let (positions, numbers) = saved.reals_of(split + 3 * self.tethers.len() + inner)?.split_at(split);
+        let (numbers, inner) = numbers.split_at(3 * self.tethers.len());
+        self.read_internal(inner);
         for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
             *place = Vec2::new(pair[0], pair[1]);
         }
@@ -151,12 +216,19 @@ impl Body for Solid {
 
     /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h that of the
     /// grid, mu and kappa the largest moduli in the solid. A skin adds the stiffness of its shortest waves to the sum,
-    /// tethers their stiffness when all of them move together.
+    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them move together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = view.spacing.map_or(0.0, |spacing| self.spacing / spacing);
         let skin = self.skin.as_ref().map_or(0.0, Skin::stiffness);
-        let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin;
+        let relaxing = self.relaxation.as_ref().map_or(0.0, Relaxation::stiffest);
+        let active = self.bonds.as_ref().map_or(0.0, |bonds| bonds.stiffness(self.spacing));
+        let elastic =
+            moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin + relaxing + active;
+        if let Some(bonds) = &self.bonds {
+            let dt = bonds.resolved_step();
+            limits(StepLimit { dt, reason: "the rates of the active springs", cause: StepCause::Accuracy });
+        }
         let (stiffness, reason) = if self.tethers.is_empty() {
             (elastic, "the elastic moduli")
         } else {
@@ -167,6 +239,33 @@ impl Body for Solid {
 }
 
 impl Solid {
+    /// Number of internal variables of Maxwell elements.
+    fn internal_len(&self) -> usize {
+        self.relaxation.as_ref().map_or(0, |relaxation| relaxation.values().len())
+    }
+
+    /// Writes the part of the state after the points.
+    fn write_internal(&self, inner: &mut [f64]) {
+        let (values, bonds) = inner.split_at_mut(self.internal_len());
+        if let Some(relaxation) = &self.relaxation {
+            values.copy_from_slice(relaxation.values());
+        }
+        if let Some(own) = &self.bonds {
+            bonds.iter_mut().zip(own.on()).for_each(|(state, on)| *state = f64::from(u8::from(*on)));
+        }
+    }
+
+    /// Takes over the part of the state after the points.
+    fn read_internal(&mut self, inner: &[f64]) {
+        let (values, bonds) = inner.split_at(self.internal_len());
+        if let Some(relaxation) = &mut self.relaxation {
+            relaxation.values_mut().copy_from_slice(values);
+        }
+        if let Some(own) = &mut self.bonds {
+            own.set(bonds);
+        }
+    }
+
     /// Upper bound of viscosity times the fastest rate at which tethers relax (force per length): that of all of them
     /// moving together.
     ///

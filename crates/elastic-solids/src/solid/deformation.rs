@@ -19,9 +19,15 @@ pub struct Deformation {
     pub drift: Vec2,
     /// Mean position, weighted by reference area (length): the centre of mass.
     pub centroid: Vec2,
-    /// Elastic energy (energy), without that of the tethers; infinite where a triangle is inverted and the energy is
+    /// Elastic energy (energy), without that of tethers and Maxwell elements; infinite where a triangle is inverted and the energy is
     /// not defined for it.
     pub elastic_energy: f64,
+    /// Energy of the Maxwell elements (energy); zero without any.
+    pub relaxing_energy: f64,
+    /// Energy that the Maxwell elements dissipate (energy per time), in which the fluid has no part.
+    pub dissipation: f64,
+    /// Part of the active springs that are on (no dimension); not a number without any.
+    pub active_part: f64,
     /// Energy of the tethers (energy).
     pub tether_energy: f64,
     /// Smallest ratio J of the deformed to the reference area of a triangle; negative where one is inverted.
@@ -43,6 +49,11 @@ impl Deformation {
             drift: mean(&mut solid.displacements()),
             centroid: mean(&mut solid.positions.iter().copied()),
             elastic_energy: solid.elastic_energy().unwrap_or(f64::INFINITY),
+            relaxing_energy: solid.relaxing_energy().unwrap_or(f64::INFINITY),
+            dissipation: solid.dissipation().unwrap_or(f64::INFINITY),
+            active_part: solid.active_bonds().map_or(f64::NAN, |on| {
+                on.iter().filter(|on| **on).count() as f64 / on.len().max(1) as f64
+            }),
             tether_energy: solid.tether_energy(),
             smallest_jacobian: solid.smallest_jacobian().0,
         }
@@ -80,7 +91,49 @@ impl Solid {
         largest
     }
 
-    /// Elastic energy (energy), without that of the tethers.
+    /// Energy of the Maxwell elements (energy); zero without any.
+    ///
+    /// # Errors
+    /// An inverted triangle.
+    pub fn relaxing_energy(&self) -> Result<f64, SolidError> {
+        self.relaxation.as_ref().map_or(Ok(0.0), |relaxation| Ok(relaxation.energies(&self.positions)?[0]))
+    }
+
+    /// Energy that the Maxwell elements dissipate (energy per time), without what the fluid does; zero without any.
+    ///
+    /// # Errors
+    /// An inverted triangle.
+    pub fn dissipation(&self) -> Result<f64, SolidError> {
+        self.relaxation.as_ref().map_or(Ok(0.0), |relaxation| Ok(relaxation.energies(&self.positions)?[1]))
+    }
+
+    /// Active springs that are on, in the order of [`crate::mesh::TriangleMesh::edges`]; `None` without any.
+    #[must_use]
+    pub fn active_bonds(&self) -> Option<&[bool]> {
+        self.bonds.as_ref().map(crate::active_springs::Bonds::on)
+    }
+
+    /// Cauchy stress (force per deformed length) in each triangle that is not elastic: of Maxwell elements and active
+    /// springs; `None` without any.
+    ///
+    /// # Errors
+    /// An inverted triangle.
+    pub fn internal_stresses(&self) -> Result<Option<Vec<Mat2>>, SolidError> {
+        if self.relaxation.is_none() && self.bonds.is_none() {
+            return Ok(None);
+        }
+        self.check_inversion()?;
+        let mut stresses = vec![Mat2::ZERO; self.mesh.triangles().len()];
+        if let Some(relaxation) = &self.relaxation {
+            relaxation.add_stresses(&self.mesh, &self.positions, &mut stresses);
+        }
+        if let Some(bonds) = &self.bonds {
+            bonds.add_stresses(&self.mesh, &self.positions, &mut stresses);
+        }
+        Ok(Some(stresses))
+    }
+
+    /// Elastic energy (energy), without that of tethers and Maxwell elements.
     ///
     /// # Errors
     /// An inverted triangle where the energy is not defined for it.
@@ -130,7 +183,8 @@ impl Solid {
         Err(SolidError::Inverted { triangle, place, jacobian })
     }
 
-    /// Cauchy stress `P A^T / J` of each triangle (force per deformed length).
+    /// Cauchy stress `P A^T / J` of each triangle (force per deformed length), inner stresses included
+    /// ([`Solid::internal_stresses`]).
     ///
     /// # Errors
     /// An inverted triangle.
@@ -143,7 +197,12 @@ impl Solid {
             let stress = stress.ok_or_else(|| inverted(self.mesh.centroid(triangle)))?;
             Ok(stress * gradient.transpose() / jacobian)
         };
-        self.jacobians().enumerate().map(|(triangle, jacobian)| stress(triangle, jacobian)).collect()
+        let elastic = self.jacobians().enumerate().map(|(triangle, jacobian)| stress(triangle, jacobian));
+        let mut stresses = elastic.collect::<Result<Vec<Mat2>, SolidError>>()?;
+        if let Some(inner) = self.internal_stresses()? {
+            stresses.iter_mut().zip(inner).for_each(|(stress, inner)| *stress += inner);
+        }
+        Ok(stresses)
     }
 
     /// Deformation gradient A of a triangle (4.10); `None` for one beyond the last.

@@ -1,0 +1,168 @@
+//! Active springs: bonds along the edges of a mesh that contract while they are on.
+
+use motile_base::{Vec2, finite, not_negative, positive};
+
+use crate::forces::{Bar, add_stress_of_bar};
+use crate::material::Mat2;
+use crate::mesh::TriangleMesh;
+use crate::random::uniform;
+use crate::SolidError;
+
+/// Bonds of two states along all edges of a mesh, such as motors that bind and unbind: each pulls the ends of its edge
+/// together by a constant tension while it is on, and is turned on and off at random.
+///
+/// With p = on/(on + off), k = on + off, a bond is on after a step of dt with the probability `p + (1-p) exp(-k dt)` if
+/// it was on and `p (1 - exp(-k dt))` if it was off, which is exact for any step at constant rates; at the start it is
+/// on with the probability p. On a triangular lattice of spacing l the mean stress is `sqrt(3) p f/l`, an isotropic
+/// contraction. Rates may depend on the strain e = r/d - 1 of the edge, as `rate exp(sensitivity e)` with the strain at
+/// the end of the step: a positive sensitivity of unbinding makes slip bonds, a negative one catch bonds.
+///
+/// Random numbers are functions of the seed, the number of the bond and the number of the step, so that a run is the
+/// same for any number of threads and through a checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ActiveSprings {
+    tension: f64,
+    rates: [f64; 2],
+    sensitivities: [f64; 2],
+    seed: u64,
+}
+
+impl ActiveSprings {
+    /// Bonds of the tension f (force) while they are on, of the rates of turning on and off (1/time).
+    ///
+    /// # Errors
+    /// A tension or rate of turning on that is not positive and finite; a rate of turning off that is negative or not
+    /// finite.
+    pub fn new(tension: f64, on: f64, off: f64, seed: u64) -> Result<Self, SolidError> {
+        let tension = positive("the tension of the active springs", tension)?;
+        let on = positive("the rate at which active springs turn on", on)?;
+        let off = not_negative("the rate at which active springs turn off", off)?;
+        Ok(Self { tension, rates: [on, off], sensitivities: [0.0; 2], seed })
+    }
+
+    /// The same bonds with rates of turning on and off that depend on the strain of their edges by these sensitivities
+    /// (no dimension).
+    ///
+    /// # Errors
+    /// Sensitivities that are not finite.
+    pub fn with_sensitivities(mut self, on: f64, off: f64) -> Result<Self, SolidError> {
+        self.sensitivities = [finite("the sensitivity of turning on", on)?, finite("that of turning off", off)?];
+        Ok(self)
+    }
+
+    /// Tension of a bond that is on (force).
+    #[must_use]
+    pub fn tension(&self) -> f64 {
+        self.tension
+    }
+
+    /// Part of the bonds of unstrained edges that are on in the mean (no dimension).
+    #[must_use]
+    pub fn duty_ratio(&self) -> f64 {
+        self.rates[0] / (self.rates[0] + self.rates[1])
+    }
+
+    /// Probability of being on after a time `dt` for a bond of an edge of the strain `strain` (no dimension).
+    fn probability(&self, on: bool, strain: f64, dt: f64) -> f64 {
+        // Rates that are beyond all bounds are as good as the largest numbers.
+        let rate = |k: usize| self.rates[k] * (self.sensitivities[k] * strain).clamp(-600.0, 600.0).exp();
+        let total = rate(0) + rate(1);
+        let mean = rate(0) / total;
+        let kept = (-total * dt).exp();
+        if on { mean + (1.0 - mean) * kept } else { -mean * (-total * dt).exp_m1() }
+    }
+}
+
+/// The bonds of a solid.
+#[derive(Debug, Clone)]
+pub(crate) struct Bonds {
+    law: ActiveSprings,
+    bars: Vec<Bar>,
+    on: Vec<bool>,
+    /// Steps that were kept.
+    steps: u64,
+}
+
+impl Bonds {
+    /// Bonds along all edges of a mesh, in their stationary state without strain.
+    pub(crate) fn new(mesh: &TriangleMesh, law: ActiveSprings) -> Self {
+        let bars: Vec<Bar> = Bar::all(mesh).collect();
+        let on = (0..bars.len()).map(|bond| uniform(law.seed, bond as u64, 0) < law.duty_ratio()).collect();
+        Self { law, bars, on, steps: 0 }
+    }
+
+    /// States of the bonds, in the order of the edges.
+    pub(crate) fn on(&self) -> &[bool] {
+        &self.on
+    }
+
+    /// Puts the bonds into these states, `true` where a number is nearer to 1 than to 0.
+    pub(crate) fn set(&mut self, states: &[f64]) {
+        self.on.iter_mut().zip(states).for_each(|(on, state)| *on = *state > 0.5);
+    }
+
+    /// Steps that were kept.
+    pub(crate) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Goes on from that number of steps.
+    pub(crate) fn set_steps(&mut self, steps: u64) {
+        self.steps = steps;
+    }
+
+    /// Counts a step that stays.
+    pub(crate) fn keep_step(&mut self) {
+        self.steps += 1;
+    }
+
+    /// Turns bonds on and off at the end of a step of `dt` (time), with the points at `positions` (length).
+    pub(crate) fn end_step(&mut self, positions: &[Vec2], dt: f64) {
+        for (bond, (bar, on)) in self.bars.iter().zip(&mut self.on).enumerate() {
+            let strain = bar.span(positions).length() / bar.length - 1.0;
+            *on = uniform(self.law.seed, bond as u64, self.steps + 1) < self.law.probability(*on, strain, dt);
+        }
+    }
+
+    /// Adds the forces of the bonds that are on (force) with the points at `positions` (length).
+    pub(crate) fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) {
+        for (bar, _) in self.bars.iter().zip(&self.on).filter(|(_, on)| **on) {
+            let span = bar.span(positions);
+            bar.add_pull(span * (self.law.tension / span.length().max(f64::MIN_POSITIVE)), forces);
+        }
+    }
+
+    /// Adds the Cauchy stresses of the bonds (force per deformed length) to those of the triangles of the mesh, none of
+    /// which is inverted.
+    pub(crate) fn add_stresses(&self, mesh: &TriangleMesh, positions: &[Vec2], stresses: &mut [Mat2]) {
+        for (edge, (bar, _)) in self.bars.iter().zip(&self.on).enumerate().filter(|(_, (_, on))| **on) {
+            add_stress_of_bar((mesh, edge), (bar, self.law.tension), positions, stresses);
+        }
+    }
+
+    /// Upper bound of the stiffness that the tension adds to the lattice (force per length).
+    pub(crate) fn stiffness(&self, spacing: f64) -> f64 {
+        3.0_f64.sqrt() * self.law.tension / spacing
+    }
+
+    /// Longest step (time) that resolves how bonds turn on and off: half of the time in which they forget.
+    pub(crate) fn resolved_step(&self) -> f64 {
+        0.5 / (self.law.rates[0] + self.law.rates[1])
+    }
+
+    /// Parameters by their names.
+    pub(crate) fn properties(&self) -> [(&'static str, f64); 6] {
+        let ActiveSprings { tension, rates, sensitivities, seed } = self.law;
+        [
+            ("the tension of its active springs", tension),
+            ("the rate at which they turn on", rates[0]),
+            ("the rate at which they turn off", rates[1]),
+            ("the sensitivity of turning on", sensitivities[0]),
+            ("the sensitivity of turning off", sensitivities[1]),
+            ("the seed of its active springs", seed as f64),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests;
