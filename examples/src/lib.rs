@@ -4,12 +4,14 @@
 //! |---|---|
 //! | flags | [`run`]; [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`], [`ElasticFlags`] |
 //! | runs and their results | [`motile_output::run`], [`SceneFlags::watch`] |
+//! | elastic walls | [`swim_between_walls`] with [`RelaxationFlags`], [`TwitchingFlags`] |
 //! | constrictions | [`Passage`] |
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod command_line;
+mod elastic_walls;
 mod flags;
 mod gel_flags;
 mod method_flags;
@@ -20,6 +22,7 @@ mod track;
 mod wall_flags;
 
 pub use command_line::run;
+pub use elastic_walls::{RelaxationFlags, TwitchingFlags, swim_between_walls};
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, RegionFlags, SceneFlags};
 pub use gel_flags::GelFlags;
 pub use method_flags::{MethodFlags, Preset};

@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::setup::{LayersMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup};
+use motile::setup::{Axis, Grading, LayersMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup};
 
 use crate::parse::{one_of, pair, positive};
 use crate::{AlongFlags, Preset, RegionFlags, SceneFlags};
@@ -47,6 +47,12 @@ pub struct ElasticFlags {
     /// Bulk modulus of neo-Hookean walls; without it twice the shear modulus, as of springs
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub bulk_modulus: Option<f64>,
+    /// Stiffness of the upper wall, as the flag of the lower one says it; without it that of the lower wall
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    pub upper_stiffness: Option<f64>,
+    /// Factor by which the walls are stiffer at the end of the period than at its start, linear between
+    #[arg(long, value_name = "FACTOR", value_parser = positive, allow_hyphen_values = true)]
+    pub stiffness_gradient: Option<f64>,
     /// How the points of the walls are arranged; without it the preset's
     #[arg(long, value_parser = one_of(&MESHES))]
     pub mesh: Option<MeshKind>,
@@ -86,7 +92,16 @@ impl SceneFlags<ElasticFlags> {
             grid.corrected = false;
         }
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
+        if let Some(upper) = walls.upper_stiffness {
+            let given = walls.shear_modulus.or(walls.stiffness).unwrap_or(SOFT);
+            setup.solids[1].grading = Grading::uniform(upper / given);
+        }
         for solid in &mut setup.solids {
+            if let Some(factor) = walls.stiffness_gradient {
+                let end = 0.5 * walls.along.length;
+                let along = Grading::Along { axis: Axis::X, factors: vec![[-end, 1.0], [end, factor]] };
+                solid.grading = std::mem::take(&mut solid.grading).times(along);
+            }
             if method.preset == Preset::Thesis {
                 *solid = solid.clone().thesis();
             }

@@ -2,11 +2,11 @@
 
 use motile_base::{Vec2, finite, not_negative, positive};
 
+use crate::SolidError;
 use crate::forces::{Bar, add_stress_of_bar};
 use crate::material::Mat2;
 use crate::mesh::TriangleMesh;
 use crate::random::uniform;
-use crate::SolidError;
 
 /// Bonds of two states along all edges of a mesh, such as motors that bind and unbind: each pulls the ends of its edge
 /// together by a constant tension while it is on, and is turned on and off at random.

@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use motile_base::{Vec2, all_points_finite, at_least, positive, same_length};
 
+use crate::active_springs::Bonds;
 use crate::forces::{Hyperelastic, Springs};
 use crate::mesh::TriangleMesh;
-use crate::skin::Skin;
-use crate::active_springs::Bonds;
 use crate::relaxation::{NoElasticity, Relaxation};
+use crate::skin::Skin;
 use crate::{ActiveSprings, ElasticForces, EnergyDensity, Maxwell, SolidError};
 
 pub use deformation::Deformation;

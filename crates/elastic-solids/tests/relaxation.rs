@@ -1,7 +1,9 @@
-//! Viscoelastic layers on a wall under fluid at rest: rates of relaxation against the exact ones, orders, limits.
+//! Viscoelastic layers on a wall under fluid at rest: rates of relaxation against the exact ones; orders in space and time,
+//! limits, no allocation.
 
+use allocation_counter::measure;
 use elastic_solids::mesh::fitted_strip;
-use elastic_solids::{Maxwell, NeoHookean, Solid};
+use elastic_solids::{ActiveSprings, Maxwell, NeoHookean, Solid};
 use ib_core::{AnyKernel, ImmersedBoundary};
 use motile_base::Vec2;
 use motile_scene::Scene;
@@ -44,20 +46,21 @@ fn layer(case: &Case, h: f64) -> Solid {
         (true, true) => Solid::springs(mesh, shear).unwrap(),
         (true, false) => Solid::hyperelastic(mesh, NeoHookean::new(shear, 2.0 * shear).unwrap()),
     };
-    let solid = if relaxing > 0.0 {
-        solid.with_maxwell(Maxwell::new(relaxing, case.time).unwrap()).unwrap()
-    } else {
-        solid
-    };
+    let solid =
+        if relaxing > 0.0 { solid.with_maxwell(Maxwell::new(relaxing, case.time).unwrap()).unwrap() } else { solid };
     let low = |s: Vec2| s.y < -0.5 * HEIGHT + 1e-9;
     solid.pinned(low).unwrap().deformed(|s| s + Vec2::new(STRAIN * (s.y + 0.5 * HEIGHT), 0.0)).unwrap()
 }
 
-/// Shear of the layer over that at the start after the time 1, in `steps` steps.
-fn sheared(case: &Case, h: f64, steps: usize) -> f64 {
+fn channel(h: f64) -> Scene<ImmersedBoundary<ChannelStokes, AnyKernel>> {
     let grid = Grid::channel(8, (HEIGHT / h).round() as usize, h).unwrap();
     let solver = ChannelStokes::new(grid, VISCOSITY).unwrap();
-    let mut scene = Scene::new(ImmersedBoundary::new(solver, AnyKernel::BSpline4));
+    Scene::new(ImmersedBoundary::new(solver, AnyKernel::BSpline4))
+}
+
+/// Shear of the layer over that at the start after the time 1, in `steps` steps.
+fn sheared(case: &Case, h: f64, steps: usize) -> f64 {
+    let mut scene = channel(h);
     let handle = scene.add(layer(case, h));
     (0..steps).for_each(|_| scene.step(1.0 / steps as f64).unwrap());
     let solid = scene.body(handle).unwrap();
@@ -69,29 +72,91 @@ fn sheared(case: &Case, h: f64, steps: usize) -> f64 {
     moved(-0.5 * HEIGHT + THICKNESS) / (STRAIN * THICKNESS)
 }
 
+/// Errors of the grid are of first order in its spacing, as those of an elastic layer are.
 #[test]
-fn probe() {
+fn layers_relax_at_the_exact_rates() {
     for springs in [false, true] {
         for (moduli, time) in [([20.0, 60.0], 0.5), ([20.0, 60.0], 0.05), ([20.0, 60.0], 5.0), ([0.0, 80.0], 0.5)] {
             let case = Case { springs, moduli, time };
-            print!("{springs} {moduli:?} {time} exact {:.5}:", exact(&case, 1.0));
-            for h in [0.2, 0.1, 0.05] {
-                print!(" {:+.2e}", sheared(&case, h, 100) - exact(&case, 1.0));
-            }
-            println!();
-            let fine = sheared(&case, 0.1, 320);
-            for steps in [10, 20, 40, 80] {
-                print!(" {:+.2e}", sheared(&case, 0.1, steps) - fine);
-            }
-            println!();
+            let error = |h: f64| (sheared(&case, h, 100) - exact(&case, 1.0)).abs();
+            let [coarse, fine] = [error(0.1), error(0.05)];
+            assert!(fine < 0.013, "{springs} {moduli:?} {time}: {fine:e}");
+            // Rows of springs fit a layer better or worse, by chance.
+            let order = (coarse / fine).log2();
+            assert!(springs && moduli[0] > 0.0 || (0.9..1.2).contains(&order), "{moduli:?} {time}: {order}");
         }
     }
-    for time in [1e-3, 1e-6, 1e-30, 1e6, 1e30] {
-        let case = Case { springs: false, moduli: [20.0, 60.0], time };
-        println!("tau {time}: exact {} found {}", exact(&case, 1.0), sheared(&case, 0.1, 20));
+}
+
+/// At any relaxation time, also far below the step.
+#[test]
+fn steps_are_of_second_order() {
+    for springs in [false, true] {
+        for time in [0.5, 5.0, 50.0] {
+            let case = Case { springs, moduli: [20.0, 60.0], time };
+            let fine = sheared(&case, 0.2, 320);
+            let error = |steps: usize| (sheared(&case, 0.2, steps) - fine).abs();
+            let [coarse, half] = [error(20), error(40)];
+            assert!((1.9..2.4).contains(&(coarse / half).log2()), "{springs} {time}: {coarse:e} {half:e}");
+            assert!(half < 1e-3, "{springs} {time}: {half:e}");
+        }
+        // Steps of forty relaxation times err no more than those of an elastic layer.
+        let case = Case { springs, moduli: [20.0, 5.0], time: 1e-3 };
+        let error = (sheared(&case, 0.2, 25) - sheared(&case, 0.2, 2000)).abs();
+        assert!(error < 1e-3, "{springs}: {error:e}");
     }
-    for moduli in [[20.0, 0.0], [80.0, 0.0]] {
-        let case = Case { springs: false, moduli, time: 1.0 };
-        println!("elastic {moduli:?} {}", sheared(&case, 0.1, 20));
+}
+
+/// A short time leaves the modulus of the long run, a long one that of fast strains.
+#[test]
+fn extreme_times_are_those_of_elastic_layers() {
+    let found = |moduli: [f64; 2], time: f64| sheared(&Case { springs: false, moduli, time }, 0.1, 80);
+    let [soft, stiff] = [20.0, 80.0].map(|shear| found([shear, 0.0], 1.0));
+    assert!((soft - stiff).abs() > 0.3);
+    for time in [1e-4, 1e-6, 1e-30, 1e-300] {
+        assert!((found([20.0, 60.0], time) - soft).abs() < 2e-4, "{time:e}");
+    }
+    for time in [1e6, 1e30, 1e300] {
+        assert!((found([20.0, 60.0], time) - stiff).abs() < 1e-5, "{time:e}");
+    }
+}
+
+/// The limit counts the moduli that relax, at any relaxation time.
+#[test]
+fn steps_are_stable_up_to_their_limit() {
+    let rough = |s: Vec2| s + 1e-4 * Vec2::new((91.0 * s.x + 37.0 * s.y).sin(), (53.0 * s.x - 71.0 * s.y).sin());
+    let growth = |springs: bool, time: f64, part: f64| {
+        let h = 0.1;
+        let mut scene = channel(h);
+        let case = Case { springs, moduli: [5.0, 15.0], time };
+        let solid = layer(&case, h).deformed(rough).unwrap();
+        let energy = |solid: &Solid| solid.elastic_energy().unwrap() + solid.relaxing_energy().unwrap();
+        let start = energy(&solid);
+        let handle = scene.add(solid);
+        let limit = scene.system().step_limit().unwrap().0.dt;
+        for _ in 0..60 {
+            if scene.step(part * limit).is_err() {
+                return f64::INFINITY;
+            }
+        }
+        energy(scene.body(handle).unwrap()) / start
+    };
+    for springs in [false, true] {
+        for time in [1e-9, 1e-3, 0.1, 0.3, 1.0, 3.0, 100.0] {
+            let grown = growth(springs, time, 0.97);
+            assert!(grown < 1.0, "{springs} {time}: {grown}");
+        }
+        assert!(growth(springs, 100.0, 1.5) > 1e3);
+    }
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    for springs in [false, true] {
+        let mut scene = channel(0.1);
+        let case = Case { springs, moduli: [20.0, 60.0], time: 0.5 };
+        scene.add(layer(&case, 0.1).with_active_springs(ActiveSprings::new(0.1, 1.0, 1.0, 1).unwrap()));
+        (0..3).for_each(|_| scene.step(0.01).unwrap());
+        assert_eq!(measure(|| (0..5).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
     }
 }

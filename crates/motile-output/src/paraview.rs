@@ -32,6 +32,8 @@ const RECORD: &str = "files for ParaView";
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | number of the solid |
+/// | solids | in the triangles | of Maxwell elements and active springs: their Cauchy stress, its deviator |
+/// | solids | in the triangles | part of the sides whose active springs are on |
 /// | gels | at the nodes | director (no dimension) |
 /// | gels | in the triangles | number of the gel |
 /// | inside | at the nodes | density (particles per area) |

@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
-use motile::elastic_solids::{Deformation, Solid, width_between};
+use motile::elastic_solids::{Deformation, Mat2, Solid, width_between};
 use motile::motile_scene::{
     Body, Handle, Hydrodynamics, System,
     gap::{Boundary, SolidGap},
@@ -26,6 +26,10 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
         shape.displacement.push(nodes.iter().map(|&node| displacements[node]).sum::<Vec2>().length() / 3.0);
     }
     shape.stress = stress_deviators(solid);
+    if let Some(stresses) = solid.internal_stresses().ok().flatten() {
+        shape.internal_stress = stresses.iter().map(deviator).collect();
+    }
+    shape.bonds = bonds(solid);
     // Lines around the period run to the right or to the left, with the solid on their left: the area is between one
     // period of both.
     let mut end: Option<Vec2> = None;
@@ -106,7 +110,23 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
 /// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
 pub(crate) fn stress_deviators(solid: &Solid) -> Vec<f64> {
     let Ok(stresses) = solid.stresses() else { return vec![f64::NAN; solid.mesh().triangles().len()] };
-    stresses.iter().map(|s| (0.5 * (s.x_axis.x - s.y_axis.y)).hypot(s.x_axis.y)).collect()
+    stresses.iter().map(deviator).collect()
+}
+
+/// Deviator of a symmetric stress.
+pub(crate) fn deviator(stress: &Mat2) -> f64 {
+    (0.5 * (stress.x_axis.x - stress.y_axis.y)).hypot(stress.x_axis.y)
+}
+
+/// Ends of the active springs of a solid that are on (length).
+fn bonds(solid: &Solid) -> Vec<Vec<Vec2>> {
+    let mesh = solid.mesh();
+    let on = mesh.edges().iter().zip(solid.active_bonds().unwrap_or_default()).filter(|(_, on)| **on);
+    on.map(|(edge, _)| {
+        let [from, to] = edge.points.map(|point| solid.positions()[point]);
+        vec![from, to + Vec2::new(f64::from(edge.periods) * mesh.period().unwrap_or(0.0), 0.0)]
+    })
+    .collect()
 }
 
 /// Measurement of the solids of a system, for rows of a table.

@@ -15,7 +15,8 @@ pub(crate) fn add_stress_of_bar(
     let span = bar.span(positions);
     let (left, right) = mesh.edges()[edge].triangles;
     let share = if right.is_some() { 0.5 } else { 1.0 };
-    let along = Mat2::from_cols(span * span.x, span * span.y) * (share * tension / span.length().max(f64::MIN_POSITIVE));
+    let along =
+        Mat2::from_cols(span * span.x, span * span.y) * (share * tension / span.length().max(f64::MIN_POSITIVE));
     for triangle in std::iter::once(left).chain(right) {
         let [a, b, c] = mesh.raw_corners(triangle, positions);
         stresses[triangle] += along / (0.5 * (b - a).perp_dot(c - a));

@@ -2,8 +2,7 @@
 
 use motile_base::{Vec2, same_length};
 use motile_scene::{
-    Body, BodyError, FluidView, MarkerKind, StepLimit,
-    StepCause, StepInfo,
+    Body, BodyError, FluidView, MarkerKind, StepCause, StepInfo, StepLimit,
     checkpoint::SavedState,
     gap::{SurfaceCurve, SurfacePoint},
     points,
@@ -223,8 +222,7 @@ impl Body for Solid {
         let skin = self.skin.as_ref().map_or(0.0, Skin::stiffness);
         let relaxing = self.relaxation.as_ref().map_or(0.0, Relaxation::stiffest);
         let active = self.bonds.as_ref().map_or(0.0, |bonds| bonds.stiffness(self.spacing));
-        let elastic =
-            moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin + relaxing + active;
+        let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin + relaxing + active;
         if let Some(bonds) = &self.bonds {
             let dt = bonds.resolved_step();
             limits(StepLimit { dt, reason: "the rates of the active springs", cause: StepCause::Accuracy });

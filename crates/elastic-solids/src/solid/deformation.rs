@@ -51,9 +51,9 @@ impl Deformation {
             elastic_energy: solid.elastic_energy().unwrap_or(f64::INFINITY),
             relaxing_energy: solid.relaxing_energy().unwrap_or(f64::INFINITY),
             dissipation: solid.dissipation().unwrap_or(f64::INFINITY),
-            active_part: solid.active_bonds().map_or(f64::NAN, |on| {
-                on.iter().filter(|on| **on).count() as f64 / on.len().max(1) as f64
-            }),
+            active_part: solid
+                .active_bonds()
+                .map_or(f64::NAN, |on| on.iter().filter(|on| **on).count() as f64 / on.len().max(1) as f64),
             tether_energy: solid.tether_energy(),
             smallest_jacobian: solid.smallest_jacobian().0,
         }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use motile::active_interface::ActiveDroplet;
-use motile::elastic_solids::Solid;
+use motile::elastic_solids::{Mat2, Solid};
 use motile::interior_fields::{GelInDroplet, ParticlesInDroplet};
 use motile::motile_base::Vec2;
 use motile::motile_scene::{Hydrodynamics, System};
@@ -11,7 +11,7 @@ use motile::motile_scene::{Hydrodynamics, System};
 use super::file::revolved;
 use crate::VtkFile;
 use crate::snapshot::at_markers;
-use crate::solids::{solids as solids_of, stress_deviators};
+use crate::solids::{deviator, solids as solids_of, stress_deviators};
 
 /// Triangles of several bodies.
 #[derive(Debug, Default)]
@@ -80,18 +80,26 @@ pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let mut pieces = Pieces::default();
     solids_of(system).for_each(|solid| pieces.add(solid));
     let component = |k: usize| pieces.stress.iter().map(move |s| s[k]);
-    Some(
-        pieces
-            .mesh
-            .file()?
-            .point_vectors("displacement", pieces.displacement)
-            .cell_scalars("J", pieces.jacobian)
-            .cell_scalars("stress_xx", component(0))
-            .cell_scalars("stress_xy", component(1))
-            .cell_scalars("stress_yy", component(2))
-            .cell_scalars("stress_deviator", pieces.deviator)
-            .cell_scalars("solid", pieces.mesh.numbers),
-    )
+    let mut file = pieces
+        .mesh
+        .file()?
+        .point_vectors("displacement", pieces.displacement)
+        .cell_scalars("J", pieces.jacobian)
+        .cell_scalars("stress_xx", component(0))
+        .cell_scalars("stress_xy", component(1))
+        .cell_scalars("stress_yy", component(2))
+        .cell_scalars("stress_deviator", pieces.deviator)
+        .cell_scalars("solid", pieces.mesh.numbers);
+    if solids_of(system).any(|solid| !matches!(solid.internal_stresses(), Ok(None))) {
+        let inner = |value: fn(&Mat2) -> f64| pieces.internal.iter().map(value);
+        file = file
+            .cell_scalars("internal_xx", inner(|s| s.x_axis.x))
+            .cell_scalars("internal_xy", inner(|s| s.x_axis.y))
+            .cell_scalars("internal_yy", inner(|s| s.y_axis.y))
+            .cell_scalars("internal_deviator", inner(deviator))
+            .cell_scalars("active_part", pieces.active);
+    }
+    Some(file)
 }
 
 /// Triangles of solids with their values; triangles across the seam of a period have points of their own.
@@ -102,6 +110,10 @@ struct Pieces {
     jacobian: Vec<f64>,
     stress: Vec<[f64; 3]>,
     deviator: Vec<f64>,
+    /// Stress that is not elastic.
+    internal: Vec<Mat2>,
+    /// Part of the sides whose active springs are on.
+    active: Vec<f64>,
 }
 
 impl Pieces {
@@ -129,6 +141,18 @@ impl Pieces {
         self.displacement.extend(displacement);
         self.jacobian.extend(solid.jacobians());
         self.deviator.extend(stress_deviators(solid));
+        match solid.internal_stresses() {
+            Ok(Some(stresses)) => self.internal.extend(stresses),
+            Ok(None) => self.internal.resize(self.jacobian.len(), Mat2::ZERO),
+            Err(_) => self.internal.resize(self.jacobian.len(), Mat2::from_diagonal(Vec2::splat(f64::NAN))),
+        }
+        let first = self.active.len();
+        self.active.resize(self.jacobian.len(), 0.0);
+        for (edge, _) in mesh.edges().iter().zip(solid.active_bonds().unwrap_or_default()).filter(|(_, on)| **on) {
+            for triangle in std::iter::once(edge.triangles.0).chain(edge.triangles.1) {
+                self.active[first + triangle] += 1.0 / 3.0;
+            }
+        }
         match solid.stresses() {
             Ok(stresses) => self.stress.extend(stresses.iter().map(|s| [s.x_axis.x, s.y_axis.x, s.y_axis.y])),
             // An inverted triangle has none.

@@ -116,7 +116,11 @@ impl Look {
         let label = if self.concentration.is_some() { "concentration c/c_{0}" } else { "concentration c" };
         let inside = all.iter().flat_map(|seen| &seen.inside).flat_map(|field| field.densities.iter().flatten());
         let solids = all.iter().flat_map(|seen| &seen.solids).flat_map(|solid| solid.values(self.solids));
-        let of_solids = if self.solids == SolidColour::Stress { "stress deviator" } else { "displacement" };
+        let of_solids = match self.solids {
+            SolidColour::Stress => "stress deviator",
+            SolidColour::InternalStress => "internal stress",
+            _ => "displacement",
+        };
         Legends {
             solids: ColourScale::from_zero(solids.copied(), of_solids).map(ColourScale::green),
             pressure: ColourScale::of_most(pressures, self.pressure_range, "pressure p")

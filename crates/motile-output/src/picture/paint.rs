@@ -20,6 +20,8 @@ use motile::motile_base::Vec2;
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);
 const SOLID_EDGE: Rgb = Rgb([92, 84, 74]);
+/// Active springs that are on.
+const BOND: Rgb = Rgb([255, 120, 60]);
 /// Colours of directors and of defects of either sign.
 const DIRECTOR: Rgb = Rgb([30, 30, 30]);
 const DEFECTS: [Rgb; 2] = [Rgb([190, 20, 60]), Rgb([20, 60, 190])];
@@ -331,6 +333,10 @@ impl Painter<'_> {
             self.drawing.fill(&rings, SOLID, 1.0);
             if !triangles.is_empty() {
                 self.drawing.triangles(self.layout.frame.area, triangles.into_iter());
+            }
+            if !solid.bonds.is_empty() {
+                let bonds = all(&solid.bonds);
+                self.drawing.strokes(&bonds, &Pen::new(BOND, (0.09 * self.layout.unit).max(0.8)));
             }
             self.drawing.strokes(&edges, &pen);
         }

@@ -13,6 +13,8 @@ pub enum SolidColour {
     Displacement,
     /// Deviator of the Cauchy stress, `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)` (force per length).
     Stress,
+    /// Deviator of the stress that is not elastic: of Maxwell elements and active springs (force per length).
+    InternalStress,
 }
 
 /// Shape of a solid, with values for colours.
@@ -29,6 +31,10 @@ pub struct SolidShape {
     pub displacement: Vec<f64>,
     /// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
     pub stress: Vec<f64>,
+    /// Deviator of the stress in each triangle that is not elastic (force per length); empty where there is none.
+    pub internal_stress: Vec<f64>,
+    /// Ends of the active springs that are on (length).
+    pub bonds: Vec<Vec<Vec2>>,
 }
 
 impl SolidShape {
@@ -38,6 +44,7 @@ impl SolidShape {
             SolidColour::Plain => &[],
             SolidColour::Displacement => &self.displacement,
             SolidColour::Stress => &self.stress,
+            SolidColour::InternalStress => &self.internal_stress,
         }
     }
 }

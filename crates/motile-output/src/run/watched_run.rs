@@ -97,7 +97,9 @@ impl WatchedRun {
         if job.draws() {
             let caption = caption(setup, &particles, &view.region);
             let concentration = Some(particles.concentration);
-            let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
+            let internal = setup.solids.iter().any(|s| !s.relaxation.is_empty() || s.active_springs.is_some());
+            let solids = if internal { SolidColour::InternalStress } else { SolidColour::Stress };
+            let streamline_spacing = Some(STREAMLINES);
             let look = Look { caption, concentration, streamline_spacing, solids, ..Look::default() };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));

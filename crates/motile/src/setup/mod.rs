@@ -10,6 +10,7 @@ mod file;
 mod flow;
 mod gel;
 mod gel_in_box;
+mod grading;
 mod interface;
 mod method;
 mod numbers;
@@ -26,12 +27,13 @@ pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particle
 pub use flow::{FlowSetup, PoiseuilleSetup};
 pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
+pub use grading::{Axis, Grading};
 pub use interface::{ElasticitySetup, InterfaceSetup, InterfaceShape, Side};
 pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use numbers::Numbers;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
-pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup};
+pub use solid::{ActiveSpringsSetup, Hold, Material, MaxwellSetup, MeshKind, SkinSetup, SolidOutline, SolidSetup};
 pub use suspension::{Arrangement, Distribution, Headings, SuspensionSetup};
 pub use wall::WallSetup;
 

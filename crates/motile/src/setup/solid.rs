@@ -2,16 +2,17 @@
 
 use elastic_solids::ChannelShape;
 use elastic_solids::mesh::TriangleMesh;
+use elastic_solids::{ActiveSprings, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
-use elastic_solids::{MooneyRivlin, SaintVenantKirchhoff};
 use motile_base::{Region, Vec2};
-use motile_scene::{MarkerKind, Scene};
+use motile_scene::{MarkerKind, Scene, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 
 use super::{
     AnyFlow, Method, MethodKind, Setup,
     body::{BodySetup, Planned},
     checked::Checked,
+    grading::Grading,
 };
 use crate::SetupError;
 
@@ -75,6 +76,12 @@ pub struct SolidSetup {
     /// A skin on its surface, which keeps a soft one from creasing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skin: Option<SkinSetup>,
+    /// Maxwell elements beside its elasticity, which make it viscoelastic; their moduli are graded like its own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub relaxation: Vec<MaxwellSetup>,
+    /// Active springs along the edges of its mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub active_springs: Option<ActiveSpringsSetup>,
 }
 
 /// An elastic skin on the surface of a solid ([`Solid::with_skin`]).
@@ -86,6 +93,43 @@ pub struct SkinSetup {
     pub stretching: f64,
     /// Modulus of bending (force times length squared).
     pub bending: f64,
+}
+
+/// A Maxwell element of a solid ([`Solid::with_maxwell`]).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct MaxwellSetup {
+    /// Shear modulus (force per length).
+    pub modulus: f64,
+    /// Relaxation time (time).
+    pub time: f64,
+}
+
+/// Springs along the edges of a mesh that contract while they are on, and turn on and off at random
+/// ([`Solid::with_active_springs`]).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ActiveSpringsSetup {
+    /// Tension while one is on (force).
+    pub tension: f64,
+    /// Rate of turning on (1/time).
+    pub on: f64,
+    /// Rate of turning off (1/time).
+    pub off: f64,
+    /// Seed.
+    #[serde(default = "first_seed")]
+    pub seed: u64,
+    /// Logarithm of the rate of turning on per strain of the edge (no dimension).
+    #[serde(default)]
+    pub on_sensitivity: f64,
+    /// Logarithm of the rate of turning off per strain of the edge (no dimension): positive of slip bonds, negative of
+    /// catch bonds.
+    #[serde(default)]
+    pub off_sensitivity: f64,
+}
+
+fn first_seed() -> u64 {
+    1
 }
 
 fn solid_name() -> String {
@@ -165,33 +209,8 @@ pub enum Material {
         /// Part of the shear modulus that the second invariant carries (0 to 1).
         fraction: f64,
     },
-}
-
-/// Moduli as a function of the reference position: a factor on all moduli of the material.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Grading {
-    /// No grading: the moduli of the material everywhere.
-    #[default]
-    Uniform,
-    /// A factor that is piecewise linear along an axis and constant beyond its first and last place.
-    Along {
-        /// The axis.
-        axis: Axis,
-        /// Places (length, increasing), each with the factor there (no dimension, positive).
-        factors: Vec<[f64; 2]>,
-    },
-}
-
-/// An axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Axis {
-    /// Along the channel.
-    X,
-    /// Across it.
-    Y,
+    /// No elasticity of its own: all its stress is that of its Maxwell elements, and it flows.
+    FluidLike,
 }
 
 /// Arrangement of the points of a solid.
@@ -243,6 +262,8 @@ impl SolidSetup {
             material,
             grading: Grading::default(),
             skin: None,
+            relaxation: Vec::new(),
+            active_springs: None,
         }
     }
 
@@ -296,6 +317,12 @@ impl SolidSetup {
         if let Some(SkinSetup { stretching, bending }) = self.skin {
             solid = solid.with_skin(stretching, bending)?;
         }
+        for &MaxwellSetup { modulus, time } in &self.relaxation {
+            solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * self.grading.factor(s), time))?;
+        }
+        if let Some(active) = &self.active_springs {
+            solid = solid.with_active_springs(active.law()?);
+        }
         let held = match self.hold {
             Hold::Pinned => solid.pinned(fixed)?,
             Hold::Tethered { stiffness } => solid.tethered(stiffness * share, |_| true)?,
@@ -332,6 +359,7 @@ impl SolidSetup {
         let factor = |place: Vec2| self.grading.factor(place);
         match self.material {
             Material::Springs { shear } => Solid::springs_graded(mesh, |s| shear * factor(s)),
+            Material::FluidLike => Ok(Solid::fluid_like(mesh)),
             Material::NeoHookean { shear, bulk } => {
                 Solid::hyperelastic_graded(mesh, |s| NeoHookean::new(shear * factor(s), bulk * factor(s)))
             }
@@ -374,10 +402,11 @@ impl SolidOutline {
 }
 
 impl Material {
-    /// Shear modulus (force per length).
+    /// Shear modulus (force per length); 0 of what is fluid-like.
     #[must_use]
     pub fn shear(&self) -> f64 {
         match *self {
+            Self::FluidLike => 0.0,
             Self::Springs { shear }
             | Self::NeoHookean { shear, .. }
             | Self::SaintVenantKirchhoff { shear, .. }
@@ -386,18 +415,22 @@ impl Material {
     }
 }
 
-impl Grading {
-    /// The factor on the moduli at a reference position (length); no dimension.
-    #[must_use]
-    pub fn factor(&self, place: Vec2) -> f64 {
-        let Self::Along { axis, factors } = self else { return 1.0 };
-        let at = if *axis == Axis::X { place.x } else { place.y };
-        let above = factors.partition_point(|[x, _]| *x <= at);
-        match (above.checked_sub(1).map(|below| factors[below]), factors.get(above)) {
-            (Some([x0, f0]), Some(&[x1, f1])) => f0 + (f1 - f0) * (at - x0) / (x1 - x0),
-            (Some([_, factor]), None) | (None, Some(&[_, factor])) => factor,
-            (None, None) => 1.0,
-        }
+impl ActiveSpringsSetup {
+    /// Their law.
+    ///
+    /// # Errors
+    /// Numbers out of their range.
+    pub fn law(&self) -> Result<ActiveSprings, SolidError> {
+        let &Self { tension, on, off, seed, on_sensitivity, off_sensitivity } = self;
+        ActiveSprings::new(tension, on, off, seed)?.with_sensitivities(on_sensitivity, off_sensitivity)
+    }
+
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        checked.positive("active-springs.tension", self.tension)?;
+        checked.positive("active-springs.on", self.on)?;
+        checked.not_negative("active-springs.off", self.off)?;
+        checked.finite("active-springs.on-sensitivity", self.on_sensitivity)?;
+        checked.finite("active-springs.off-sensitivity", self.off_sensitivity)
     }
 }
 
@@ -502,15 +535,21 @@ impl BodySetup for SolidSetup {
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }
-        if let Grading::Along { factors, .. } = &self.grading {
-            factors.iter().try_for_each(|[place, factor]| {
-                checked.finite("grading.along.factors", *place)?;
-                checked.positive("grading.along.factors", *factor)
-            })?;
-            if factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
-                let remedy = "give at least one place with its factor, places increasing";
-                checked.refuse("grading.along.factors", &format!("{factors:?}"), remedy)?;
-            }
+        self.grading.check("grading", checked, self.side().and(Some(setup.region.lengths()[0])))?;
+        for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
+            checked.positive(&format!("relaxation[{number}].modulus"), *modulus)?;
+            checked.positive(&format!("relaxation[{number}].time"), *time)?;
+        }
+        if let Some(active) = &self.active_springs {
+            active.check(checked)?;
+        }
+        if self.material == Material::FluidLike && self.relaxation.is_empty() {
+            let remedy = "nothing would hold it together: give relaxation = [{ modulus = ..., time = ... }]";
+            checked.refuse("material", &"fluid-like", remedy)?;
+        }
+        if !self.relaxation.is_empty() && setup.integrator == IntegratorKind::RungeKutta {
+            let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
+            checked.refuse("relaxation", &"given", remedy)?;
         }
         self.material.check(checked)
     }
@@ -519,6 +558,7 @@ impl BodySetup for SolidSetup {
 impl Material {
     fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
         let (name, bulk) = match *self {
+            Self::FluidLike => return Ok(()),
             Self::Springs { .. } => ("springs", None),
             Self::NeoHookean { bulk, .. } => ("neo-hookean", Some(bulk)),
             Self::SaintVenantKirchhoff { bulk, .. } => ("saint-venant-kirchhoff", Some(bulk)),

@@ -90,6 +90,8 @@ fn values_that_are_not_numbers_do_no_harm() {
         triangles: vec![[bad; 3]],
         displacement: vec![f64::NAN],
         stress: vec![f64::NAN],
+        internal_stress: vec![f64::NAN],
+        bonds: vec![vec![bad; 2]],
     }];
     let seen = Snapshot {
         time: 1.0,
