@@ -59,6 +59,7 @@
 mod active_springs;
 mod channel;
 pub mod check;
+mod damping;
 mod error;
 mod forces;
 mod material;

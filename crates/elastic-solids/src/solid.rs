@@ -8,6 +8,7 @@ use std::sync::Arc;
 use motile_base::{Vec2, all_points_finite, at_least, positive, same_length};
 
 use crate::active_springs::Bonds;
+use crate::damping::Damping;
 use crate::forces::{Hyperelastic, Springs};
 use crate::mesh::TriangleMesh;
 use crate::relaxation::{NoElasticity, Relaxation};
@@ -59,6 +60,7 @@ pub struct Solid {
     springs: bool,
     pub(crate) relaxation: Option<Relaxation>,
     pub(crate) bonds: Option<Bonds>,
+    pub(crate) damping: Option<Damping>,
 }
 
 /// A spring from a point to a fixed place.
@@ -156,6 +158,7 @@ impl Solid {
             springs: false,
             relaxation: None,
             bonds: None,
+            damping: None,
             mesh,
         }
     }
@@ -230,6 +233,17 @@ impl Solid {
     pub fn with_active_springs(mut self, law: ActiveSprings) -> Self {
         self.bonds = Some(Bonds::new(&self.mesh, law));
         self
+    }
+
+    /// Makes the solid more viscous than the fluid by `excess` (force per length times time): a viscous stress beside
+    /// the elastic one, of Kelvin and Voigt, and beside that of the fluid in it. An evaluation then takes several of
+    /// the flow, more the larger the ratio of the viscosities is; steps may be as long as without.
+    ///
+    /// # Errors
+    /// An excess that is not positive and finite.
+    pub fn with_excess_viscosity(mut self, excess: f64) -> Result<Self, SolidError> {
+        self.damping = Some(Damping::new(&self.mesh, positive("the excess viscosity of the solid", excess)?));
+        Ok(self)
     }
 
     /// Gives the solid a name for messages ("solid" otherwise).

@@ -1,5 +1,5 @@
-//! Viscoelastic layers on a wall under fluid at rest: rates of relaxation against the exact ones; orders in space and time,
-//! limits, no allocation.
+//! Viscoelastic layers on a wall under fluid at rest: rates of relaxation against the exact ones; orders in space and
+//! time, limits, no allocation.
 
 use allocation_counter::measure;
 use elastic_solids::mesh::fitted_strip;
@@ -63,7 +63,11 @@ fn sheared(case: &Case, h: f64, steps: usize) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(layer(case, h));
     (0..steps).for_each(|_| scene.step(1.0 / steps as f64).unwrap());
-    let solid = scene.body(handle).unwrap();
+    top(scene.body(handle).unwrap())
+}
+
+/// Shear of the layer up to its surface, over that at the start.
+fn top(solid: &Solid) -> f64 {
     let moved = |y: f64| {
         let row = solid.mesh().points().iter().zip(solid.displacements());
         let at = row.filter(|(s, _)| (s.y - y).abs() < 1e-9).map(|(_, moved)| moved.x).collect::<Vec<f64>>();
@@ -147,6 +151,32 @@ fn steps_are_stable_up_to_their_limit() {
             assert!(grown < 1.0, "{springs} {time}: {grown}");
         }
         assert!(growth(springs, 100.0, 1.5) > 1e3);
+    }
+}
+
+/// A Kelvin-Voigt layer of the viscosity e relaxes at the rate `G/(e + eta a/(H - a))`, in the steps of an elastic one,
+/// also where it is a thousand times as viscous as the fluid; and resists the least mobile of all motions not at all.
+#[test]
+fn viscous_layers_relax_at_the_exact_rate_in_elastic_steps() {
+    for ratio in [1.5, 4.0, 30.0, 1000.0] {
+        let shear = 20.0;
+        let rate = shear / (VISCOSITY * (ratio + THICKNESS / (HEIGHT - THICKNESS)));
+        let elastic = Case { springs: false, moduli: [shear, 0.0], time: 1.0 };
+        let found = |h: f64, steps: usize| {
+            let mut scene = channel(h);
+            let solid = layer(&elastic, h).with_excess_viscosity((ratio - 1.0) * VISCOSITY).unwrap();
+            let handle = scene.add(solid);
+            let dt = 1.0 / (rate * steps as f64);
+            (0..steps).for_each(|_| scene.step(dt).unwrap());
+            top(scene.body(handle).unwrap())
+        };
+        let exact = (-1.0_f64).exp();
+        let error = |h: f64| (found(h, 30) - exact).abs();
+        let [coarse, fine] = [error(0.2), error(0.1)];
+        assert!(fine < 0.03 && fine < 0.7 * coarse, "{ratio}: {coarse:e} {fine:e}");
+        let best = found(0.2, 320);
+        let [longer, half] = [(found(0.2, 10) - best).abs(), (found(0.2, 20) - best).abs()];
+        assert!((1.8..2.4).contains(&(longer / half).log2()), "{ratio}: {longer:e} {half:e}");
     }
 }
 

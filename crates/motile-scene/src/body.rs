@@ -127,6 +127,11 @@ pub trait Body: Any + fmt::Debug + Send {
         None
     }
 
+    /// The body as one whose forces depend on the velocities of its markers; by default they do not.
+    fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
+        None
+    }
+
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):
     /// the radius of a droplet for positions, say. By default all are one.
     fn write_scales(&self, scales: &mut [f64]) {
@@ -194,6 +199,18 @@ pub trait Guest {
     /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the guest, after its
     /// own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
     fn add_host_rate(&self, _rate: &mut [f64]) {}
+}
+
+/// A body with forces `-D v` that are linear in the velocities v of its markers, beside those of
+/// [`Body::write_forces`]: a solid more viscous than the fluid, say. D is symmetric and positive
+/// semidefinite: no motion gains energy by it.
+///
+/// Velocities and these forces are solved for together, by conjugate gradients in some evaluations of the flow, so that
+/// steps are as stable as without them, however large D is.
+pub trait Viscous {
+    /// Adds `-D v` (force) to the forces on the fluid, from the velocities v of the markers (length per time), at the
+    /// state of the last [`Body::write_forces`].
+    fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]);
 }
 
 /// A doubt about the accuracy of a state from which a run goes on: results may be off by more than a per cent.

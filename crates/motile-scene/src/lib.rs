@@ -39,7 +39,7 @@ mod saved_state;
 mod scene;
 pub mod step_report;
 
-pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Warning};
+pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, InterfaceGroups, MarkerGroup, MarkerKind, Markers,

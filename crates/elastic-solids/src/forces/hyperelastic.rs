@@ -123,6 +123,13 @@ impl Element {
         Mat2::from_cols(first, second) * self.inverse
     }
 
+    /// Gradient, by the reference position, of a field of values at the points of the mesh.
+    #[inline]
+    pub(crate) fn gradient_of(&self, values: &[Vec2]) -> Mat2 {
+        let [a, b, c] = self.corners.map(|point| values[point as usize]);
+        Mat2::from_cols(b - a, c - a) * self.inverse
+    }
+
     /// Deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
     #[inline]
     pub(crate) fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {

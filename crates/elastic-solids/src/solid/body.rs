@@ -2,7 +2,7 @@
 
 use motile_base::{Vec2, same_length};
 use motile_scene::{
-    Body, BodyError, FluidView, MarkerKind, StepCause, StepInfo, StepLimit,
+    Body, BodyError, FluidView, MarkerKind, StepCause, StepInfo, StepLimit, Viscous,
     checkpoint::SavedState,
     gap::{SurfaceCurve, SurfacePoint},
     points,
@@ -122,6 +122,10 @@ impl Body for Solid {
         }
     }
 
+    fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
+        if self.damping.is_some() { Some(self) } else { None }
+    }
+
     /// Not of solids with internal variables.
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         points::mirror(markers, state, image);
@@ -172,7 +176,8 @@ impl Body for Solid {
             [("the integral of the moduli of its Maxwell elements", modulus), ("that of their viscosities", viscosity)]
         });
         let active = self.bonds.iter().flat_map(Bonds::properties);
-        let properties = properties.into_iter().chain(relaxing).chain(active);
+        let damping = self.damping.iter().map(|damping| ("its viscosity above that of the fluid", damping.viscosity()));
+        let properties = properties.into_iter().chain(relaxing).chain(active).chain(damping);
         properties.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
@@ -215,7 +220,8 @@ impl Body for Solid {
 
     /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h that of the
     /// grid, mu and kappa the largest moduli in the solid. A skin adds the stiffness of its shortest waves to the sum,
-    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them move together.
+    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them move
+    /// together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = view.spacing.map_or(0.0, |spacing| self.spacing / spacing);
@@ -233,6 +239,14 @@ impl Body for Solid {
             (elastic + self.tether_stiffness(view), "the elastic moduli and tethers")
         };
         limits(StepLimit::decay(2.0 * view.viscosity / stiffness, reason));
+    }
+}
+
+impl Viscous for Solid {
+    fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]) {
+        if let Some(damping) = &mut self.damping {
+            damping.add_forces((&self.positions, &self.free), velocities, forces);
+        }
     }
 }
 

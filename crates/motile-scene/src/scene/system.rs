@@ -8,6 +8,7 @@ mod gaps;
 mod guests;
 mod handles;
 mod imposed;
+mod resistance;
 mod state;
 
 use crate::{
@@ -22,6 +23,7 @@ pub(crate) use findings::Findings;
 use imposed::Background;
 pub use imposed::Imposed;
 use motile_base::{Drive, FlowSample, SolveReport, Vec2};
+use resistance::Resistance;
 
 /// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and
 /// by this multiple of the residual where they are iterated.
@@ -82,6 +84,7 @@ pub struct System<H> {
     report: SolveReport,
     known: Known,
     background: Background,
+    resistance: Resistance,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -95,6 +98,7 @@ impl<H: Hydrodynamics> System<H> {
             report: SolveReport::default(),
             known: Known::Nothing,
             background: Background::none(),
+            resistance: Resistance::default(),
         }
     }
 
@@ -326,7 +330,7 @@ impl<H: Hydrodynamics> System<H> {
             self.contacts.push_apart(&mut self.bodies, &self.hydrodynamics);
         }
         let before = self.hydrodynamics.work();
-        let found = self.hydrodynamics.velocities(&mut self.bodies.markers);
+        let found = self.resistance.solve(&mut self.hydrodynamics, &mut self.bodies);
         self.findings.work.add(before, self.hydrodynamics.work());
         self.report = found.map_err(|source| SceneError::Flow { time, source })?;
         Ok(())

@@ -79,6 +79,9 @@ pub struct SolidSetup {
     /// Maxwell elements beside its elasticity, which make it viscoelastic; their moduli are graded like its own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub relaxation: Vec<MaxwellSetup>,
+    /// Viscosity (stress times time) where it is above that of the exterior fluid: a Kelvin-Voigt solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscosity: Option<f64>,
     /// Active springs along the edges of its mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub active_springs: Option<ActiveSpringsSetup>,
@@ -263,6 +266,7 @@ impl SolidSetup {
             grading: Grading::default(),
             skin: None,
             relaxation: Vec::new(),
+            viscosity: None,
             active_springs: None,
         }
     }
@@ -319,6 +323,9 @@ impl SolidSetup {
         }
         for &MaxwellSetup { modulus, time } in &self.relaxation {
             solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * self.grading.factor(s), time))?;
+        }
+        if let Some(excess) = self.viscosity.map(|own| own - setup.viscosity).filter(|excess| *excess > 0.0) {
+            solid = solid.with_excess_viscosity(excess)?;
         }
         if let Some(active) = &self.active_springs {
             solid = solid.with_active_springs(active.law()?);
@@ -539,6 +546,12 @@ impl BodySetup for SolidSetup {
         for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
             checked.positive(&format!("relaxation[{number}].modulus"), *modulus)?;
             checked.positive(&format!("relaxation[{number}].time"), *time)?;
+        }
+        if let Some(viscosity) = self.viscosity {
+            let least = setup.viscosity;
+            let remedy =
+                format!("the fluid in it has {least}, which adds to its own: give a finite number from there on");
+            checked.require(viscosity.is_finite() && viscosity >= least, "viscosity", viscosity, &remedy)?;
         }
         if let Some(active) = &self.active_springs {
             active.check(checked)?;
