@@ -5,7 +5,7 @@ use motile_base::{Vec2, finite, not_negative, positive};
 use crate::SolidError;
 use crate::forces::{Bar, add_stress_of_bar};
 use crate::material::Mat2;
-use crate::mesh::TriangleMesh;
+use crate::mesh::{Edge, TriangleMesh};
 use crate::random::uniform;
 
 /// Bonds of two states along all edges of a mesh, such as motors that bind and unbind: each pulls the ends of its edge
@@ -14,8 +14,10 @@ use crate::random::uniform;
 /// With p = on/(on + off), k = on + off, a bond is on after a step of dt with the probability `p + (1-p) exp(-k dt)` if
 /// it was on and `p (1 - exp(-k dt))` if it was off, which is exact for any step at constant rates; at the start it is
 /// on with the probability p. On a triangular lattice of spacing l the mean stress is `sqrt(3) p f/l`, an isotropic
-/// contraction. Rates may depend on the strain e = r/d - 1 of the edge, as `rate exp(sensitivity e)` with the strain at
-/// the end of the step: a positive sensitivity of unbinding makes slip bonds, a negative one catch bonds.
+/// contraction, up to the boundary, where bonds pull half as much as springs there do. A free one of springs of the
+/// spring constant K shrinks by `p f/(K l)`. Rates may depend on the strain e = r/d - 1 of the edge, as `rate
+/// exp(sensitivity e)` with the strain at the end of the step: a positive sensitivity of unbinding makes slip bonds, a
+/// negative one catch bonds.
 ///
 /// Random numbers are functions of the seed, the number of the bond and the number of the step, so that a run is the
 /// same for any number of threads and through a checkpoint.
@@ -77,7 +79,8 @@ impl ActiveSprings {
 #[derive(Debug, Clone)]
 pub(crate) struct Bonds {
     law: ActiveSprings,
-    bars: Vec<Bar>,
+    /// Bars, and of the tension the part that each has: a half on the boundary.
+    bars: Vec<(Bar, f64)>,
     on: Vec<bool>,
     /// Steps that were kept.
     steps: u64,
@@ -86,7 +89,8 @@ pub(crate) struct Bonds {
 impl Bonds {
     /// Bonds along all edges of a mesh, in their stationary state without strain.
     pub(crate) fn new(mesh: &TriangleMesh, law: ActiveSprings) -> Self {
-        let bars: Vec<Bar> = Bar::all(mesh).collect();
+        let share = |edge: &Edge| if edge.triangles.1.is_some() { 1.0 } else { 0.5 };
+        let bars: Vec<(Bar, f64)> = Bar::all(mesh).zip(mesh.edges().iter().map(share)).collect();
         let on = (0..bars.len()).map(|bond| uniform(law.seed, bond as u64, 0) < law.duty_ratio()).collect();
         Self { law, bars, on, steps: 0 }
     }
@@ -118,7 +122,7 @@ impl Bonds {
 
     /// Turns bonds on and off at the end of a step of `dt` (time), with the points at `positions` (length).
     pub(crate) fn end_step(&mut self, positions: &[Vec2], dt: f64) {
-        for (bond, (bar, on)) in self.bars.iter().zip(&mut self.on).enumerate() {
+        for (bond, ((bar, _), on)) in self.bars.iter().zip(&mut self.on).enumerate() {
             let strain = bar.span(positions).length() / bar.length - 1.0;
             *on = uniform(self.law.seed, bond as u64, self.steps + 1) < self.law.probability(*on, strain, dt);
         }
@@ -126,17 +130,17 @@ impl Bonds {
 
     /// Adds the forces of the bonds that are on (force) with the points at `positions` (length).
     pub(crate) fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) {
-        for (bar, _) in self.bars.iter().zip(&self.on).filter(|(_, on)| **on) {
+        for ((bar, share), _) in self.bars.iter().zip(&self.on).filter(|(_, on)| **on) {
             let span = bar.span(positions);
-            bar.add_pull(span * (self.law.tension / span.length().max(f64::MIN_POSITIVE)), forces);
+            bar.add_pull(span * (share * self.law.tension / span.length().max(f64::MIN_POSITIVE)), forces);
         }
     }
 
     /// Adds the Cauchy stresses of the bonds (force per deformed length) to those of the triangles of the mesh, none of
     /// which is inverted.
     pub(crate) fn add_stresses(&self, mesh: &TriangleMesh, positions: &[Vec2], stresses: &mut [Mat2]) {
-        for (edge, (bar, _)) in self.bars.iter().zip(&self.on).enumerate().filter(|(_, (_, on))| **on) {
-            add_stress_of_bar((mesh, edge), (bar, self.law.tension), positions, stresses);
+        for (edge, ((bar, share), _)) in self.bars.iter().zip(&self.on).enumerate().filter(|(_, (_, on))| **on) {
+            add_stress_of_bar((mesh, edge), (bar, share * self.law.tension), positions, stresses);
         }
     }
 

@@ -39,22 +39,29 @@ fn exact(case: &Case, t: f64) -> f64 {
 }
 
 fn layer(case: &Case, h: f64) -> Solid {
-    let mesh = fitted_strip(Vec2::new(0.0, -0.5 * HEIGHT), [8.0 * h, THICKNESS], h).unwrap();
+    let mesh = fitted_strip(Vec2::new(0.0, -0.5 * HEIGHT), [8.0 * h, THICKNESS], h).expect("a scene");
     let [shear, relaxing] = case.moduli;
     let solid = match (shear > 0.0, case.springs) {
         (false, _) => Solid::fluid_like(mesh),
-        (true, true) => Solid::springs(mesh, shear).unwrap(),
-        (true, false) => Solid::hyperelastic(mesh, NeoHookean::new(shear, 2.0 * shear).unwrap()),
+        (true, true) => Solid::springs(mesh, shear).expect("a scene"),
+        (true, false) => Solid::hyperelastic(mesh, NeoHookean::new(shear, 2.0 * shear).expect("a scene")),
     };
-    let solid =
-        if relaxing > 0.0 { solid.with_maxwell(Maxwell::new(relaxing, case.time).unwrap()).unwrap() } else { solid };
+    let solid = if relaxing > 0.0 {
+        solid.with_maxwell(Maxwell::new(relaxing, case.time).expect("a scene")).expect("a scene")
+    } else {
+        solid
+    };
     let low = |s: Vec2| s.y < -0.5 * HEIGHT + 1e-9;
-    solid.pinned(low).unwrap().deformed(|s| s + Vec2::new(STRAIN * (s.y + 0.5 * HEIGHT), 0.0)).unwrap()
+    solid
+        .pinned(low)
+        .expect("a scene")
+        .deformed(|s| s + Vec2::new(STRAIN * (s.y + 0.5 * HEIGHT), 0.0))
+        .expect("a scene")
 }
 
 fn channel(h: f64) -> Scene<ImmersedBoundary<ChannelStokes, AnyKernel>> {
-    let grid = Grid::channel(8, (HEIGHT / h).round() as usize, h).unwrap();
-    let solver = ChannelStokes::new(grid, VISCOSITY).unwrap();
+    let grid = Grid::channel(8, (HEIGHT / h).round() as usize, h).expect("a scene");
+    let solver = ChannelStokes::new(grid, VISCOSITY).expect("a scene");
     Scene::new(ImmersedBoundary::new(solver, AnyKernel::BSpline4))
 }
 
@@ -62,8 +69,8 @@ fn channel(h: f64) -> Scene<ImmersedBoundary<ChannelStokes, AnyKernel>> {
 fn sheared(case: &Case, h: f64, steps: usize) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(layer(case, h));
-    (0..steps).for_each(|_| scene.step(1.0 / steps as f64).unwrap());
-    top(scene.body(handle).unwrap())
+    (0..steps).for_each(|_| scene.step(1.0 / steps as f64).expect("a scene"));
+    top(scene.body(handle).expect("a scene"))
 }
 
 /// Shear of the layer up to its surface, over that at the start.
