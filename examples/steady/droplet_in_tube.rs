@@ -8,7 +8,8 @@
 //! and `sinusoidal`; both are closed at their ends, or open for a `--flux`.
 //!
 //! With `--steady` the steady swimmer is found by Newton's method, without a run, and whether it is stable against
-//! disturbances that leave it a body of revolution (order 0) and that turn it (1). `--help` lists the flags.
+//! disturbances that leave it a body of revolution (order 0), that turn it (1), and that flatten it (2). `--help` lists
+//! the flags.
 
 use std::process::ExitCode;
 
@@ -162,7 +163,7 @@ impl TubeFlags {
 #[derive(Debug, Parser)]
 struct Flags {
     /// Steady swimmer by Newton's method, without a run
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["time", "dt", "integrator", "rows", "checkpoint", "resume", "droplets"])]
     steady: bool,
     #[command(flatten)]
     scene: SceneFlags<TubeFlags>,
@@ -205,7 +206,7 @@ fn find(scene: &SceneFlags<TubeFlags>, setup: &Setup) -> Result<()> {
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
     summary.put("surface", perimeter, "area (R0^2)");
     let mut stable = true;
-    for order in 0..2 {
+    for order in 0..3 {
         let spectrum = if order == 0 { state.spectrum()? } else { state.spectrum_around(order)? };
         let leading = spectrum.leading().map(|mode| mode.value);
         let key = format!("leading_growth_rate_{order}");

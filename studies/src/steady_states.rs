@@ -50,8 +50,14 @@ enum Which {
     Cost,
     /// Limit cycles of width 5 from their Hopf point on
     Cycle,
-    /// Swimmers in tubes in three dimensions
+    /// Swimmers in three dimensions, in unbounded fluid
+    Space,
+    /// Those in tubes
     Tubes,
+    /// Folds of their onset
+    Folds,
+    /// A run past the fold and back
+    Hysteresis,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -65,7 +71,10 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Which::Regimes => bifurcations::regimes(nodes),
         Which::Length => parameters::length(nodes),
         Which::Contrast => parameters::contrast(nodes),
+        Which::Space => revolution::space(),
         Which::Tubes => revolution::tubes(),
+        Which::Hysteresis => revolution::hysteresis(),
+        Which::Folds => revolution::folds(nodes),
     }?;
     let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
     keep.tables(&format!("steady-{name}"), &format!("steady_states {name} --nodes {nodes}"), &INPUTS, &found)

@@ -11,9 +11,11 @@ use crate::spectrum::{Eigenmode, NO_GROWTH, Spectrum, Symmetry, complement, eige
 use crate::system::{Point, System};
 use crate::{SteadyError, SteadyState};
 
-/// Largest order whose eigenvalues settle as nodes are added: of order 2 the leading one drifts (at activity -1 it is
-/// -.228 at 128 nodes and -.190 at 256), though those of a sphere at rest are right to 1e-8.
-const MOST_ORDER: f64 = 1.0;
+/// Largest order: those of m = 1 turn a swimmer, those of m = 2 flatten it.
+const MOST_ORDER: f64 = 2.0;
+/// Part of the waves of a disturbance off the axis that is kept: products with normals alias higher ones to the poles,
+/// where a displacement that does not vanish is a singular one, whose growth rate falls as the logarithm of the nodes.
+const KEPT: f64 = 11.0 / 12.0;
 
 /// Undisturbed surface at nodes: t_j = pi (j + 1/2)/N on the meridian.
 struct Surface {
@@ -135,7 +137,8 @@ impl System {
     /// g'_phi     = -m h (gamma' + kappa_1 eta gamma + gamma eta n_r/r)
     /// ```
     ///
-    /// and v' of the forces g' and the displacements eta n by [`stokes_layers::axisymmetric::Disturbances`].
+    /// and v' of the forces g' and the displacements eta n by [`stokes_layers::axisymmetric::Disturbances`]. The
+    /// shortest waves are left out.
     pub(crate) fn around(
         &mut self,
         point: &Point,
@@ -150,6 +153,7 @@ impl System {
         };
         let surface = Surface::new(self, point.frame[0])?;
         let (n, m, even) = (surface.nodes.len(), order as f64, order.is_multiple_of(2));
+        let kept = if order == 0 { n } else { (KEPT * n as f64) as usize };
         let [radius, mean] = [self.model.radius, self.model.concentration];
         let diffusion = self.model.diffusion;
         // Values and slopes of the functions of one field.
@@ -170,11 +174,11 @@ impl System {
             let fields = [(offsets, radius), (concentrations, mean)];
             let lists = fields.map(|(field, unit)| factors.solve(&(field / unit)));
             let [Some(h), Some(c)] = lists else { return Err(singular()) };
-            Ok(DVector::from_iterator(2 * n, h.iter().chain(c.iter()).copied()))
+            Ok(DVector::from_iterator(2 * kept, h.iter().take(kept).chain(c.iter().take(kept)).copied()))
         };
-        let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-        for column in 0..2 * n {
-            let (of_shape, k) = (column < n, column % n);
+        let mut matrix = DMatrix::zeros(2 * kept, 2 * kept);
+        for column in 0..2 * kept {
+            let (of_shape, k) = (column < kept, column % kept);
             let of = |j: usize, wanted: bool| {
                 let (value, slope) = functions(j, k);
                 let unit = if of_shape { radius } else { mean };
@@ -245,10 +249,9 @@ impl System {
 }
 
 impl SteadyState {
-    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order, 1: they turn
-    /// a swimmer and push it aside. Those of m = 2, which flatten it, are refused: they do not settle as nodes are
-    /// added. Shifts across the axis and turns, which neither grow nor decay in unbounded fluid, are left out;
-    /// [`Spectrum::neutral`] is how fast they seem to.
+    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order: those of m = 1
+    /// turn a swimmer and push it aside, those of m = 2 flatten it. Shifts across the axis and turns, which neither
+    /// grow nor decay in unbounded fluid, are left out; [`Spectrum::neutral`] is how fast they seem to.
     ///
     /// The equations are linearised by hand and integrated over the azimuth by quadrature. Disturbances of m = 0 are
     /// those of [`SteadyState::spectrum`].

@@ -7,15 +7,31 @@ use nalgebra::{DMatrix, DVector};
 use crate::iteration::{LARGEST_CHANGE, LEAST_PART, Outcome, SHORTER, USUAL_CHANGE, in_steps};
 use crate::modes::Part;
 use crate::profile::{CROWDING, RESOLVED};
+use crate::spectrum::{Eigenmode, Symmetry};
 use crate::system::{Point, System};
 use crate::{Parameter, Profile, SteadyError, SteadyState};
 
 /// Number of nodes on the way to a state, and the most where the droplet on the way needs more.
 const COARSE: usize = 64;
 const FINEST: usize = 160;
-/// Attempts, the quickest first: the most nodes on the way, or none to stay at the first ones, and the change of the
-/// coefficients in a time R^2/D below which Newton's method takes over.
-const ATTEMPTS: [(Option<usize>, f64); 3] = [(None, 0.02), (Some(FINEST), 0.02), (Some(FINEST), 0.003)];
+/// Way of settling that is tried.
+#[derive(Debug, Clone, Copy)]
+struct Attempt {
+    /// Most nodes on the way, or none to stay at the first ones.
+    most_nodes: Option<usize>,
+    /// Change of the coefficients in a time R^2/D below which Newton's method takes over.
+    steady: f64,
+    /// Part of the usual change of the coefficients in a step.
+    part: f64,
+}
+
+/// Attempts, the quickest first, the last ones with shorter steps.
+const ATTEMPTS: [Attempt; 4] = [
+    Attempt { most_nodes: None, steady: 0.02, part: 1.0 },
+    Attempt { most_nodes: Some(FINEST), steady: 0.02, part: 1.0 },
+    Attempt { most_nodes: Some(FINEST), steady: 0.003, part: 1.0 },
+    Attempt { most_nodes: Some(FINEST), steady: 0.003, part: 0.2 },
+];
 /// Part of the activity at which a state is looked for where there is none in reach at the whole.
 const WEAKER: f64 = 0.5;
 /// Largest relative change of the velocity by Newton's method: more is another state than the one settled to.
@@ -26,13 +42,18 @@ const FIRST_STEP: f64 = 5e-3;
 /// Growth of the rates in a step that is still taken: instabilities on the way grow by some e in a step, and rates of
 /// short waves that grow more show a step too long for them.
 const LARGEST_GROWTH: f64 = 3.0;
-/// Steps in time before giving up; a droplet that settles takes some thirty.
+/// Speed over D/R of a droplet at rest, far above the error of nodes.
+const AT_REST: f64 = 1e-3;
+/// Speed over D/R of a droplet that may turn round in a long step.
+const SLOW: f64 = 1e-2;
+/// Steps in time before giving up, of the usual length; a droplet that settles takes some thirty.
 const MOST_STEPS: usize = 80;
 
 impl SteadyState {
     /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from
     /// the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A start that is
-    /// its own mirror image at the x axis leads to a state that is, too. Where this fails it is done at half the
+    /// its own mirror image at the x axis leads to a state that is, too. A start that swims does not lead to a droplet
+    /// at rest that is unstable: this is tried again with shorter steps. Where this fails it is done at half the
     /// activity, and the activity then raised in steps. Where particles diffuse inside, it starts from the state with a
     /// well-mixed inside, and where that is not near, from the description.
     ///
@@ -44,7 +65,7 @@ impl SteadyState {
             let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
             let at = |part: f64| Parameter::Activity.with(setup, part * goal);
             let start = at(WEAKER).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
-            in_steps((start, WEAKER), 0.5 * (1.0 - WEAKER), |last, part| {
+            let found = in_steps((start, WEAKER), 0.5 * (1.0 - WEAKER), |last, part| {
                 let missed = |_| SteadyError::NotFound {
                     what: "a steady swimmer over the activity",
                     from: Parameter::Activity.get(last.setup()).unwrap_or(f64::NAN),
@@ -53,7 +74,8 @@ impl SteadyState {
                 };
                 let frame = last.point().frame;
                 Self::from_profile(&at(part)?, last.profile(), frame, last.part()).map_err(missed)
-            })
+            })?;
+            if found.is_left() { Err(at_rest()) } else { Ok(found) }
         })
     }
 
@@ -75,9 +97,10 @@ impl SteadyState {
             }
         }
         let mut failure = Outcome::default().failure();
-        for (most_nodes, steady) in ATTEMPTS {
-            let mut settling = Settling::new(setup, &start, part, most_nodes)?;
-            let found = settling.settle(steady).and_then(|()| {
+        for attempt in ATTEMPTS {
+            let mut settling = Settling::new(setup, &start, part, attempt)?;
+            let swims = settling.swims();
+            let found = settling.settle().and_then(|()| {
                 let Settling { system, point, .. } = &settling;
                 Self::from_profile(setup, &system.profile(point), point.frame, part)
             });
@@ -87,10 +110,13 @@ impl SteadyState {
             match found {
                 Ok(found) => {
                     let (ours, settled) = (found.point().frame, settling.point.frame);
-                    if near(ours[0], settled[0]) && near(ours[1], settled[1]) {
+                    if !(near(ours[0], settled[0]) && near(ours[1], settled[1])) {
+                        failure = found.outcome().failure();
+                    } else if swims && found.is_left() {
+                        failure = at_rest();
+                    } else {
                         return Ok(found);
                     }
-                    failure = found.outcome().failure();
                 }
                 // A state that runs away, to no numbers in the end.
                 Err(SteadyError::Flow(_) | SteadyError::Input(_)) => failure = settling.failure(MOST_STEPS),
@@ -98,6 +124,27 @@ impl SteadyState {
             }
         }
         Err(failure)
+    }
+
+    /// True for a droplet at rest, without an imposed flow, that a swimmer cannot have settled to: disturbances of its own
+    /// symmetry grow, as far as they are known.
+    fn is_left(&self) -> bool {
+        let (Ok(system), speed) = (System::new(self.setup()), self.velocity().length()) else { return false };
+        if !system.model.imposed().is_none() || speed > AT_REST * self.diffusion_rate() * system.model.radius {
+            return false;
+        }
+        let Ok(spectrum) = self.spectrum() else { return false };
+        let own = |mode: &&Eigenmode| self.part() == Part::Full || mode.symmetry == Symmetry::Symmetric;
+        spectrum.modes.iter().filter(own).any(|mode| mode.value.re > spectrum.zero)
+    }
+}
+
+/// Error of a search that has ended at a droplet at rest.
+fn at_rest() -> SteadyError {
+    SteadyError::Unsupported {
+        what: "the search for a swimmer has ended at the droplet at rest, which is unstable, with short steps too"
+            .to_owned(),
+        remedy: "start from a run, or follow the branch of swimmers from where it is found",
     }
 }
 
@@ -111,35 +158,43 @@ struct Settling {
     rates: DVector<f64>,
     /// Next step in time (time).
     step: f64,
-    most_nodes: Option<usize>,
+    attempt: Attempt,
 }
 
 impl Settling {
-    fn new(setup: &Setup, start: &Profile, part: Part, most_nodes: Option<usize>) -> Result<Self, SteadyError> {
+    fn new(setup: &Setup, start: &Profile, part: Part, attempt: Attempt) -> Result<Self, SteadyError> {
         let mut system = System::new(&with_nodes(setup, COARSE))?;
         let profile = start.resampled(system.model.nodes(), 0.0)?.centred()?;
         profile.check_room(setup)?;
         let point = system.point(&profile, [0.0; 3])?;
         let rates = system.residual(&point)?;
         let step = FIRST_STEP / system.model.rate_unit();
-        Ok(Self { system, point, part, rates, step, most_nodes })
+        Ok(Self { system, point, part, rates, step, attempt })
     }
 
-    /// Steps until one of R^2/D or more changes all coefficients by less than `steady`.
-    fn settle(&mut self, steady: f64) -> Result<(), SteadyError> {
-        for _ in 0..MOST_STEPS {
+    /// True where the droplet moves by itself.
+    fn swims(&self) -> bool {
+        let model = &self.system.model;
+        model.carries() && model.imposed().is_none() && !model.is_at_rest()
+    }
+
+    /// Steps until one of R^2/D or more changes all coefficients by less than the attempt has it.
+    fn settle(&mut self) -> Result<(), SteadyError> {
+        let Attempt { most_nodes, steady, part } = self.attempt;
+        let most_steps = (MOST_STEPS as f64 / part) as usize;
+        for _ in 0..most_steps {
             let change = self.advance()?;
             if change < steady && self.step * self.system.model.rate_unit() > 1.0 {
                 self.point = self.system.rebased(&self.point)?;
                 return Ok(());
             }
-            self.step *= (USUAL_CHANGE / change).clamp(0.5, 2.0);
-            let strained = self.most_nodes.is_some() && self.system.tail(&self.point)? > RESOLVED;
+            self.step *= (part * USUAL_CHANGE / change).clamp(0.5, 2.0);
+            let strained = most_nodes.is_some() && self.system.tail(&self.point)? > RESOLVED;
             if strained || self.system.is_far(&self.point) {
                 self.rebase()?;
             }
         }
-        Err(self.failure(MOST_STEPS))
+        Err(self.failure(most_steps))
     }
 
     /// Takes one step, shortened until it succeeds; returns the largest change of a coefficient.
@@ -155,7 +210,7 @@ impl Settling {
     }
 
     /// Solves (J - 1/dt) dx = -dx/dt, with the conserved quantities and the frame as in Newton's method, and goes
-    /// there unless the change is too large or the rates grow too much.
+    /// there unless the change is too large, the rates grow too much, or a long step turns the swimmer round.
     fn attempt(&mut self, jacobian: &DMatrix<f64>) -> Result<f64, SteadyError> {
         let damped = jacobian - DMatrix::identity(jacobian.nrows(), jacobian.ncols()) / self.step;
         let equations = self.system.border(&self.point, self.part, &damped, None)?;
@@ -165,6 +220,12 @@ impl Settling {
             return Err(self.failure(1));
         }
         let next = self.point.corrected(&correction, 1.0);
+        let [[x, y, _], [to_x, to_y, _]] = [self.point.frame, next.frame];
+        let model = &self.system.model;
+        let slow = (SLOW * model.rate_unit() * model.radius).powi(2);
+        if model.carries() && x * to_x + y * to_y < -slow && self.step * model.rate_unit() > FIRST_STEP {
+            return Err(self.failure(1));
+        }
         let rates = self.system.residual(&next)?;
         if rates.iter().all(|rate| rate.abs() < LARGEST_GROWTH * self.rates.amax()) {
             (self.point, self.rates) = (next, rates);
@@ -177,7 +238,7 @@ impl Settling {
     /// Takes the droplet as its own base, with more nodes if it needs and may have them.
     fn rebase(&mut self) -> Result<(), SteadyError> {
         self.point = self.system.rebased(&self.point)?;
-        if let Some(most) = self.most_nodes {
+        if let Some(most) = self.attempt.most_nodes {
             let mut tail = self.system.tail(&self.point)?;
             while tail > RESOLVED && self.system.model.nodes() < most {
                 let nodes = (self.system.model.nodes() / 8 * 10).min(most);

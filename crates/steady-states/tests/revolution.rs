@@ -43,6 +43,15 @@ fn swimmers_in_space_are_those_of_the_reference() {
     }
 }
 
+/// In tubes as wide as the droplet and tighter, where steps in time are stiff and the start swims the other way first:
+/// the swimmer, not the droplet at rest, which is unstable.
+#[test]
+fn swimmers_in_tight_tubes_are_found() {
+    let state = SteadyState::find(&swimmer(Region::tube(1.1), -2.0, [100.0; 2], 4.0, 72)).unwrap();
+    let speed = state.measured().unwrap().speed;
+    assert!((0.0115..0.0125).contains(&speed), "{speed}");
+}
+
 #[test]
 fn droplets_off_the_axis_are_refused() {
     let mut setup = swimmer(Region::Space, -1.0, [100.0, 100.0], 2.0, 64);

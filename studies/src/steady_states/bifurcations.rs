@@ -15,14 +15,14 @@ use super::{channel, nodes};
 
 /// The threshold of polarisation along x: where the slowest symmetric mode of the droplet at rest neither grows nor
 /// decays.
-fn polarisation(setup: &Setup) -> Result<Critical> {
+pub(super) fn polarisation(setup: &Setup) -> Result<Critical> {
     let state = SteadyState::uniform(setup)?;
     let spectrum = state.spectrum()?;
     let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).context("no modes")?;
     Ok(state.critical(mode, Parameter::Activity)?)
 }
 
-fn activity(critical: &Critical) -> f64 {
+pub(super) fn activity(critical: &Critical) -> f64 {
     Parameter::Activity.get(critical.state.setup()).unwrap_or(f64::NAN)
 }
 

@@ -1,18 +1,82 @@
-//! Swimmers in tubes in three dimensions.
+//! Swimmers in three dimensions: in unbounded fluid and in tubes, their onset and headings.
 
-use anyhow::{Context, Result};
-use motile::motile_base::Region;
-use motile::setup::{DropletSetup, Setup};
+use std::f64::consts::{PI, TAU};
+
+use anyhow::{Context, Result, bail};
+use motile::active_interface::ActiveDroplet;
+use motile::motile_base::{Drive, Region, TubeShape, Vec2};
+use motile::motile_scene::Scene;
+use motile::setup::{DropletSetup, Particles, Setup};
 use motile_tests::validation::Table;
-use steady_states::SteadyState;
+use steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 
-use super::bifurcations::digits;
+use super::bifurcations::{activity, digits, polarisation};
 use super::nodes;
 
 /// Pairs of nodes of a table whose digits should agree.
 const PAIR: [usize; 2] = [128, 160];
 /// Radii of tubes.
 const RADII: [f64; 4] = [2.0, 1.5, 1.25, 1.1];
+/// Lengths over which there is no pressure drop in a tube, and its radius.
+const LENGTHS: [f64; 4] = [8.0, 16.0, 32.0, 64.0];
+const RADIUS: f64 = 1.5;
+/// Points of the branch of swimmers, from the threshold past the fold to the threshold again.
+const POINTS: usize = 60;
+
+/// A droplet of these viscosities inside and outside.
+fn droplet(region: Region, [inside, outside]: [f64; 2], activity: f64, strength: f64, count: usize) -> Setup {
+    let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::contractile(activity, strength) };
+    Setup { region, viscosity: outside, droplets: vec![droplet], method: nodes(count), ..Setup::default() }
+}
+
+/// Leading eigenvalue of the axisymmetric disturbances.
+fn leading(state: &SteadyState) -> Result<f64> {
+    Ok(state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re))
+}
+
+/// Leading eigenvalue of disturbances of an order around the axis.
+fn turning(state: &SteadyState, order: usize, places: usize) -> Result<String> {
+    let spectrum = state.spectrum_around(order)?;
+    let value = spectrum.leading().context("no modes")?.value;
+    let swing = if value.im == 0.0 { String::new() } else { format!(" + {:.4} i", value.im.abs()) };
+    Ok(format!("{:.places$}{swing}", value.re))
+}
+
+/// Swimmers in unbounded fluid over activity, excluded volume and viscosities.
+pub(super) fn space() -> Result<Vec<Table>> {
+    let header = [
+        "viscosities",
+        "activity",
+        "A",
+        "nodes",
+        "speed",
+        "aspect ratio",
+        "largest c",
+        "stresslet",
+        "tail",
+        "m = 0",
+        "m = 1",
+        "m = 2",
+    ];
+    let mut table = Table::new("Swimmers of revolution in unbounded fluid", &header);
+    let equal = [100.0; 2];
+    for (viscosities, activity, strength) in
+        [(equal, -1.0, 2.0), (equal, -2.0, 4.0), (equal, -2.0, 10.0), (equal, -4.0, 8.0), ([100.0, 10.0], -1.0, 2.0)]
+    {
+        for count in PAIR {
+            let state = SteadyState::find(&droplet(Region::Space, viscosities, activity, strength, count))?;
+            let seen = state.measured()?;
+            let [inside, outside] = viscosities;
+            let names = [format!("{inside}/{outside}"), activity.to_string(), strength.to_string(), count.to_string()];
+            let values = [seen.speed, seen.aspect_ratio, seen.concentration[0], seen.stresslet];
+            let values = values.map(|value| digits(value, 6)).into_iter();
+            let growth = [format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)];
+            let around = [turning(&state, 1, 4)?, turning(&state, 2, 4)?];
+            table.push(names.into_iter().chain(values).chain(growth).chain(around));
+        }
+    }
+    Ok(vec![table])
+}
 
 /// Swimmers of activity -2 in tubes, at two numbers of nodes each.
 pub(super) fn tubes() -> Result<Vec<Table>> {
@@ -20,24 +84,112 @@ pub(super) fn tubes() -> Result<Vec<Table>> {
     let mut table = Table::new("Swimmers in tubes without flux, viscosities 100, activity -2, A = 4", &header);
     for (radius, count) in RADII.into_iter().flat_map(|radius| PAIR.map(|count| (radius, count))) {
         let mut cells = vec![radius.to_string(), count.to_string()];
-        let (region, droplets) = (Region::tube(radius), vec![DropletSetup::contractile(-2.0, 4.0)]);
-        let setup = Setup { region, droplets, method: nodes(count), ..Setup::default() };
-        let state = SteadyState::find(&setup)?;
+        let state = SteadyState::find(&droplet(Region::tube(radius), [100.0; 2], -2.0, 4.0, count))?;
         let seen = state.measured()?;
         let widest = state.profile().positions.iter().map(|x| x.y).fold(0.0, f64::max);
-        let leading = state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re);
         cells.extend([digits(seen.speed, 6), digits(radius - widest, 5), digits(seen.aspect_ratio, 6)]);
-        cells.extend([digits(seen.stresslet, 6), format!("{:.0e}", state.tail()), format!("{leading:.4}")]);
-        cells.push(turning(&state)?);
+        cells.extend([digits(seen.stresslet, 6), format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)]);
+        cells.push(turning(&state, 1, 5)?);
+        table.push(cells);
+    }
+    Ok(vec![table, drives()?])
+}
+
+/// Swimmers in a tube without a mean pressure gradient over some length, which approach the one without flux.
+fn drives() -> Result<Table> {
+    let title = format!(
+        "Swimmers of activity -2, A = 4 in a tube of radius {RADIUS} without a pressure drop over a length, 96 nodes"
+    );
+    let mut table = Table::new(&title, &["length", "speed", "over that without flux", "excess times length"]);
+    let setup = droplet(Region::tube(RADIUS), [100.0; 2], -2.0, 4.0, 96);
+    let closed = SteadyState::find(&setup)?;
+    let still = closed.measured()?.speed;
+    for length in LENGTHS {
+        let (shape, drive) = (TubeShape::Straight, Drive::ZeroGradient);
+        let region = Region::Tube { radius: RADIUS, shape, drive, length: Some(length) };
+        let open = SteadyState::near(&Setup { region, ..setup.clone() }, closed.profile(), closed.velocity(), true)?;
+        let speed = open.measured()?.speed;
+        let excess = speed / still - 1.0;
+        table.push([length.to_string(), digits(speed, 6), digits(speed / still, 6), digits(excess * length, 4)]);
+    }
+    table.push(["no flux".to_owned(), digits(still, 6), "1".to_owned(), String::new()]);
+    Ok(table)
+}
+
+/// Threshold, fold with its speed, and speed at the threshold, to which a droplet at rest jumps.
+fn fold(viscosities: [f64; 2], strength: f64, count: usize) -> Result<[f64; 4]> {
+    let [inside, outside] = viscosities;
+    let guess = -1e-3 * (3.0 * inside + 2.0 * outside);
+    let critical = polarisation(&droplet(Region::Space, viscosities, guess, strength, count))?;
+    let threshold = activity(&critical);
+    let range = Continuation::new(Parameter::Activity, 0.5 * threshold, 1.2 * threshold);
+    let swimmers = Continuation { largest_step: 0.02, most_points: POINTS, ..range };
+    let point = SpecialPoint::new(SpecialKind::BranchPoint, critical, Parameter::Activity);
+    let mut turned = false;
+    let branch = swimmers.switch(&point, true, |point, special| {
+        turned |= special.iter().any(|point| point.kind == SpecialKind::Fold);
+        point.value > threshold && !(turned && point.value < threshold + 2e-3 * threshold.abs())
+    })?;
+    let Some(fold) = branch.special.iter().find(|point| point.kind == SpecialKind::Fold) else {
+        return Ok([threshold, f64::NAN, f64::NAN, f64::NAN]);
+    };
+    let last = &branch.points.last().context("no point")?.state;
+    let setup = Parameter::Activity.with(last.setup(), threshold)?;
+    let jump = SteadyState::near(&setup, last.profile(), last.velocity(), true)?.measured()?.speed;
+    Ok([threshold, fold.value, fold.critical.state.measured()?.speed, jump])
+}
+
+/// Folds over the ratio of viscosities and the strength of the excluded volume.
+pub(super) fn folds(count: usize) -> Result<Vec<Table>> {
+    let header = ["viscosities", "A", "threshold", "fold", "fold over threshold", "speed there", "jump"];
+    let mut table = Table::new("Onset of swimming in unbounded fluid", &header);
+    for (viscosities, strength) in [
+        ([100.0; 2], 0.5),
+        ([100.0; 2], 1.0),
+        ([100.0; 2], 4.0),
+        ([100.0; 2], 10.0),
+        ([10.0, 100.0], 1.0),
+        ([100.0, 10.0], 1.0),
+        ([1000.0, 10.0], 4.0),
+    ] {
+        let [inside, outside] = viscosities;
+        let mut cells = vec![format!("{inside}/{outside}"), strength.to_string()];
+        let [threshold, fold, speed, jump] = fold(viscosities, strength, count)?;
+        let values = [(threshold, 6), (fold, 6), (fold / threshold, 5), (speed, 4), (jump, 4)];
+        let cell = |(value, count): (f64, i32)| if value.is_finite() { digits(value, count) } else { "-".to_owned() };
+        cells.extend(values.map(cell));
         table.push(cells);
     }
     Ok(vec![table])
 }
 
-/// Leading eigenvalue of disturbances that turn a swimmer.
-fn turning(state: &SteadyState) -> Result<String> {
-    let spectrum = state.spectrum_around(1)?;
-    let value = spectrum.leading().context("no modes")?.value;
-    let swing = if value.im == 0.0 { String::new() } else { format!(" + {:.4} i", value.im.abs()) };
-    Ok(format!("{:.5}{swing}", value.re))
+/// Activities and times of a run in which the activity is raised and lowered, the fold and the threshold between the
+/// first two and the third.
+const STAGES: [(f64, f64); 5] = [(-0.48, 400.0), (-0.496, 800.0), (-0.52, 2500.0), (-0.496, 1500.0), (-0.48, 2500.0)];
+/// Part of the concentration that varies as the cosine of the polar angle at the start of that run.
+const DISTURBANCE: f64 = 0.05;
+
+/// Run whose activity is raised past the threshold and lowered past the fold: speeds at the ends of its stages.
+pub(super) fn hysteresis() -> Result<Vec<Table>> {
+    let count = 128;
+    let setup = droplet(Region::Space, [100.0; 2], STAGES[0].0, 1.0, count / 4);
+    let markers: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(TAU * k as f64 / count as f64)).collect();
+    let length = 2.0 * (PI / count as f64).sin();
+    let wave = |k: usize| (TAU * (k as f64 + 0.5) / count as f64).cos();
+    let numbers = (0..count).map(|k| 100.0 * (1.0 - DISTURBANCE * wave(k)) * length).collect();
+    let Some(particles) = setup.droplets[0].particles else { bail!("no particles") };
+    let (tension, diffusion) = (setup.droplets[0].tension, particles.diffusion);
+    let body = ActiveDroplet::new(&markers, numbers, particles.law(tension)?, diffusion)?.of_revolution()?;
+    let mut scene = Scene::new(setup.flow()?);
+    let body = scene.add(body);
+    let title = "A run in unbounded fluid, viscosities 100, A = 1, 32 nodes, whose activity is raised and lowered";
+    let mut table = Table::new(title, &["activity", "until t", "speed"]);
+    for (activity, time) in STAGES {
+        let law = Particles { activity, ..particles }.law(tension)?;
+        scene.body_mut(body)?.set_tension(law);
+        let end = scene.system().time() + time;
+        scene.run(end).go()?;
+        table.push([activity.to_string(), end.to_string(), digits(scene.observe(body)?.speed(), 4)]);
+    }
+    Ok(vec![table])
 }

@@ -13,7 +13,7 @@ use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
     DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup, Squeezed, Start,
-    method::MARKERS,
+    droplet::squeezed_sphere, method::MARKERS,
 };
 use crate::SetupError;
 
@@ -118,7 +118,16 @@ impl Setup {
     /// Parameters out of their range.
     pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
         let shape = self.shape(droplet)?;
-        let (curve, turned, round) = shape.curve()?;
+        let (curve, turned, round, share) = match (&shape, self.region.is_of_revolution()) {
+            (&DropletShape::Squeezed { radius, half_height, to }, true) => {
+                let (curve, share) = squeezed_sphere(radius, half_height, to)?;
+                (curve, false, None, share)
+            }
+            _ => {
+                let (curve, turned, round) = shape.curve()?;
+                (curve, turned, round, 1.0)
+            }
+        };
         let centre = Vec2::new(droplet.centre[0], droplet.centre[1]);
         let placed = |curve: Curve, turned| {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
@@ -130,7 +139,8 @@ impl Setup {
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
-                let c0 = particles.concentration;
+                // A squeezed sphere has the particles of the sphere.
+                let c0 = share * particles.concentration;
                 let initial = match particles.start {
                     Start::Polarised => InitialConcentration::polarised(c0, droplet.angle)?,
                     Start::Uniform => InitialConcentration::uniform(c0)?,
@@ -149,7 +159,7 @@ impl Setup {
                     None => made,
                     Some(exchange) if exchange.diffusion_inside.is_some() => made.with_open_number(),
                     Some(exchange) => {
-                        let number = exchange.number(c0, made.initial_area())?;
+                        let number = exchange.number(particles.concentration, made.initial_area())?;
                         made.with_pool(exchange.rates()?, number)?
                     }
                 }
@@ -295,6 +305,10 @@ impl Setup {
         let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), self.region) {
             (Some((room, film)), _) => (room, film, Squeezed::Stadium),
             (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
+            (None, Region::Tube { radius, shape, .. }) => {
+                let half = self.region.half_length().unwrap_or(f64::INFINITY);
+                (shape.radius(radius, half, droplet.centre[0]), FILM, Squeezed::Ellipse)
+            }
             _ => return Ok(droplet.shape.clone()),
         };
         let below = sides().filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);

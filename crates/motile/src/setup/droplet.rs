@@ -290,12 +290,13 @@ pub enum Start {
 pub enum DropletShape {
     /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of
     /// a twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
-    /// particles of the circle.
+    /// particles of the circle. In a tube, a sphere that is squeezed to a spheroid of its volume.
     Round {
         /// Radius of the circle (length).
         radius: f64,
     },
-    /// A circle squeezed along y, with its area and its particles; the angle turns the particles alone.
+    /// A circle squeezed along y, with its area and its particles, in three dimensions a sphere squeezed around the
+    /// axis, with its volume and its particles; the angle turns the particles alone.
     Squeezed {
         /// Radius of the circle (length).
         radius: f64,
@@ -360,6 +361,25 @@ impl DropletShape {
             }
         })
     }
+}
+
+/// The meridian of a squeezed sphere with its mirror image, a spheroid or a cylinder with round ends of the volume of
+/// the sphere, and the area of the sphere over that of its surface.
+pub(super) fn squeezed_sphere(radius: f64, half: f64, to: Squeezed) -> Result<(Curve, f64), InterfaceError> {
+    let sphere = 4.0 * PI * radius * radius;
+    Ok(match to {
+        Squeezed::Ellipse => {
+            let along = radius.powi(3) / (half * half);
+            let eccentricity = (1.0 - (half / along).powi(2)).sqrt();
+            let around = if eccentricity > 0.0 { eccentricity.asin() / eccentricity } else { 1.0 };
+            let area = 2.0 * PI * half * (half + along * around);
+            (Curve::ellipse(along, half)?, sphere / area)
+        }
+        Squeezed::Stadium => {
+            let straight = 2.0 / 3.0 * (radius.powi(3) / (half * half) - half);
+            (Curve::stadium(straight, half)?, sphere / (4.0 * PI * half * (half + straight)))
+        }
+    })
 }
 
 /// Half the length of the straight sides of the stadium with ends of radius `half` (length) that has the area of a

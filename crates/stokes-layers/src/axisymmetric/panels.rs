@@ -23,6 +23,9 @@ pub(super) const FAR: f64 = 5.5;
 /// Length of the panels next to the foot of a target over its distance from the curve.
 const NEXT: f64 = 1.5;
 
+/// Way from a foot to a pole that is round-off: the radius of a ring there may be zero or less.
+const SLIVER: f64 = 1e-14;
+
 /// A target of a layer on a surface: place (length), parameter of the nearest point of the surface, that point less the
 /// place (length) and its length; zero for a target on the surface.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +122,7 @@ impl Panels {
                 start = length;
                 length *= 2.0;
             }
-            while start < way {
+            while start + SLIVER < way {
                 length = length.min(LONGEST * spacing);
                 // A short rest of the way belongs to the panel before it.
                 if way - start < 1.25 * length {

@@ -19,3 +19,15 @@ fn panels_integrate_waves_and_the_logarithm() {
         }
     }
 }
+
+/// Points of a foot at a pole, up to round-off: rings of some radius.
+#[test]
+fn no_points_are_on_the_axis() {
+    let mut panels = Panels::new(24);
+    for foot in [4e-16, PI - 4e-16] {
+        panels.place(foot, PI / 24.0, Some(0.3));
+        assert!(panels.nodes.iter().all(|(s, _)| (foot + s).sin() > 1e-15), "at {foot}");
+        let wave: f64 = panels.nodes.iter().map(|(s, weight)| weight * (7.0 * (foot + s)).sin()).sum();
+        assert!((wave - 2.0 / 7.0).abs() < 1e-13, "{wave}");
+    }
+}
