@@ -14,7 +14,7 @@ use super::bifurcations::{activity, digits, polarisation};
 use super::nodes;
 
 /// Pairs of nodes of a table whose digits should agree.
-const PAIR: [usize; 2] = [128, 160];
+const PAIR: [usize; 2] = [96, 128];
 /// Radii of tubes.
 const RADII: [f64; 4] = [2.0, 1.5, 1.25, 1.1];
 /// Lengths over which there is no pressure drop in a tube, and its radius.
@@ -143,15 +143,9 @@ fn fold(viscosities: [f64; 2], strength: f64, count: usize) -> Result<[f64; 4]> 
 pub(super) fn folds(count: usize) -> Result<Vec<Table>> {
     let header = ["viscosities", "A", "threshold", "fold", "fold over threshold", "speed there", "jump"];
     let mut table = Table::new("Onset of swimming in unbounded fluid", &header);
-    for (viscosities, strength) in [
-        ([100.0; 2], 0.5),
-        ([100.0; 2], 1.0),
-        ([100.0; 2], 4.0),
-        ([100.0; 2], 10.0),
-        ([10.0, 100.0], 1.0),
-        ([100.0, 10.0], 1.0),
-        ([1000.0, 10.0], 4.0),
-    ] {
+    for (viscosities, strength) in
+        [([100.0; 2], 0.5), ([100.0; 2], 1.0), ([100.0; 2], 4.0), ([10.0, 100.0], 1.0), ([100.0, 10.0], 1.0)]
+    {
         let [inside, outside] = viscosities;
         let mut cells = vec![format!("{inside}/{outside}"), strength.to_string()];
         let [threshold, fold, speed, jump] = fold(viscosities, strength, count)?;
