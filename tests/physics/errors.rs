@@ -1,5 +1,6 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
+use motile::boundary_integral::LayerError;
 use motile::motile_base::Region;
 use motile::motile_base::{FlowSample, Vec2};
 use motile::motile_scene::{Body, FlowError, SceneError, StepSize};
@@ -90,6 +91,28 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
         assert!(scene.run(1.0).step_size(StepSize::Fixed(dt)).go().is_err());
     }
     assert!(scene.run(f64::NAN).go().is_err() && scene.run(-1.0).go().is_err());
+}
+
+/// Times and residuals of errors are rounded to what tells something, but two numbers are told apart.
+#[test]
+fn errors_of_runs_print_no_more_digits_than_needed() {
+    let time = (0..86).map(|_| 0.3).sum();
+    let residual = LayerError::NoConvergence { iterations: 40, residual: 2e-7 / 3.0, tolerance: 1e-9 };
+    let depth = LayerError::BeyondWall { curve: 0, node: 3, x: 1.0 / 3.0, y: 1.5, depth: 2e-9 / 3.0, allowed: 1e-11 };
+    let [residual, depth] = [residual, depth].map(|source| SceneError::Flow { time, source: source.into() });
+    let far = SceneError::TimeStepTooLarge { dt: 0.1 + 0.2, limit: 0.01, reason: "tension", body: "it".into() };
+    let near = SceneError::TimeStepTooLarge { dt: 1.000_04, limit: 1.0, reason: "tension", body: "it".into() };
+    let told = [SceneError::Stopped { time }, residual, depth, far, near].map(|error| error.to_string());
+    let expected = [
+        &["stopped at time 25.8:"][..],
+        &["at time 25.8 the flow", "residual of 6.67e-8 after 40 iterations, above 1e-9:"],
+        &["at time 25.8 the flow", "at (0.3333, 1.5000) is 6.67e-10 beyond the wall, more than 1e-11:"],
+        &["time step 0.3 is above the stable 0.01 set by tension"],
+        &["time step 1.00004 is above the stable 1 set by tension"],
+    ];
+    for (text, parts) in told.iter().zip(expected) {
+        assert!(parts.iter().all(|part| text.contains(part)), "{text}");
+    }
 }
 
 #[test]

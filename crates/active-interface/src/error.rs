@@ -1,6 +1,6 @@
 //! Errors of interfaces and of what is computed on them.
 
-use motile_base::{InputError, all_finite};
+use motile_base::{InputError, all_finite, told, told_apart};
 
 /// An error of this crate; its message has the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -8,7 +8,7 @@ use motile_base::{InputError, all_finite};
 pub enum InterfaceError {
     /// Markers that are not the meridian of a body of revolution with its mirror image.
     #[error(
-        "the marker at ({x}, {y}) has no mirror image at the x axis: give a body of revolution an even number of \
+        "the marker at ({x:.4}, {y:.4}) has no mirror image at the x axis: give a body of revolution an even number of \
          markers, equidistributed, the first on the axis, and a heading along it"
     )]
     NotOfRevolution {
@@ -91,8 +91,9 @@ pub enum InterfaceError {
     },
     /// Points whose distances are too uneven.
     #[error(
-        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \
-         them evenly"
+        "the longest distance between neighbouring points is {} times the shortest, more than {}: space them \
+         evenly",
+        told_apart([*ratio, *bound])[0], told_apart([*ratio, *bound])[1]
     )]
     UnevenSpacing {
         /// Longest over shortest distance.
@@ -117,7 +118,10 @@ pub enum InterfaceError {
         radius: f64,
     },
     /// An iteration that did not converge.
-    #[error("{what} stopped at a residual of {residual:.1e}, above {tolerance:e}: {remedy}")]
+    #[error(
+        "{what} stopped at a residual of {}, above {}: {remedy}",
+        told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
+    )]
     NoConvergence {
         /// The iteration.
         what: &'static str,
@@ -142,7 +146,10 @@ pub enum InterfaceError {
     #[error("bending needs a fixed number of markers in two dimensions: move them by Motion::Equidistributed")]
     UnevenBending,
     /// Negative particle numbers without as many particles elsewhere to make up for them.
-    #[error("the particle numbers add up to {total}: give numbers with a positive sum, or a smaller time step")]
+    #[error(
+        "the particle numbers add up to {}: give numbers with a positive sum, or a smaller time step",
+        told(*total)
+    )]
     NoParticles {
         /// Sum of the particle numbers.
         total: f64,

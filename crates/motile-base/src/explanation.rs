@@ -25,13 +25,26 @@ pub fn explanation(error: &dyn Error) -> String {
 /// ```
 #[must_use]
 pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
-    let text = |digits: usize, value: f64| {
-        let short = format!("{value:.digits$e}");
-        let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
-        short.parse::<f64>().ok().filter(|_| plain).map_or(short, |value| value.to_string())
-    };
-    let mut texts = (2..17).map(|digits| pair.map(|value| text(digits, value)));
+    let mut texts = (2..17).map(|digits| pair.map(|value| rounded(digits, value)));
     texts.find(|[one, other]| one != other).unwrap_or_else(|| pair.map(|value| value.to_string()))
+}
+
+/// Text of a number that was computed, to six digits.
+///
+/// ```
+/// assert_eq!(motile_base::told(25.800_000_000_000_004), "25.8");
+/// assert_eq!(motile_base::told(6.682_742_181_3e-4), "6.68274e-4");
+/// ```
+#[must_use]
+pub fn told(value: f64) -> String {
+    rounded(5, value)
+}
+
+/// Text of a number with so many digits after the first, without zeros at their end.
+fn rounded(digits: usize, value: f64) -> String {
+    let Ok(short) = format!("{value:.digits$e}").parse::<f64>() else { return value.to_string() };
+    let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
+    if plain { short.to_string() } else { format!("{short:e}") }
 }
 
 /// Implements `Debug` of errors as their [`explanation()`]: what `fn main() -> Result<(), Box<dyn Error>>` prints is

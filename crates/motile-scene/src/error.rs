@@ -1,6 +1,6 @@
 //! Errors of scenes, bodies and flows.
 
-use motile_base::{InputError, told_apart};
+use motile_base::{InputError, told, told_apart};
 use stokes_grid::StokesError;
 use stokes_layers::LayerError;
 
@@ -49,8 +49,9 @@ pub enum FlowError {
     },
     /// A marker lies beyond a wall.
     #[error(
-        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {depth:.3e} beyond the wall, more than {allowed:.3e}: \
-         move it, or use a smaller time step or a finer grid"
+        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {} beyond the wall, more than {}: \
+         move it, or use a smaller time step or a finer grid",
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     BeyondWall {
         /// Number of the body.
@@ -68,9 +69,10 @@ pub enum FlowError {
     },
     /// An iteration did not converge.
     #[error(
-        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}: \
+        "{what} stopped at a relative residual of {} after {iterations} iterations, above {}: \
          where a film between different viscosities has become too thin, use more nodes, a finer grid or a repulsion \
-         over a wider range"
+         over a wider range",
+        told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
         /// The iteration.
@@ -190,7 +192,7 @@ motile_base::debug_as_explanation!(BodyError);
 #[non_exhaustive]
 pub enum SceneError {
     /// The flow could not be computed.
-    #[error("at time {time} the flow could not be computed: {source}")]
+    #[error("at time {time} the flow could not be computed: {source}", time = told(*time))]
     Flow {
         /// Time at the start of the step.
         time: f64,
@@ -198,7 +200,7 @@ pub enum SceneError {
         source: FlowError,
     },
     /// A body went wrong.
-    #[error("at time {time} {body} went wrong: {source}")]
+    #[error("at time {time} {body} went wrong: {source}", time = told(*time))]
     Body {
         /// Time at the start of the step.
         time: f64,
@@ -210,7 +212,8 @@ pub enum SceneError {
     /// Bodies that overlap before anything is computed for them.
     #[error(
         "at time {time} {body} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move the bodies apart",
-        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
+        time = told(*time)
     )]
     Overlap {
         /// Time of the state.
@@ -232,7 +235,8 @@ pub enum SceneError {
     #[error(
         "at time {time} the fluid between {body} and {other}, or the image of one, would have the viscosities {} and \
          {}: give both their insides there the same one, or turn one of them",
-        viscosities[0], viscosities[1]
+        told_apart(*viscosities)[0], told_apart(*viscosities)[1],
+        time = told(*time)
     )]
     TwoViscosities {
         /// Time of the state.
@@ -245,7 +249,10 @@ pub enum SceneError {
         viscosities: [f64; 2],
     },
     /// A body has come into an interface or out of it in a step.
-    #[error("at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step")]
+    #[error(
+        "at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step",
+        time = told(*time)
+    )]
     Containment {
         /// Time at the start of the step.
         time: f64,
@@ -260,7 +267,8 @@ pub enum SceneError {
     #[error(
         "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}: use a \
          smaller time step, a finer grid or a repulsion between the interfaces",
-        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
+        time = told(*time)
     )]
     Crossing {
         /// Time at the start of the step.
@@ -282,7 +290,8 @@ pub enum SceneError {
     #[error(
         "at time {time} the gap between {body} and {other} is {} at ({x:.4}, {y:.4}), below the bound of {}: use \
          a finer grid, no grid or a repulsion, or a lower bound if the film between them does not matter",
-        told_apart([*gap, *bound])[0], told_apart([*gap, *bound])[1]
+        told_apart([*gap, *bound])[0], told_apart([*gap, *bound])[1],
+        time = told(*time)
     )]
     Gap {
         /// Time at the start of the step.
@@ -301,7 +310,10 @@ pub enum SceneError {
         bound: f64,
     },
     /// A scene that is to be held symmetric ([`crate::Scene::held_symmetric`]) is not.
-    #[error("at time {time} the scene is not its own mirror image in y = 0, as it is to be held: {body} {problem}")]
+    #[error(
+        "at time {time} the scene is not its own mirror image in y = 0, as it is to be held: {body} {problem}",
+        time = told(*time)
+    )]
     NotSymmetric {
         /// Time of the state.
         time: f64,
@@ -311,7 +323,10 @@ pub enum SceneError {
         problem: String,
     },
     /// A time step above the stable one.
-    #[error("time step {dt} is above the stable {limit:.3e} set by {reason} of {body}: use a smaller one")]
+    #[error(
+        "time step {} is above the stable {} set by {reason} of {body}: use a smaller one",
+        told_apart([*dt, *limit])[0], told_apart([*dt, *limit])[1]
+    )]
     TimeStepTooLarge {
         /// The step asked for (time).
         dt: f64,
@@ -324,8 +339,9 @@ pub enum SceneError {
     },
     /// A stability limit so short that a run would never end.
     #[error(
-        "the time step at the start of the run would be {dt:.3e}, set by {reason} of {body}, below {least:.3e}, with \
-         which it takes 1e10 steps: give {body} less activity, tension or stiffness, or run for less time"
+        "the time step at the start of the run would be {}, set by {reason} of {body}, below {}, with \
+         which it takes 1e10 steps: give {body} less activity, tension or stiffness, or run for less time",
+        told_apart([*dt, *least])[0], told_apart([*dt, *least])[1]
     )]
     StepTooShort {
         /// The step that is stable (time).
@@ -340,7 +356,8 @@ pub enum SceneError {
     /// A step size that is a part of the stability limit, where no body states a finite one.
     #[error(
         "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
-         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
+         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)",
+        time = told(*time)
     )]
     NoStepLimit {
         /// Time of the state.
@@ -363,9 +380,11 @@ pub enum SceneError {
     },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
-        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: take a larger \
+        "at time {time} the time step would have to fall to {}, below the least of {}: take a larger \
          tolerance, or refine the grid and the markers{}",
-        source.as_ref().map_or_else(String::new, |source| format!("; the last attempt ended because {source}"))
+        told_apart([*dt, *least])[0], told_apart([*dt, *least])[1],
+        source.as_ref().map_or_else(String::new, |source| format!("; the last attempt ended because {source}")),
+        time = told(*time)
     )]
     Stagnation {
         /// Time of the state.
@@ -378,7 +397,10 @@ pub enum SceneError {
         source: Option<Box<SceneError>>,
     },
     /// A run has taken all the steps it was allowed.
-    #[error("at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones")]
+    #[error(
+        "at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones",
+        time = told(*time)
+    )]
     TooManySteps {
         /// Time of the state.
         time: f64,
@@ -386,13 +408,16 @@ pub enum SceneError {
         most: usize,
     },
     /// The run was told to stop.
-    #[error("stopped at time {time}: the state is that of the last complete step, from which the run can go on")]
+    #[error(
+        "stopped at time {time}: the state is that of the last complete step, from which the run can go on",
+        time = told(*time)
+    )]
     Stopped {
         /// Time of the state.
         time: f64,
     },
     /// A checkpoint could not be saved.
-    #[error("at time {time} no checkpoint could be saved: {source}")]
+    #[error("at time {time} no checkpoint could be saved: {source}", time = told(*time))]
     Checkpoint {
         /// Time of the state.
         time: f64,
@@ -435,7 +460,7 @@ pub enum SceneError {
         present: Option<f64>,
     },
     /// An observer failed.
-    #[error("an observer failed at time {time}: {source}")]
+    #[error("an observer failed at time {time}: {source}", time = told(*time))]
     Observer {
         /// Time of the state.
         time: f64,

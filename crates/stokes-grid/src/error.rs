@@ -1,6 +1,6 @@
 //! Errors of solvers and grids: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, finite};
+use motile_base::{InputError, finite, told_apart};
 
 /// An error of this crate; its message names the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -51,8 +51,9 @@ pub enum StokesError {
     },
     /// An iteration that did not reach its tolerance.
     #[error(
-        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more \
-         iterations, ask for less, or use viscosities that differ less"
+        "the relative residual is {} after {iterations} iterations, above {}: allow more iterations, ask for less, or \
+         use viscosities that differ less",
+        told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
         /// Iterations done.

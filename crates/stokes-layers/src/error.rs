@@ -1,6 +1,6 @@
 //! Errors of layers: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, Vec2};
+use motile_base::{InputError, Vec2, told_apart};
 
 /// An error of this crate; its message names the offending value and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -65,8 +65,9 @@ pub enum LayerError {
     },
     /// A node of a curve lies beyond a wall.
     #[error(
-        "node {node} of curve {curve} at ({x}, {y}) is {depth} beyond the wall, more than {allowed}: move the curve \
-         away, use a smaller time step or more nodes"
+        "node {node} of curve {curve} at ({x:.4}, {y:.4}) is {} beyond the wall, more than {}: move the curve away, \
+         use a smaller time step or more nodes",
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     BeyondWall {
         /// Number of the curve.
@@ -94,7 +95,7 @@ pub enum LayerError {
         remedy: &'static str,
     },
     /// Rigid walls that cross or touch each other, or themselves.
-    #[error("wall {first} crosses or touches wall {second} near ({x}, {y}): leave fluid between them")]
+    #[error("wall {first} crosses or touches wall {second} near ({x:.4}, {y:.4}): leave fluid between them")]
     WallsCross {
         /// Number of one wall.
         first: usize,
@@ -110,8 +111,9 @@ pub enum LayerError {
     SingularWalls,
     /// A curve that is not the meridian of a surface of revolution with its mirror image.
     #[error(
-        "point {point} of curve {curve} at ({x}, {y}) is not on the meridian of a surface of revolution: give an even \
-         number of points, the first on the x axis, each the mirror image of its partner, the meridian off the axis"
+        "point {point} of curve {curve} at ({x:.4}, {y:.4}) is not on the meridian of a surface of revolution: give an \
+         even number of points, the first on the x axis, each the mirror image of its partner, the meridian off the \
+         axis"
     )]
     NotOfRevolution {
         /// Number of the curve.
@@ -140,8 +142,8 @@ pub enum LayerError {
     SingularSurfaces,
     /// An interface beyond a rigid wall or inside an obstacle.
     #[error(
-        "interface {curve} is beyond rigid wall {wall} at ({x}, {y}): move it away, use a smaller time step or more \
-         nodes"
+        "interface {curve} is beyond rigid wall {wall} at ({x:.4}, {y:.4}): move it away, use a smaller time step or \
+         more nodes"
     )]
     CrossesWall {
         /// Number of the interface.
@@ -155,8 +157,9 @@ pub enum LayerError {
     },
     /// An iteration for a viscosity contrast that did not reach its tolerance.
     #[error(
-        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: use more nodes, \
-         allow more iterations, or ask for less"
+        "the relative residual is {} after {iterations} iterations, above {}: use more nodes, allow more iterations, \
+         or ask for less",
+        told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
         /// Iterations done.

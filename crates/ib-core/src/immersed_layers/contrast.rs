@@ -32,11 +32,11 @@ pub(super) struct LayerContrast {
     /// For each interface its first wave number (1/length).
     waves: Vec<f64>,
     /// Normals at the nodes of interfaces times the length that belongs to the node (length).
-    normals: Vec<f64>,
+    pub(super) normals: Vec<f64>,
     /// At the nodes of interfaces.
     velocities: Vec<f64>,
     right: Vec<f64>,
-    unknown: Vec<f64>,
+    pub(super) unknown: Vec<f64>,
     /// Forces at all nodes, and viscosity times velocity.
     forces: Vec<f64>,
     response: Vec<f64>,

@@ -175,6 +175,57 @@ fn interfaces_beside_points_move_as_without_a_grid() {
     }
 }
 
+/// Forces on a surface inside a droplet move all of it as those of an interface there, with the viscosity inside on
+/// either side, move it without a grid.
+#[test]
+fn forces_inside_another_viscosity_count_by_it() {
+    for inside in [0.2, 20.0] {
+        let mut markers = droplet(Some(inside));
+        push(&mut markers, closed(NODES), &circle(Vec2::new(0.3, 0.1), 0.5, NODES));
+        markers.set_viscosity_outside(1, Some(inside)).unwrap();
+        let [positions, forces, _] = markers.lists_mut();
+        for (force, x) in forces.iter_mut().zip(positions).skip(NODES) {
+            *force = 0.1 * Vec2::new(x.x * x.y, x.x + 1.0);
+        }
+        channel(4.0, 0.1).velocities(&mut markers).unwrap();
+        let region = Region::Channel { length: 4.0, width: HEIGHT, drive: Drive::default() };
+        let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
+        let mut exact = InterfaceFlow::new(region, 2.0, settings).unwrap();
+        let curve = |part: std::ops::Range<usize>, viscosities| {
+            Interface::closed(&markers.positions()[part.clone()], &markers.forces()[part], viscosities)
+        };
+        let curves = [curve(0..NODES, [inside, 2.0]), curve(NODES..2 * NODES, [inside; 2])];
+        exact.load(curves.into_iter()).unwrap();
+        exact.solve().unwrap();
+        let mut expected = vec![Vec2::ZERO; 2 * NODES];
+        for (number, velocities) in expected.chunks_exact_mut(NODES).enumerate() {
+            exact.velocities(number, velocities).unwrap();
+        }
+        let largest = expected.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+        let errors = markers.velocities().iter().zip(&expected).map(|(found, expected)| (found - *expected).length());
+        let error = errors.fold(0.0, f64::max) / largest;
+        println!("{inside}: {error:e} of {largest:e}");
+        assert!(error < 1e-6, "{inside}: {error:e}");
+    }
+}
+
+/// A uniform force along the normal moves nothing: those that take the place of a viscosity have none, which would be
+/// a pressure inside.
+#[test]
+fn forces_for_another_viscosity_do_not_press() {
+    for inside in [0.2, 20.0] {
+        let mut markers = droplet(Some(inside));
+        push_disc(&mut markers, Vec2::new(0.3, 1.8), 0.5, 0.2);
+        forces(&mut markers);
+        let mut flow = channel(4.0, 0.2);
+        flow.velocities(&mut markers).unwrap();
+        let parts = || flow.contrast.unknown.iter().zip(&flow.contrast.normals).map(|(force, normal)| force * normal);
+        let [sum, size] = [parts().sum::<f64>(), parts().map(f64::abs).sum()];
+        println!("{inside}: {sum:e} of {size:e}");
+        assert!(sum.abs() < 1e-7 * size, "{inside}: {sum:e} of {size:e}");
+    }
+}
+
 /// Each evaluation beside inner points solves twice on the grid, with the transforms that the solver alone counts.
 #[test]
 fn an_evaluation_counts_the_transforms_of_its_two_solutions() {

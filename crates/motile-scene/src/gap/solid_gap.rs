@@ -1,7 +1,7 @@
 //! The gap between interfaces and solids during a run.
 
 use crate::{Body, Handle, Hydrodynamics, Observer, System};
-use motile_base::Vec2;
+use motile_base::{Vec2, told_apart};
 
 /// Name of the record of the smallest gap.
 const RECORD: &str = "smallest gap to a solid";
@@ -33,7 +33,8 @@ pub struct SolidGap {
 /// An interface that has entered a solid.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[error(
-    "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {depth:.3e} inside a solid, more than {allowed:.3e}: {}",
+    "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {} inside a solid, more than {}: {}",
+    told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
     if *at_start { "move them apart" } else { "use a smaller time step or a finer grid" }
 )]
 pub struct SolidEntered {
