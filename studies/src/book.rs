@@ -1,4 +1,4 @@
-//! The book: every figure of Cowley's thesis beside what converged results say.
+//! The book: every figure of Cowley's thesis beside what converged results say, and the questions that it leaves open.
 //!
 //! `cargo run --release -p studies -- figure 3.9` makes the figure from what `studies/book/3.9.toml` says: its data
 //! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
@@ -41,7 +41,7 @@ pub(crate) struct FigureFlags {
 /// Makes the figures of a chapter of the book, or of all.
 #[derive(Debug, Args)]
 pub(crate) struct FiguresFlags {
-    /// The chapter, 2 to 5 or B; without it all of them
+    /// The chapter, 2 to 5, B or E; without it all of them
     #[arg(long)]
     chapter: Option<String>,
     #[command(flatten)]
@@ -88,6 +88,9 @@ struct Kept {
     commit: String,
     runs: usize,
     left_out: usize,
+    /// Those that ended in an error, each with it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    failures: Vec<String>,
     seconds: f64,
     data: Vec<String>,
     checks: Vec<Checked>,
@@ -125,6 +128,14 @@ pub(crate) fn pages(check: bool) -> Result<()> {
         ensure!(same, "docs/book/{name} is otherwise than its figures: run `studies -- pages`");
     }
     Ok(())
+}
+
+/// The second part of the book, of questions that the thesis leaves open.
+const ENVIRONMENT: &str = "E";
+
+/// Whose statement a figure's is.
+fn said_by(number: &str) -> &'static str {
+    if chapter_of(number) == ENVIRONMENT { "Statement" } else { "Cowley" }
 }
 
 fn different(mut list: Vec<String>) -> Vec<String> {
@@ -192,7 +203,7 @@ fn make(numbers: &[String], common: &Common) -> Result<()> {
 
 fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: bool) -> Result<()> {
     let (figure, definitions) = (read(number)?, definitions()?);
-    say(format_args!("\nFigure {number}: {}\nCowley: {}", figure.title, figure.says));
+    say(format_args!("\nFigure {number}: {}\n{}: {}", figure.title, said_by(number), figure.says));
     for name in &figure.data {
         if !made.contains_key(name) {
             made.insert(name.clone(), Source::read(name)?.rows(name, making)?);
@@ -224,6 +235,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         commit: String::new(),
         runs: own().map(|data| data.wanted).sum(),
         left_out: own().map(|data| data.wanted.saturating_sub(data.rows.len())).sum(),
+        failures: own().flat_map(|data| data.failures.clone()).collect(),
         seconds: own().map(|data| data.seconds).sum(),
         data: own().map(|data| data.about.clone()).collect(),
         checks,

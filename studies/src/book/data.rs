@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use motile::motile_base::Vec2;
+use motile::motile_base::{Region, Vec2};
 use motile::setup::Setup;
 use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
@@ -27,6 +27,8 @@ const FIELD: f64 = 6.0;
 const FIELD_CELLS: usize = 120;
 const LINES_APART: f64 = 0.5;
 const POINT_OF_LINE: usize = 3;
+/// How far from a droplet's ends in a channel the pressure is looked at, over the channel's width.
+const BESIDE: f64 = 0.1;
 /// Longest text that becomes a name.
 const LONGEST: usize = 40;
 
@@ -66,7 +68,7 @@ enum Preset {
 }
 
 /// Rows of one source, and what they took.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Data {
     pub(super) about: String,
     pub(super) rows: Vec<Row>,
@@ -74,6 +76,8 @@ pub(super) struct Data {
     pub(super) wanted: usize,
     /// Seconds of computation.
     pub(super) seconds: f64,
+    /// Runs that ended in an error, each with it.
+    pub(super) failures: Vec<String>,
 }
 
 /// The name of the points of a figure's own panels, and what names of those of another one begin with.
@@ -108,7 +112,7 @@ impl Data {
             Some(row)
         };
         let rows = text.lines().skip(1).filter_map(row).collect();
-        Self { about: String::new(), rows, wanted: 0, seconds: 0.0 }
+        Self { rows, ..Self::default() }
     }
 }
 
@@ -177,7 +181,7 @@ impl Source {
                 (0..count).map(row).collect()
             }
         };
-        Ok(Some(Data { about: self.about.clone(), rows, wanted: 0, seconds: 0.0 }))
+        Ok(Some(Data { about: self.about.clone(), rows, ..Data::default() }))
     }
 
     /// Its rows; runs that are not there are made. Failures are told and leave rows out.
@@ -190,13 +194,14 @@ impl Source {
         let wanted = trials.len();
         let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
         make_directory(&folder)?;
+        let mut failed = Vec::new();
         for trial in &trials {
             // What was made from another plan is not taken for this one.
             make_directory(&trial.folder)?;
             trial.keep_scene()?;
             trial.discard_others()?;
             if let State::Failed(failure) = trial.state() {
-                say(format_args!("{name}: left out: {}: {failure}", trial.label));
+                failed.push(format!("{}: {failure}", trial.label));
             }
         }
         let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
@@ -204,18 +209,56 @@ impl Source {
         let steady = |trial: &Trial| steady(trial, self.streamlines);
         let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
-        for failure in failures {
-            say(format_args!("{name}: left out: {}", explained(&failure)));
+        failed.extend(failures.iter().map(explained));
+        for failure in &failed {
+            say(format_args!("{name}: left out: {failure}"));
         }
         let seconds = done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum();
         let row = |(trial, summary): &(Trial, Summary)| -> Result<Row> {
             let mut row = Row::new();
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
             flatten("", &Value::Object(summary.values().clone()), &mut row);
+            if !self.steady {
+                row.insert("mean_speed".to_owned(), mean_speed(trial)?);
+            }
             Ok(row)
         };
-        Ok(Data { about, rows: done.iter().map(row).collect::<Result<_>>()?, wanted, seconds })
+        let rows = done.iter().map(row).collect::<Result<_>>()?;
+        Ok(Data { about, rows, wanted, seconds, failures: failed })
     }
+}
+
+/// Mean speed of a run's first droplet along x over the last period of its region (length per time); not a number if it
+/// has not come that far.
+fn mean_speed(trial: &Trial) -> Result<f64> {
+    let path = trial.folder.join("trajectory.csv");
+    let read = || -> Result<Vec<(f64, f64)>> {
+        let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&path)?;
+        let headers = table.headers()?.clone();
+        let place = |name: &str| headers.iter().position(|header| header == name).with_context(|| name.to_owned());
+        let (time, x) = (place("time")?, place("x")?);
+        let number = |row: &csv::StringRecord, place: usize| -> Result<f64> { Ok(row[place].parse()?) };
+        table
+            .records()
+            .map(|row| row.map_err(Into::into).and_then(|row| Ok((number(&row, time)?, number(&row, x)?))))
+            .collect()
+    };
+    let track = read().with_context(|| path.display().to_string())?;
+    Ok(motile_examples::mean_speed(&track, trial.setup.region.lengths()[0]).unwrap_or(f64::NAN))
+}
+
+/// Least distance of a swimmer from the walls of a straight channel (length), and the pressure a tenth of its width
+/// ahead of the droplet less that behind it (force per length); nothing elsewhere.
+fn narrowness(state: &SteadyState) -> Result<[Option<f64>; 2]> {
+    let Region::Channel { width, .. } = state.setup().region else { return Ok([None; 2]) };
+    let places = &state.profile().positions;
+    let highest = places.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
+    let [low, high] = places
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place.x), high.max(place.x)]);
+    let ends = [high + BESIDE * width, low - BESIDE * width].map(|x| Vec2::new(x, 0.0));
+    let pressures: Vec<f64> = state.sample(&ends)?.iter().map(|sample| sample.pressure).collect();
+    Ok([Some(0.5 * width - highest), Some(pressures[0] - pressures[1])])
 }
 
 /// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the
@@ -281,6 +324,9 @@ fn steady(trial: &Trial, lines: bool) -> Result<Summary> {
     }
     for (name, distance) in ["stagnation_ahead", "stagnation_behind"].into_iter().zip(stagnation(&state)?) {
         summary.put(name, distance, "");
+    }
+    for (name, value) in ["film", "pressure_ahead"].into_iter().zip(narrowness(&state)?) {
+        summary.put(name, value, "");
     }
     if lines {
         for (name, list) in ["streamlines_x", "streamlines_y"].into_iter().zip(streamlines(&state)?) {

@@ -57,7 +57,7 @@ pub(super) struct Figure {
     #[serde(skip)]
     pub(super) number: String,
     pub(super) title: String,
-    /// What the thesis says, in its words or close to them.
+    /// What the thesis says, in its words or close to them; of a question of the second part the statement to be tested.
     pub(super) says: String,
     pub(super) verdict: Option<Verdict>,
     pub(super) why: String,
@@ -115,6 +115,9 @@ struct Panel {
     y: String,
     #[serde(default)]
     logarithmic: bool,
+    /// The axis of y too.
+    #[serde(default)]
+    logarithmic_y: bool,
     /// Lists of points are closed curves in the plane.
     #[serde(default)]
     shapes: bool,
@@ -319,8 +322,9 @@ impl Figure {
         let mut plots = Vec::new();
         for (k, panel) in self.panel.iter().enumerate() {
             let scale = |log| if log { AxisScale::Logarithmic } else { AxisScale::Linear };
-            let mut plot =
-                Plot::new(&panel.title).x_axis(&panel.x, scale(panel.logarithmic)).y_axis(&panel.y, AxisScale::Linear);
+            let mut plot = Plot::new(&panel.title)
+                .x_axis(&panel.x, scale(panel.logarithmic))
+                .y_axis(&panel.y, scale(panel.logarithmic_y));
             if panel.shapes {
                 plot = plot.equal_units();
             }

@@ -8,17 +8,18 @@ use anyhow::{Context, Result, bail};
 
 use super::data::Source;
 use super::figure::{Figure, Judged};
-use super::{Kept, chapter_of, definitions, different, numbers, read, verdict};
+use super::{ENVIRONMENT, Kept, chapter_of, definitions, different, numbers, read, said_by, verdict};
 use crate::tables;
 
 /// Widest line of prose.
 const WIDEST: usize = 120;
-const CHAPTERS: [(&str, &str); 5] = [
+const CHAPTERS: [(&str, &str); 6] = [
     ("2", "Active droplets and contrasts of viscosity"),
     ("3", "Rigid channels"),
     ("4", "Deformable walls"),
     ("5", "Geometries and nuclei"),
     ("B", "Extinction of a birth-death process"),
+    (ENVIRONMENT, "The environment"),
 ];
 
 const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
@@ -30,6 +31,10 @@ const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.m
                      number of the contrary statement is outside of; a test refuses one without. Where older numbers \
                      were known when a range was stated, as in chapter 4 and parts of chapter 3, it was chosen from \
                      the claim.";
+
+const SECOND: &str = "What the surroundings do to a cell: questions that the thesis leaves open (its sections 5.2.2 and \
+                      5.2.3), made as the figures are, with `figures --chapter E`. Each has a statement that could be \
+                      false, with ranges stated before the data, and an answer.";
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")
@@ -63,12 +68,17 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     let mut pages = Vec::new();
     let mut counts: Vec<(String, usize)> = Vec::new();
     let mut table = String::from("| figure | statement | verdict | evidence |\n|---|---|---|---|\n");
+    let mut answers = String::from("| question | statement | answer |\n|---|---|---|\n");
     for chapter in different(numbers.iter().map(|number| chapter_of(number).to_owned()).collect()) {
         let title = CHAPTERS.iter().find(|(number, _)| *number == chapter).map_or("", |(_, title)| title);
         let name = format!("chapter-{chapter}.md");
         let mut page = format!(
             "# Chapter {chapter}: {title}\n\nWritten by `studies -- figures --write`: [the book](README.md).\n"
         );
+        let second = chapter == ENVIRONMENT;
+        if second {
+            page += &format!("\n{}\nANSWERS", wrapped(SECOND));
+        }
         page += &told(numbers.iter().filter(|number| chapter_of(number) == chapter))?;
         for number in numbers.iter().filter(|number| chapter_of(number) == chapter) {
             let figure = read(number)?;
@@ -84,28 +94,30 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
                 format!("{}: {}", check.name, check.text.as_deref().unwrap_or("not found yet"))
             });
             let anchor = format!("figure-{}", number.to_lowercase().replace('.', ""));
-            let cell = |text: &str| text.replace('|', "\\|");
-            let _ = writeln!(
-                table,
-                "| [{number}]({name}#{anchor}) | {} | {} | {} |",
-                cell(&figure.title),
-                cell(&verdict),
-                cell(&evidence)
-            );
+            let cell = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|");
+            page += &section(number, &figure, &verdict, &judged, kept.as_ref())?;
+            let link = format!("[{number}]({name}#{anchor})");
+            if second {
+                let (title, why) = (cell(&figure.title), cell(&figure.why));
+                let _ = writeln!(answers, "| {link} {title} | {} | {why} |", cell(&verdict));
+                continue;
+            }
+            let _ = writeln!(table, "| {link} | {} | {} | {} |", cell(&figure.title), cell(&verdict), cell(&evidence));
             let kind = if verdict.starts_with("open") { "open" } else { &verdict };
             match counts.iter_mut().find(|(name, _)| name == kind) {
                 Some((_, count)) => *count += 1,
                 None => counts.push((kind.to_owned(), 1)),
             }
-            page += &section(number, &figure, &verdict, &judged, kept.as_ref())?;
         }
-        pages.push((name, page));
+        pages.push((name, page.replacen("ANSWERS", &answers, usize::from(second))));
     }
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let words: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
-    front += &wrapped(&format!("{} figures: {}.", numbers.len(), words.join(", ")));
+    let count: usize = counts.iter().map(|(_, count)| count).sum();
+    front += &wrapped(&format!("{count} figures: {}.", words.join(", ")));
     front += "\n![Speed over the activity in channels](figures/3.4.svg)\n\n";
     front += &table;
+    front += &format!("\n## The environment\n\n{}\n{answers}", wrapped(SECOND));
     pages.insert(0, ("README.md".to_owned(), front));
     Ok(pages)
 }
@@ -130,7 +142,7 @@ fn told<'a>(numbers: impl Iterator<Item = &'a String>) -> Result<String> {
 fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept: Option<&Kept>) -> Result<String> {
     let mut text = format!("\n## Figure {number}\n\n{}", wrapped(&figure.title));
     text += "\n";
-    text += &wrapped(&format!("**Cowley:** {}", figure.says));
+    text += &wrapped(&format!("**{}:** {}", said_by(number), figure.says));
     if let Some(kept) = kept {
         text += "\n";
         text += &wrapped(&format!("**Found** from the data {}, at {}:", figure.data.join(", "), kept.commit));
@@ -143,6 +155,12 @@ fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept
         }
         if kept.left_out > 0 {
             let _ = writeln!(text, "\nRuns that failed and are left out: {} of {}.", kept.left_out, kept.runs);
+            if !kept.failures.is_empty() {
+                text += "\n";
+            }
+            for failure in &kept.failures {
+                text += &wrapped(&format!("* {failure}"));
+            }
         }
     }
     text += "\n";

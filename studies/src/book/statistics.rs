@@ -26,6 +26,10 @@ pub(super) enum Measure {
     Exponential,
     /// Largest less least y over their mean, of points with the same x, the mean over all x (of one x: 0).
     Spread,
+    /// The largest of these rather than their mean.
+    Widest,
+    /// At how many x, of those with several points, y has both signs.
+    Flips,
     /// Where y changes its sign, by linear interpolation; the last of these places.
     Zero,
     /// Where y is greatest.
@@ -81,7 +85,13 @@ impl Measure {
                 let residual = format!("largest residual {:.1} % of the range", 100.0 * worst / range);
                 (b, format!("a = {}, c = {}, {residual}", shown(a), shown(c)))
             }
-            Self::Spread => alone(spread(points)),
+            Self::Spread => alone(mean(spreads(points)).0),
+            Self::Widest => alone(spreads(points).fold(f64::NAN, f64::max)),
+            Self::Flips => {
+                let both = |group: &[(f64, f64)]| group.iter().any(|p| p.1 > 0.0) && group.iter().any(|p| p.1 < 0.0);
+                let count = several(points).filter(|group| both(group)).count();
+                (count as f64, format!("of {}", several(points).count()))
+            }
             Self::Zero => {
                 let crossing = |pair: &[(f64, f64)]| {
                     let [(x, y), (next, other)] = [pair[0], pair[1]];
@@ -156,13 +166,17 @@ fn decay(points: &[(f64, f64)]) -> (f64, f64) {
     (b, residuals(b).fold(0.0, f64::max))
 }
 
-fn spread(points: &[(f64, f64)]) -> f64 {
-    let groups = points.chunk_by(|a, b| same(a.0, b.0)).filter(|group| group.len() > 1);
-    let relative = |group: &[(f64, f64)]| {
+/// Points with the same x, where there are several.
+fn several(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> + Clone {
+    points.chunk_by(|a, b| same(a.0, b.0)).filter(|group| group.len() > 1)
+}
+
+/// Largest less least y over their mean, of points with the same x.
+fn spreads(points: &[(f64, f64)]) -> impl Iterator<Item = f64> + Clone + '_ {
+    several(points).map(|group| {
         let ys = || group.iter().map(|(_, y)| *y);
         (ys().fold(f64::NAN, f64::max) - ys().fold(f64::NAN, f64::min)) / mean(ys()).0.abs()
-    };
-    mean(groups.map(relative)).0
+    })
 }
 
 /// Whether two abscissas are one.

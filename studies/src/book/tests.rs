@@ -22,8 +22,7 @@ fn every_figure_has_its_file_and_every_plan_its_scenes() {
             data.insert(name.clone(), number.clone());
         });
         // Expressions are read even where there are no rows.
-        let empty =
-            |name: &String| (name.clone(), Data { about: String::new(), rows: vec![], wanted: 0, seconds: 0.0 });
+        let empty = |name: &String| (name.clone(), Data::default());
         let points = figure.others().map(str::to_owned).chain([POINTS.to_owned()]);
         let none: BTreeMap<String, Data> = figure.data.iter().cloned().chain(points).map(|name| empty(&name)).collect();
         figure.checks(&definitions().expect("definitions"), &none).expect(number);
@@ -89,8 +88,7 @@ fn what_is_wrong_is_told_in_a_sentence() {
     let text = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\ndata = [\"rows\"]\n[[check]]\nname = \"n\"\n\
                 measure = \"mean\"\nx = \"1\"\n";
     let rows = vec![[("speed".to_owned(), 1.0)].into()];
-    let data: BTreeMap<String, Data> =
-        [("rows".to_owned(), Data { about: String::new(), rows, wanted: 1, seconds: 0.0 })].into();
+    let data: BTreeMap<String, Data> = [("rows".to_owned(), Data { rows, wanted: 1, ..Data::default() })].into();
     for (y, expected) in [("spede", "no column spede"), ("speed +", "is missing before"), ("(speed", "')' is missing")]
     {
         let figure: Figure = toml::from_str(&format!("{text}y = \"{y}\"\n")).expect(y);
@@ -108,7 +106,7 @@ fn a_verdict_falls_with_its_numbers() {
     assert_eq!(verdict(&figure, Some(&figure.judged(&[]))), "not computed yet");
     for (speed, expected) in [(1.0, "confirmed"), (2.0, "open: speed is 2"), (f64::NAN, "open: speed is ")] {
         let rows = vec![[("speed".to_owned(), speed)].into()];
-        let data = [("rows".to_owned(), Data { about: String::new(), rows, wanted: 1, seconds: 0.0 })].into();
+        let data = [("rows".to_owned(), Data { rows, wanted: 1, ..Data::default() })].into();
         let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
         let found = verdict(&figure, Some(&figure.judged(&checks)));
         assert!(found.starts_with(expected), "{found}");

@@ -14,6 +14,9 @@ fn measures_find_what_points_are_made_of() {
         (Measure::Count, &made(|x| f64::from(x > 4.0)), 6.0, 0.0),
         (Measure::Mean, &made(|x| x), 6.0, 1e-12),
         (Measure::Spread, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0)], 0.2, 1e-12),
+        (Measure::Spread, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, 5.0)], 0.1, 1e-12),
+        (Measure::Widest, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, 5.0)], 0.2, 1e-12),
+        (Measure::Flips, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, -5.0), (3.0, -1.0)], 1.0, 0.0),
     ] {
         let (found, beside) = measure.of(points);
         assert!((found - expected).abs() <= tolerance, "{measure:?}: {found} ({beside}), expected {expected}");
