@@ -1,7 +1,5 @@
 //! What the figures of the book are made from: runs of a plan, steady states of a plan, tables of `docs/tables`.
 
-mod bisection;
-
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
@@ -13,8 +11,6 @@ use serde::Deserialize;
 use serde_json::Value;
 use steady_states::SteadyState;
 use toml::Table;
-
-use bisection::Bisection;
 
 use super::Making;
 use super::expression::Row;
@@ -51,9 +47,6 @@ pub(super) struct Source {
     /// Steady states of the plan's points rather than runs.
     #[serde(default)]
     steady: bool,
-    /// Or the value at which droplets begin to pass, for each of them.
-    #[serde(default)]
-    bisection: Option<Bisection>,
     /// With streamlines around them, in the frame of the laboratory.
     #[serde(default)]
     streamlines: bool,
@@ -214,11 +207,7 @@ impl Source {
         let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
         let pool = RunPool::new(&folder, making.threads, making.quiet)?;
         let steady = |trial: &Trial| steady(trial, self.streamlines);
-        let make = |trial: &Trial| match &self.bisection {
-            Some(bisection) => trial.keep(|trial| bisection.search(trial)),
-            None if self.steady => trial.keep(steady),
-            None => trial.run(),
-        };
+        let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
         failed.extend(failures.iter().map(explained));
         for failure in &failed {
@@ -229,7 +218,7 @@ impl Source {
             let mut row = Row::new();
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
             flatten("", &Value::Object(summary.values().clone()), &mut row);
-            if !self.steady && self.bisection.is_none() {
+            if !self.steady {
                 row.insert("mean_speed".to_owned(), mean_speed(trial)?);
             }
             Ok(row)
