@@ -219,7 +219,8 @@ impl Source {
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
             flatten("", &Value::Object(summary.values().clone()), &mut row);
             if !self.steady {
-                row.insert("mean_speed".to_owned(), mean_speed(trial)?);
+                let found = means(&track(trial)?, trial.setup.region.lengths()[0]);
+                row.extend(["mean_speed", "late_speed"].map(str::to_owned).into_iter().zip(found));
             }
             Ok(row)
         };
@@ -228,9 +229,8 @@ impl Source {
     }
 }
 
-/// Mean speed of a run's first droplet along x over the last period of its region (length per time); not a number if it
-/// has not come that far.
-fn mean_speed(trial: &Trial) -> Result<f64> {
+/// Places of a run's first droplet along x over the time.
+fn track(trial: &Trial) -> Result<Vec<(f64, f64)>> {
     let path = trial.folder.join("trajectory.csv");
     let read = || -> Result<Vec<(f64, f64)>> {
         let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&path)?;
@@ -238,13 +238,19 @@ fn mean_speed(trial: &Trial) -> Result<f64> {
         let place = |name: &str| headers.iter().position(|header| header == name).with_context(|| name.to_owned());
         let (time, x) = (place("time")?, place("x")?);
         let number = |row: &csv::StringRecord, place: usize| -> Result<f64> { Ok(row[place].parse()?) };
-        table
-            .records()
-            .map(|row| row.map_err(Into::into).and_then(|row| Ok((number(&row, time)?, number(&row, x)?))))
-            .collect()
+        let point = |row: csv::StringRecord| Ok((number(&row, time)?, number(&row, x)?));
+        table.records().map(|row| row.map_err(Into::into).and_then(point)).collect()
     };
-    let track = read().with_context(|| path.display().to_string())?;
-    Ok(motile_examples::mean_speed(&track, trial.setup.region.lengths()[0]).unwrap_or(f64::NAN))
+    read().with_context(|| path.display().to_string())
+}
+
+/// Mean velocities along x of a track (length per time): over its last `distance`, not a number if it is shorter, and
+/// over the second half of its time.
+fn means(track: &[(f64, f64)], distance: f64) -> [f64; 2] {
+    let Some((end, x)) = track.last() else { return [f64::NAN; 2] };
+    let half = track.iter().find(|(time, _)| *time >= 0.5 * end);
+    let late = half.map_or(f64::NAN, |(time, place)| (x - place) / (end - time));
+    [motile_examples::mean_speed(track, distance).unwrap_or(f64::NAN), late]
 }
 
 /// Least distance of a swimmer from the walls of a straight channel (length), and the pressure a tenth of its width

@@ -12,6 +12,8 @@ pub(super) enum Measure {
     Greatest,
     /// How many points y is not 0 of, and of how many.
     Count,
+    /// The share of these, with Wilson's interval of one standard error and of two.
+    Share,
     /// Correlation coefficient of x and y, of five points or more, with the probability of one as large without any.
     Correlation,
     /// Largest residual of the line of [`Measure::Line`].
@@ -56,6 +58,11 @@ impl Measure {
             Self::Least => alone(ys().fold(f64::NAN, f64::min)),
             Self::Greatest => alone(ys().fold(f64::NAN, f64::max)),
             Self::Count => (ys().filter(|y| *y != 0.0).count() as f64, format!("of {}", points.len())),
+            Self::Share => {
+                let share = ys().filter(|y| *y != 0.0).count() as f64 / n;
+                let [one, two] = [1.0, 2.0].map(|z| wilson(share, n, z).map(shown).join(" to "));
+                (share, format!("of {n}, one standard error {one}, two {two}"))
+            }
             Self::Correlation => {
                 if points.len() < FEWEST {
                     return (f64::NAN, format!("of {n} points: too few"));
@@ -164,6 +171,13 @@ fn decay(points: &[(f64, f64)]) -> (f64, f64) {
     let widths = (0..4000).map(|k| 1e-3 * largest * 1e4_f64.powf(f64::from(k) / 3999.0));
     let b = widths.min_by(|a, b| squares(a).total_cmp(&squares(b))).unwrap_or(f64::NAN);
     (b, residuals(b).fold(0.0, f64::max))
+}
+
+/// Wilson's interval of a proportion of n, of z standard errors.
+fn wilson(share: f64, n: f64, z: f64) -> [f64; 2] {
+    let (middle, scale) = (share + z * z / (2.0 * n), 1.0 + z * z / n);
+    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    [(middle - half) / scale, (middle + half) / scale]
 }
 
 /// Points with the same x, where there are several.

@@ -127,6 +127,20 @@ fn every_verdict_rests_on_a_range_that_its_contrary_is_outside_of() {
 }
 
 #[test]
+fn answers_stand_at_the_top_of_the_second_part_and_are_not_counted_with_the_figures_of_the_thesis() {
+    let pages = pages::all().expect("pages");
+    let page = |wanted: &str| &pages.iter().find(|(name, _)| name == wanted).expect(wanted).1;
+    let (front, second) = (page("README.md"), page("chapter-E.md"));
+    let of_thesis = numbers().expect("figures").iter().filter(|number| chapter_of(number) != ENVIRONMENT).count();
+    assert!(front.contains(&format!("\n{of_thesis} figures: ")), "{front}");
+    let table = "| question | statement | answer |";
+    let answers = second.find(table).expect("a table of answers");
+    assert!(answers < second.find("## Data").expect("data") && front.contains(table));
+    assert!(second.contains("**Statement:**") && !second.contains("**Cowley:**"));
+    assert!(page("chapter-3.md").contains("**Cowley:**") && !page("chapter-3.md").contains("**Statement:**"));
+}
+
+#[test]
 fn points_are_read_back() {
     let data = Data::in_points("panel,curve,group,x,y,deviation\n1,\"a, b\",2,0.5,-1e-3,0\n2,,none,1,2,0\n");
     let value = |k: usize, name: &str| data.rows[k].get(name).copied();

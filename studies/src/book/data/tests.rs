@@ -27,3 +27,31 @@ fn tables_of_the_docs_are_rows() {
     let laws = of_table("steady-length-2").expect("a table");
     assert!(laws.iter().any(|row| row.contains_key("t_law_straight_a_b_l_c")), "{:?}", laws[0]);
 }
+
+#[test]
+fn a_run_that_ends_in_an_error_is_told_each_time_and_others_have_their_speed() {
+    let out = std::env::temp_dir().join(format!("motile-book-failures-{}", std::process::id()));
+    let making = Making { quick: false, threads: 1, quiet: true, out };
+    let text = "about = \"a\"\n[plan]\ntime = 0.02\n[plan.grid]\n\"region.channel.width\" = [1.0, 4.0]\n\
+                [plan.scene.region.channel]\nlength = 6.0\nwidth = 4.0\ndrive = \"zero-gradient\"\n\
+                [plan.scene.method.integral]\nnodes = 32\ncells = 128\n[[plan.scene.droplets]]\n";
+    let source: Source = toml::from_str(text).expect("a source");
+    for _ in 0..2 {
+        let data = source.rows("failing", &making).expect("data");
+        assert_eq!((data.wanted, data.rows.len(), data.failures.len()), (2, 1, 1), "{:?}", data.failures);
+        assert!(data.failures[0].contains("width=1"), "{:?}", data.failures);
+        assert!(data.rows[0]["mean_speed"].is_nan(), "no period of the channel in that time");
+    }
+    std::fs::remove_dir_all(&making.out).expect("a directory of its own");
+}
+
+#[test]
+fn mean_velocities_are_those_of_the_track() {
+    let moving: Vec<(f64, f64)> = (0..=40).map(|k| 0.5 * f64::from(k)).map(|t| (t, 1.0 - 0.25 * t)).collect();
+    let [over_period, late] = means(&moving, 2.0);
+    assert!(over_period.is_nan() && (late + 0.25).abs() < 1e-12, "backwards: {over_period}, {late}");
+    let there: Vec<(f64, f64)> = moving.iter().map(|(t, x)| (*t, -x)).collect();
+    let [over_period, late] = means(&there, 2.0);
+    assert!((over_period - 0.25).abs() < 1e-12 && (late - 0.25).abs() < 1e-12, "{over_period}, {late}");
+    assert!(means(&[], 1.0).iter().all(|value| value.is_nan()));
+}

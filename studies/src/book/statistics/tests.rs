@@ -21,6 +21,10 @@ fn measures_find_what_points_are_made_of() {
         let (found, beside) = measure.of(points);
         assert!((found - expected).abs() <= tolerance, "{measure:?}: {found} ({beside}), expected {expected}");
     }
+    // By hand: 8 of 10 and two standard errors, (0.8 + 0.2 -+ 2 sqrt(0.016 + 0.01))/1.4.
+    let share =
+        Measure::Share.of(&made(|x| f64::from(x > 2.0)).iter().copied().chain([(0.0, 0.0)]).collect::<Vec<_>>());
+    assert!((share.0 - 0.8).abs() < 1e-12 && share.1.ends_with("two 0.4839 to 0.9446"), "{share:?}");
     // An exponential fits a line through points of 1/x worse than their range times 1 %.
     assert!(Measure::Exponential.of(&made(|x| 1.0 / x)).1 > Measure::Exponential.of(&decay).1);
     assert!(Measure::Zero.of(&decay).0.is_nan());
