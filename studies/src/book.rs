@@ -266,7 +266,9 @@ fn verdict(figure: &Figure, judged: Option<&[Judged]>) -> String {
     let needs = figure.number_of_data() > 0;
     let unknown = judged.is_none_or(|judged| judged.iter().any(|check| check.text.is_none()));
     let fails = judged.and_then(|judged| judged.iter().find(|check| !check.stands));
+    let second = chapter_of(&figure.number) == ENVIRONMENT;
     match (figure.verdict, fails) {
+        (None, _) if second && !unknown => Figure::followed(judged.unwrap_or_default()).name().to_owned(),
         (None, _) => "not computed yet".to_owned(),
         _ if needs && unknown => "not computed yet".to_owned(),
         (Some(_), Some(check)) => {

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::data::{Data, POINTS, Source};
 use super::expression::{Definitions, Expression, Row};
 use super::statistics::{Measure, mean, same, shown};
+use super::{ENVIRONMENT, chapter_of};
 
 /// Longest list `name_*`.
 const MOST_POINTS: usize = 20_000;
@@ -59,6 +60,7 @@ pub(super) struct Figure {
     pub(super) title: String,
     /// What the thesis says, in its words or close to them; of a question of the second part the statement to be tested.
     pub(super) says: String,
+    /// Of a figure of the thesis; that of a question of the second part follows from its numbers.
     pub(super) verdict: Option<Verdict>,
     pub(super) why: String,
     /// Names of files of `studies/book/data`.
@@ -209,6 +211,11 @@ impl Judged {
         let opposite = self.opposite.map(|value| format!(", the contrary {}", shown(value))).unwrap_or_default();
         format!(" [stands in {} to {}{opposite}]", shown(low), shown(high))
     }
+
+    /// Whether it is a number that the contrary of a statement would make another.
+    fn decides(&self) -> bool {
+        self.opposite.is_some()
+    }
 }
 
 /// Points of a group in the order of x, with the standard deviations of those that are means.
@@ -290,6 +297,19 @@ impl Figure {
         self.check.iter().map(judged).collect()
     }
 
+    /// The verdict that follows from the numbers: of the statement if all of the numbers that decide are in their ranges,
+    /// against it if none is; none at all if an error is larger than stated.
+    pub(super) fn followed(judged: &[Judged]) -> Verdict {
+        let deciding: Vec<bool> = judged.iter().filter(|check| check.decides()).map(|check| check.stands).collect();
+        let resolved = judged.iter().all(|check| check.decides() || check.stands);
+        match deciding.iter().filter(|stands| **stands).count() {
+            _ if !resolved || deciding.is_empty() => Verdict::CannotTell,
+            0 => Verdict::Refuted,
+            count if count == deciding.len() => Verdict::Confirmed,
+            _ => Verdict::ConfirmedInPart,
+        }
+    }
+
     /// A sentence about a verdict without a number that could speak against it.
     pub(super) fn lacks(&self) -> Option<String> {
         let outside = |check: &Check| match (check.within, check.opposite) {
@@ -301,7 +321,11 @@ impl Figure {
         if opposites.iter().any(|outside| !outside) {
             return Some("the contrary of a statement is within the range for it".to_owned());
         }
-        let decides = self.verdict.is_some_and(Verdict::decides);
+        let second = chapter_of(&self.number) == ENVIRONMENT;
+        if second && self.verdict.is_some() {
+            return Some("a verdict beforehand, where it follows from the numbers".to_owned());
+        }
+        let decides = second || self.verdict.is_some_and(Verdict::decides);
         (decides && opposites.is_empty())
             .then(|| "no range that the contrary of the statement is outside of".to_owned())
     }

@@ -151,7 +151,8 @@ fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept
         }
         for check in judged {
             let found = check.text.as_deref().unwrap_or("not found yet");
-            text += &wrapped(&format!("* {}: {found}{}", check.name, check.range()));
+            let outside = if check.stands { "" } else { ": it does not" };
+            text += &wrapped(&format!("* {}: {found}{}{outside}", check.name, check.range()));
         }
         if kept.left_out > 0 {
             let _ = writeln!(text, "\nRuns that failed and are left out: {} of {}.", kept.left_out, kept.runs);

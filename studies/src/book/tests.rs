@@ -119,6 +119,40 @@ fn a_verdict_falls_with_its_numbers() {
 }
 
 #[test]
+fn verdicts_of_questions_follow_from_their_numbers() {
+    let check = |name: &str, opposite: &str| {
+        format!(
+            "[[check]]\nname = \"{name}\"\nmeasure = \"mean\"\nx = \"1\"\ny = \"{name}\"\n\
+                 within = [0.9, 1.1]\n{opposite}\n"
+        )
+    };
+    let head = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\ndata = [\"rows\"]\n";
+    let decisive = "opposite = 2.0";
+    let text = [head, &check("a", decisive), &check("b", decisive), &check("error", "")].concat();
+    let mut figure: Figure = toml::from_str(&text).expect("a figure");
+    "E.1".clone_into(&mut figure.number);
+    assert!(figure.lacks().is_none() && verdict(&figure, None) == "not computed yet");
+    for (numbers, expected) in [
+        ([1.0, 1.0, 1.0], "confirmed"),
+        ([1.0, 2.0, 1.0], "confirmed in part"),
+        ([0.0, 2.0, 1.0], "refuted"),
+        ([1.0, 1.0, 1.2], "cannot tell"),
+        ([f64::NAN, 2.0, 1.0], "refuted"),
+    ] {
+        let row = ["a", "b", "error"].map(str::to_owned).into_iter().zip(numbers).collect();
+        let data = [("rows".to_owned(), Data { rows: vec![row], wanted: 1, ..Data::default() })].into();
+        let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
+        assert_eq!(verdict(&figure, Some(&figure.judged(&checks))), expected, "{numbers:?}");
+    }
+    let open = [head, &check("a", "")].concat();
+    for text in [open.clone(), "verdict = \"confirmed\"\n".to_owned() + &text] {
+        let mut figure: Figure = toml::from_str(&text).expect("a figure");
+        "E.1".clone_into(&mut figure.number);
+        assert!(figure.lacks().is_some(), "{text}");
+    }
+}
+
+#[test]
 fn every_verdict_rests_on_a_range_that_its_contrary_is_outside_of() {
     let lacking = numbers().expect("figures").into_iter();
     let lacking = lacking.filter_map(|number| Some(format!("{number}: {}", read(&number).expect(&number).lacks()?)));
