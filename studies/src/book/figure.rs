@@ -68,6 +68,8 @@ pub(super) struct Figure {
     pub(super) data: Vec<String>,
     /// A command that makes it, where that is not `figure`.
     pub(super) command: Option<String>,
+    /// Processor time that its data took (seconds), where the clock's is not said as the machine was busy.
+    pub(super) processor: Option<f64>,
     /// A picture under docs, and pages with more.
     pub(super) picture: Option<String>,
     #[serde(default)]

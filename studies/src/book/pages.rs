@@ -175,7 +175,9 @@ fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept
     let own = format!("figure {number}");
     let command = figure.command.clone().unwrap_or_else(|| format!("cargo run --release -p studies -- {own}"));
     let mut last = format!("`{command}`");
-    if let Some(seconds) = kept.map(|kept| kept.seconds).filter(|seconds| *seconds > 1.0) {
+    if let Some(seconds) = figure.processor.filter(|_| kept.is_some()) {
+        last += &format!(" ({seconds:.0} s of processor time)");
+    } else if let Some(seconds) = kept.map(|kept| kept.seconds).filter(|seconds| *seconds > 1.0) {
         last += &format!(" ({seconds:.0} s of computation)");
     }
     for page in &figure.see {
