@@ -32,14 +32,14 @@ fn tables_of_the_docs_are_rows() {
 fn a_run_that_ends_in_an_error_is_told_each_time_and_others_have_their_speed() {
     let out = std::env::temp_dir().join(format!("motile-book-failures-{}", std::process::id()));
     let making = Making { quick: false, threads: 1, quiet: true, out };
-    let text = "about = \"a\"\n[plan]\ntime = 0.02\n[plan.grid]\n\"region.channel.width\" = [1.0, 4.0]\n\
+    let text = "about = \"a\"\n[plan]\ntime = 0.02\n[plan.grid]\n\"least-gap\" = [1.5, 0.1]\n\
                 [plan.scene.region.channel]\nlength = 6.0\nwidth = 4.0\ndrive = \"zero-gradient\"\n\
                 [plan.scene.method.integral]\nnodes = 32\ncells = 128\n[[plan.scene.droplets]]\n";
     let source: Source = toml::from_str(text).expect("a source");
     for _ in 0..2 {
         let data = source.rows("failing", &making).expect("data");
         assert_eq!((data.wanted, data.rows.len(), data.failures.len()), (2, 1, 1), "{:?}", data.failures);
-        assert!(data.failures[0].contains("width=1"), "{:?}", data.failures);
+        assert!(data.failures[0].contains("1.5"), "{:?}", data.failures);
         assert!(data.rows[0]["mean_speed"].is_nan(), "no period of the channel in that time");
     }
     std::fs::remove_dir_all(&making.out).expect("a directory of its own");
