@@ -150,8 +150,11 @@ fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept
             text += "\n";
         }
         for check in judged {
-            let found = check.text.as_deref().unwrap_or("not found yet");
-            let outside = if check.stands { "" } else { ": it does not" };
+            let (found, outside) = match check.text.as_deref() {
+                None => ("not found yet", ""),
+                Some("") => ("nothing to measure", ""),
+                Some(found) => (found, if check.stands { "" } else { ": it does not" }),
+            };
             text += &wrapped(&format!("* {}: {found}{}{outside}", check.name, check.range()));
         }
         if kept.left_out > 0 {
