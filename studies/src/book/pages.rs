@@ -163,7 +163,10 @@ fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept
                 text += "\n";
             }
             for failure in &kept.failures {
-                text += &wrapped(&format!("* {failure}"));
+                // The run, and the last of its reasons.
+                let (run, why) = failure.split_once(": ").unwrap_or(("", failure));
+                let last = why.rsplit_once("ended because ").map_or(why, |(_, last)| last);
+                text += &wrapped(&format!("* {run}: {last}"));
             }
         }
     }
