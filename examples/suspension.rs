@@ -25,8 +25,9 @@ use motile::setup::{
     Arrangement, Built, Distribution, Headings, IntegralMethod, LayersMethod, Method, Setup, SuspensionSetup,
 };
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
+use motile_output::CsvTable;
 use motile_output::run::{Job, OutputFlags, Summary};
-use motile_output::{Crowd, CrowdColour, CrowdFilm, CsvTable, SuspensionCsv};
+use motile_output::suspension::{Crowd, CrowdColour, CrowdFilm, SuspensionCsv};
 
 /// Region of the suspension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -20,6 +20,7 @@ mod shared_benchmark;
 mod site;
 mod steady_states;
 mod step_cost;
+mod sums;
 mod suspensions;
 mod tables;
 mod threads;
@@ -58,6 +59,7 @@ enum Study {
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
     Many(many::Flags),
+    Sums(sums::Flags),
     Suspensions(suspensions::Flags),
     Nucleus(nucleus::Flags),
     Exchange(exchange::Flags),
@@ -87,6 +89,7 @@ fn main() -> ExitCode {
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
         Study::Many(flags) => many::run(flags),
+        Study::Sums(flags) => sums::run(flags),
         Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(flags) => exchange::run(flags),

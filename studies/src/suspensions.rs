@@ -32,6 +32,9 @@ pub(crate) struct Flags {
     /// Time that suspensions are followed
     #[arg(long, default_value_t = 20.0)]
     time: f64,
+    /// Pairs alone
+    #[arg(long)]
+    pairs: bool,
     /// Rows that have been found, which are not computed again; new ones are added
     #[arg(long)]
     rows: Option<PathBuf>,
@@ -78,12 +81,10 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut rows = Rows::open(flags.rows.as_deref())?;
-    let all = [
-        pairs::table(&mut rows)?,
-        crowds::table(flags, &mut rows)?,
-        parting::table(&mut rows)?,
-        methods::table(&mut rows)?,
-    ];
-    let inputs = ["crates/motile-output/src/suspension.rs", "studies/src/suspensions.rs", "studies/src/suspensions"];
+    let mut all = vec![pairs::table(&mut rows)?];
+    if !flags.pairs {
+        all.extend([crowds::table(flags, &mut rows)?, parting::table(&mut rows)?, methods::table(&mut rows)?]);
+    }
+    let inputs = ["crates/motile-output/src/suspension", "studies/src/suspensions.rs", "studies/src/suspensions"];
     flags.keep.tables("suspensions", "suspensions", &inputs, &all)
 }

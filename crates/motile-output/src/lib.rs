@@ -28,6 +28,7 @@
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
 //! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`] |
+//! | many droplets | the module [`suspension`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
 //! | whole runs, parameter sweeps | the modules `run` and `sweep` of the feature `sweep` |
@@ -37,7 +38,6 @@
 
 mod animation;
 mod colour;
-mod crowd;
 mod drawing;
 mod droplets;
 mod error;
@@ -52,7 +52,7 @@ pub mod run;
 mod snapshot;
 mod solids;
 mod streamlines;
-mod suspension;
+pub mod suspension;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 mod table;
@@ -61,7 +61,6 @@ mod trajectory;
 pub use animation::Film;
 pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
-pub use crowd::{Crowd, CrowdColour, CrowdFilm};
 pub use droplets::DropletsCsv;
 pub use error::OutputError;
 pub use interfaces::{InterfaceLine, InterfacesCsv};
@@ -73,6 +72,5 @@ pub use raster::{Raster, Samples};
 pub use snapshot::{DropletOutline, GelField, InteriorField, Snapshot};
 pub use solids::SolidMeter;
 pub use streamlines::streamlines;
-pub use suspension::SuspensionCsv;
 pub use table::CsvTable;
 pub use trajectory::{TrajectoryCsv, meter::DropletMeter};

@@ -4,8 +4,8 @@ use anyhow::Result;
 use motile::active_interface::suspension::rotational_diffusion;
 use motile::motile_scene::Every;
 use motile::setup::Built;
-use motile_output::SuspensionCsv;
 use motile_output::run::say;
+use motile_output::suspension::SuspensionCsv;
 use motile_tests::validation::Table;
 
 use super::{Flags, Rows};
@@ -32,7 +32,7 @@ pub(super) fn table(flags: &Flags, rows: &mut Rows) -> Result<Table> {
         "rotational diffusion",
         "least film",
         "film held",
-        "share of stress",
+        "contacts over stress",
         "area change",
         "steps",
         "end",

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::motile_base::{Region, Vec2};
+use motile::motile_base::{Drive, Region, Vec2};
 use motile::motile_scene::{Hydrodynamics, Markers};
 
 use super::contrast::Droplet;
@@ -13,6 +13,17 @@ use crate::validation::StudyError;
 pub const NODES: usize = 64;
 /// Thinnest film between droplets (length).
 pub const FILM: f64 = 0.02;
+
+/// Region of many droplets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surroundings {
+    /// Periodic box.
+    Box,
+    /// Channel between walls beside the outermost droplets.
+    Channel,
+    /// Unbounded fluid.
+    Plane,
+}
 
 /// Droplets in a periodic box.
 #[derive(Debug, Clone)]
@@ -72,16 +83,35 @@ impl Suspension {
     /// # Errors
     /// What the solver can fail with.
     pub fn velocities(&self, tolerance: f64) -> Result<(Vec<Vec2>, usize), StudyError> {
-        let (mut solver, mut markers) = self.solver(tolerance)?;
+        let (mut solver, mut markers) = self.solver(Surroundings::Box, tolerance)?;
         let iterations = solver.velocities(&mut markers)?.iterations;
         Ok((markers.velocities().to_vec(), iterations))
     }
 
-    fn solver(&self, tolerance: f64) -> Result<(BoundaryIntegral, Markers), StudyError> {
+    /// Solver and markers, in other surroundings too.
+    ///
+    /// # Errors
+    /// What the solver can be refused for.
+    pub fn solver(
+        &self,
+        surroundings: Surroundings,
+        tolerance: f64,
+    ) -> Result<(BoundaryIntegral, Markers), StudyError> {
+        let [length, height] = self.lengths;
+        let region = match surroundings {
+            Surroundings::Box => Region::Box { lengths: self.lengths },
+            Surroundings::Channel => Region::Channel { length, width: height, drive: Drive::ZeroGradient },
+            Surroundings::Plane => Region::Plane,
+        };
+        // The middle of a channel is at y = 0.
+        let lower = if surroundings == Surroundings::Channel { 0.5 * height } else { 0.0 };
         let settings = Settings { nodes: NODES, tolerance, ..Settings::default() };
-        let solver = BoundaryIntegral::new(Region::Box { lengths: self.lengths }, 1.0, settings)?;
+        let solver = BoundaryIntegral::new(region, 1.0, settings)?;
         let mut markers = Markers::new();
-        self.droplets.iter().for_each(|droplet| droplet.push_exact(NODES, &mut markers));
+        for droplet in &self.droplets {
+            let [x, y] = droplet.centre;
+            droplet.at(x, y - lower).push_exact(NODES, &mut markers);
+        }
         Ok((solver, markers))
     }
 }

@@ -43,7 +43,7 @@ pub enum CrowdColour {
 /// ```
 /// use motile::prelude::*;
 /// use motile::setup::SuspensionSetup;
-/// use motile_output::{Crowd, CrowdColour};
+/// use motile_output::suspension::{Crowd, CrowdColour};
 ///
 /// let suspension = vec![SuspensionSetup { count: Some(3), ..SuspensionSetup::default() }];
 /// let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
@@ -239,7 +239,7 @@ fn wheel(drawing: &mut Drawing, [x, y]: Pixel, radius: f64) {
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile_output::{CrowdColour, CrowdFilm};
+/// use motile_output::suspension::{CrowdColour, CrowdFilm};
 ///
 /// let Built { mut scene, .. } = Setup::default().build()?;
 /// let mut film = CrowdFilm::new(CrowdColour::Heading, 200.0);
