@@ -112,9 +112,24 @@ fn curved_walls_stand_beside_many_droplets() {
     for inside in [1.0, 5.0] {
         let expected = velocities(&mut solved(walled(1e-13), inside, false, false));
         for tolerance in [1e-4, 1e-6, 1e-8] {
-            let error = error(&velocities(&mut solved(walled(tolerance), inside, false, true)), &expected);
+            let mut flow = solved(walled(tolerance), inside, false, true);
+            let error = error(&velocities(&mut flow), &expected);
             println!("walls, {inside} {tolerance:e}: {:.2}", error / tolerance);
             assert!(error < tolerance, "{inside} {tolerance:e}: {error:e}");
+            // Between droplets, beside a wall, and behind one.
+            let points = [[0.0, 0.0], [0.4, -0.5 * SIDE - 0.25], [0.4, 0.5 * SIDE + 0.2], [1.0, 0.5 * SIDE + 0.95]];
+            let points = points.map(|[x, y]| Vec2::new(x, y));
+            let mut sampled = || {
+                let mut out = [FlowSample::default(); 4];
+                flow.sample(&points, &mut out).unwrap();
+                flow.layers.fast = None;
+                out
+            };
+            let [found, expected] = [sampled(), sampled()];
+            let largest = expected.iter().map(|sample| sample.velocity.length()).fold(0.0, f64::max);
+            let apart = found.iter().zip(&expected).map(|(a, b)| a.velocity.distance(b.velocity)).fold(0.0, f64::max);
+            println!("samples beside walls, {inside} {tolerance:e}: {:.2}", apart / largest / tolerance);
+            assert!(apart < tolerance * largest, "{inside} {tolerance:e}: {apart:e} of {largest}");
         }
     }
 }
