@@ -90,6 +90,10 @@ fn between_elastic_walls() {
     let walls = SolidSetup::walls(&CONSTRICTION, &material);
     let setup = Setup { region: channel(12.0, 5.0), method, solids: walls, ..integrals() };
     stays_symmetric("layers", &setup, 10);
+    // A droplet that starts squeezed.
+    let narrow = ChannelShape::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 6.0 };
+    let squeezed = Setup { solids: SolidSetup::walls(&narrow, &material), mirror_symmetric: true, ..setup.clone() };
+    stays_symmetric("squeezed", &squeezed, 10);
     let springs = SolidSetup::walls(&CONSTRICTION, &Material::Springs { shear: 200.0 });
     let solids = springs.into_iter().map(SolidSetup::thesis).collect();
     let method = Method::Grid(GridMethod::uncorrected(0.1));

@@ -208,7 +208,8 @@ impl Curve {
     }
 
     /// Two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by straight sides
-    /// of the length 2 `straight`, as a polygon of 720 corners on it.
+    /// of the length 2 `straight`, as a polygon of 720 corners on it that starts on the x axis: an even number of markers
+    /// is its own mirror image there.
     ///
     /// # Errors
     /// A radius that is not positive, a negative length.
@@ -216,11 +217,13 @@ impl Curve {
         const CORNERS: u32 = 720;
         positive("the radius", radius)?;
         not_negative("half the length of the straight sides", straight)?;
-        let corners: Vec<Vec2> = (0..CORNERS)
-            .map(|k| TAU * (f64::from(k) + 0.5) / f64::from(CORNERS))
-            .map(|angle| Vec2::new(radius * angle.cos() + straight * angle.cos().signum(), radius * angle.sin()))
-            .collect();
-        Self::polygon(&corners)
+        let half_step = 0.5 * TAU / f64::from(CORNERS);
+        let corners = (0..CORNERS)
+            .map(|k| half_step * f64::from(2 * k + 1))
+            .map(|angle| Vec2::new(radius * angle.cos() + straight * angle.cos().signum(), radius * angle.sin()));
+        // The middle of the side that crosses the axis.
+        let start = Vec2::new(straight + radius * half_step.cos(), 0.0);
+        Self::polygon(&std::iter::once(start).chain(corners).collect::<Vec<_>>())
     }
 
     fn build(shape: Shape) -> Result<Self, InterfaceError> {

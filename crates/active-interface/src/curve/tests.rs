@@ -161,6 +161,12 @@ fn a_stadium_is_two_half_circles_and_straight_sides() {
         assert_relative_eq!(curve.area(), area, max_relative = 1e-13);
         assert_relative_eq!(curve.perimeter(), perimeter, max_relative = 1e-13);
         assert_relative_eq!(curve.area(), 4.0 * straight * radius + PI * radius * radius, max_relative = 2e-5);
+        // Markers are their own mirror image.
+        let markers = curve.markers(96).unwrap();
+        for (k, marker) in markers.iter().enumerate() {
+            let image = markers[(96 - k) % 96];
+            assert!((*marker - Vec2::new(image.x, -image.y)).length() < 1e-13, "{k}: {marker}");
+        }
     }
     assert!(Curve::stadium(-0.1, 1.0).is_err() && Curve::stadium(1.0, 0.0).is_err());
     assert!(Curve::stadium(f64::INFINITY, 1.0).is_err());
