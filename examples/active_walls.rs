@@ -36,6 +36,7 @@ enum Between {
 
 /// A layer of fluid between two active walls.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 471 steps, 943 evaluations of the flow.")]
 struct Flags {
     /// Activity of the particles on the walls, negative: contractile
     #[arg(long, default_value_t = -1.0, value_parser = activity, allow_hyphen_values = true)]

@@ -58,6 +58,7 @@ impl From<Colour> for CrowdColour {
 
 /// Many active droplets in a periodic box or a channel.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 2,666 steps, 5,333 evaluations of the flow.")]
 struct Flags {
     /// Scene file (TOML) to start from, with suspensions or droplets; flags of the suspension and of the region are
     /// then left out

@@ -38,6 +38,7 @@ enum FlowKind {
 
 /// A drop in a flow that is imposed from outside.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 224 steps, 902 evaluations of the flow.")]
 struct Flags {
     /// Imposed flow
     #[arg(long, value_enum, default_value_t = FlowKind::Shear)]

@@ -161,6 +161,7 @@ impl TubeFlags {
 
 /// An active droplet in three dimensions.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 1,022 steps, 2,045 evaluations of the flow.")]
 struct Flags {
     /// Steady swimmer by Newton's method, without a run
     #[arg(long, conflicts_with_all = ["time", "dt", "integrator", "rows", "checkpoint", "resume", "droplets"])]
