@@ -1,7 +1,7 @@
 //! Bending of fluid interfaces, and shells that start deformed.
 
 use motile::active_interface::{ActiveDroplet, Curve, Motion};
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::boundary_integral::{BoundaryIntegral, RevolutionIntegral, Settings};
 use motile::elastic_solids::Shell;
 use motile::motile_base::{Region, Vec2};
 use motile::motile_scene::{Hydrodynamics, Scene, StepSize};
@@ -141,6 +141,30 @@ fn bending_needs_a_fixed_number_of_markers() {
     scene.add(droplet.with_motion(Motion::WithFluid));
     let error = scene.step(0.1).unwrap_err();
     assert!(format!("{error:?}").contains("bending needs a fixed number of markers"), "{error:?}");
+}
+
+/// The forces are those of a curve in the plane: a body of revolution has a second curvature, which they leave out.
+#[test]
+fn bending_is_refused_in_three_dimensions() {
+    for region in [Region::Space, Region::tube(2.0)] {
+        let droplet = DropletSetup { bending: MODULUS, ..DropletSetup::passive(TENSION) };
+        let setup = Setup { region, droplets: vec![droplet], ..Setup::default() };
+        let error = setup.build().unwrap_err().to_string();
+        assert!(error.starts_with(&format!("droplets[0].bending = {MODULUS}")), "{error}");
+        assert!(error.contains("give none to bodies of revolution"), "{error}");
+    }
+    // Put together by hand, in either order.
+    let droplet = || ActiveDroplet::passive(&circle(1.0, 32, |_| 0.0), TENSION).expect("a droplet");
+    let first = droplet().with_bending(MODULUS, 0.0).and_then(ActiveDroplet::of_revolution).expect("a droplet");
+    let last = droplet().of_revolution().and_then(|it| it.with_bending(MODULUS, 0.0)).expect("a droplet");
+    for droplet in [first, last] {
+        let settings = Settings { nodes: 32, ..Settings::default() };
+        let flow = RevolutionIntegral::new(Region::Space, 1.0, settings, std::f64::consts::TAU);
+        let mut scene = Scene::new(flow.expect("a flow"));
+        scene.add(droplet);
+        let error = scene.step(0.1).unwrap_err();
+        assert!(format!("{error:?}").contains("in two dimensions"), "{error:?}");
+    }
 }
 
 /// A circle of radius 0.5 at rest that starts as an ellipse has the energy of a shell made so by hand, and goes back.

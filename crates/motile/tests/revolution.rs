@@ -188,6 +188,40 @@ fn trains_keep_apart_by_repulsion() {
     }
 }
 
+/// Two spheres of radius R whose gap is d push one another with the force `pi R phi(d)`, phi the energy per area, for
+/// ranges that are short beside R (Derjaguin 1934): the error falls with the range.
+#[test]
+fn spheres_push_as_the_energy_between_planes_tells() {
+    let errors = [0.16, 0.08].map(|range| {
+        let (strength, gap) = (400.0, 0.5 * range);
+        let repulsion = Some(Repulsion::new(strength, range).unwrap());
+        let at = |x: f64| DropletSetup { centre: [x, 0.0], ..DropletSetup::passive(0.0) };
+        let droplets = vec![at(-1.0 - 0.5 * gap), at(1.0 + 0.5 * gap)];
+        let setup = Setup { repulsion, droplets, ..scene(Region::Space, [128, 256]) };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let force = scene.observe(droplets[0]).unwrap().moments.force[0].abs();
+        let energy = strength * range * range * (2.0 + 2.0 * 0.5_f64.ln() - 0.5);
+        force / (PI * energy) - 1.0
+    });
+    println!("{errors:?}");
+    assert!(errors[0].abs() < 0.06 && errors[1].abs() < 0.6 * errors[0].abs(), "{errors:?}");
+}
+
+/// The shortest waves of a meridian relax at the rate that its nodes and its perimeter tell.
+#[test]
+fn the_stiffness_is_that_of_the_shortest_waves() {
+    for radius in [1.0, 2.0] {
+        let mut setup = scene(Region::Space, [32, 64]);
+        setup.droplets[0] = DropletSetup::passive(1.0).with_radius(radius);
+        let mut scene = setup.build().unwrap().scene;
+        scene.system_mut().evaluate().unwrap();
+        let count = scene.system().markers().positions().len() as f64;
+        let perimeter = 2.0 * count * radius * (PI / count).sin();
+        let found = scene.system().hydrodynamics().fluid_view().interface_stiffness;
+        assert!((found / (0.25 * 16.0 * 2.0 * PI / perimeter) - 1.0).abs() < 1e-3, "{radius}: {found}");
+    }
+}
+
 /// A run in a tube that is made anew as the droplet widens goes on from a checkpoint bit for bit.
 #[test]
 fn runs_in_tubes_resume_bit_for_bit() {

@@ -195,3 +195,13 @@ fn meshes_of_any_size_are_alike() {
         assert!((mesh.area() / (0.1 * unit * unit) - 1.0).abs() < 1e-9, "{unit}");
     }
 }
+
+/// Edges that cross are no boundary, though a triangulation could leave one of them out.
+#[test]
+fn edges_that_cross_are_refused() {
+    let corners = || [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| spade::Point2::new(x, y)).to_vec();
+    let sides = [[0, 1], [1, 2], [2, 3], [3, 0]];
+    assert!(triangulation::build(corners(), sides.to_vec()).is_ok());
+    let error = triangulation::build(corners(), vec![[0, 2], [1, 3]]).unwrap_err();
+    assert!(matches!(error, SolidError::MeshingFailed { what: "boundary edges cross" }), "{error}");
+}

@@ -100,7 +100,7 @@ fn tie_break(point: usize) -> Vec2 {
     Vec2::new(part(16), part(40)) * TIE_BREAK
 }
 
-fn build(
+pub(super) fn build(
     vertices: Vec<Point2<f64>>,
     edges: Vec<[usize; 2]>,
 ) -> Result<ConstrainedDelaunayTriangulation<Point2<f64>>, SolidError> {

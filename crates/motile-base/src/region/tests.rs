@@ -7,6 +7,12 @@ fn lengths_and_periods_are_those_of_the_fluid() {
     assert_eq!((channel.drive(), channel.drive().and_then(Drive::flux)), (Some(Drive::Flux(0.5)), Some(0.5)));
     let square = Region::Box { lengths: [6.0, 5.0] };
     assert_eq!((square.lengths(), square.periods(), square.drive()), ([6.0, 5.0], [Some(6.0), Some(5.0)], None));
+    // A tube whose sides come first in or out is as wide.
+    for amplitude in [0.25, -0.25] {
+        let shape = TubeShape::Sinusoidal { amplitude, period: 4.0 };
+        let tube = Region::Tube { radius: 2.0, shape, drive: Drive::ZeroFlux, length: Some(16.0) };
+        assert_eq!((tube.lengths(), tube.periods()), ([16.0, 4.5], [None; 2]));
+    }
     assert_eq!((Region::Plane.lengths(), Region::Plane.periods()), ([f64::INFINITY; 2], [None; 2]));
 }
 

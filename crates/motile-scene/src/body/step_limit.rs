@@ -60,3 +60,6 @@ impl StepLimit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

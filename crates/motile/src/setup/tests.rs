@@ -919,3 +919,28 @@ fn narrow_regions_are_refused() {
     let error = refused(&Setup { flow: FlowSetup { poiseuille, ..FlowSetup::default() }, ..of(Region::Plane) });
     assert!(error.starts_with("flow.poiseuille.half-width = 1e-300: "), "{error}");
 }
+
+/// A flux is given for layers of one viscosity, whether an interface names its own or not.
+#[test]
+fn a_flux_is_that_of_one_viscosity() {
+    let made = |viscosity: Option<f64>| {
+        let interfaces = vec![InterfaceSetup { viscosity, ..InterfaceSetup::default() }];
+        let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::Flux(0.5) };
+        Setup { region, droplets: Vec::new(), interfaces, ..Setup::default() }.check()
+    };
+    let same = Setup::default().viscosity;
+    assert!(made(None).is_ok() && made(Some(same)).is_ok());
+    let error = made(Some(2.0 * same)).unwrap_err().to_string();
+    assert!(error.contains("flux = 0.5") && error.contains("different viscosity"), "{error}");
+}
+
+/// An integrator without implicit parts takes neither particles alone nor a gel alone.
+#[test]
+fn what_diffuses_is_refused_where_it_is_not_stepped() {
+    let of = |droplet: DropletSetup| {
+        Setup { integrator: IntegratorKind::RungeKutta, droplets: vec![droplet], ..Setup::default() }.check()
+    };
+    assert!(of(DropletSetup::passive(1.0)).is_ok());
+    let error = of(DropletSetup::active(-1.0)).unwrap_err().to_string();
+    assert!(error.starts_with("integrator = runge-kutta"), "{error}");
+}

@@ -235,3 +235,24 @@ proptest! {
         prop_assert!((s[0][1][1] + n[0][1][1] - b.quadrupole.unwrap()[0][1][1]).abs() < 1e-12);
     }
 }
+
+/// In axes at an angle to those of a stretched droplet the stresslet is that tensor in these axes: `s cos 2a` on the
+/// diagonal, `s sin 2a` off it.
+#[test]
+fn stresslets_turn_with_the_axes() {
+    let markers = Curve::ellipse(1.5, 0.7).unwrap().markers(200).unwrap();
+    let forces = forces(&markers, |_| 2.0);
+    let rest = vec![Vec2::ZERO; 200];
+    let seen = |angle: f64| {
+        let frame = Frame::new(Vec2::ZERO, angle).unwrap();
+        force_moments(&markers, &forces, &rest, [1.0; 2], Convention::FarField, &frame).unwrap().stresslet()
+    };
+    let own = seen(0.0)[0][0];
+    assert!(own < -1.0 && seen(0.0)[0][1].abs() < 1e-12, "a tension pulls its ends together: {own}");
+    for angle in [0.3, 1.0, -2.2] {
+        let [[xx, xy], [yx, yy]] = seen(-angle);
+        let expected = [own * (2.0 * angle).cos(), own * (2.0 * angle).sin()];
+        assert!((xx - expected[0]).abs() + (xy - expected[1]).abs() < 1e-11, "{angle}: {xx} {xy} {expected:?}");
+        assert!((yx - xy).abs() + (yy + xx).abs() < 1e-12);
+    }
+}

@@ -9,6 +9,7 @@ fn the_pressure_is_minus_the_derivative_of_the_energy() {
         let slope = (repulsion.energy(gap - step) - repulsion.energy(gap + step)) / (2.0 * step);
         assert!((slope / repulsion.pressure(gap) - 1.0).abs() < 1e-5, "{gap}: {slope} {}", repulsion.pressure(gap));
         let rate = 0.25 * gap * (repulsion.pressure(gap - step) - repulsion.pressure(gap + step)) / (2.0 * step);
+        assert!((4.0 * repulsion.rate(gap, 4.0) / repulsion.rate(gap, 1.0) - 1.0).abs() < 1e-15, "{gap}");
         assert!(gap < 0.0041 || (rate / repulsion.rate(gap, 1.0) - 1.0).abs() < 1e-4, "{gap}: {rate}");
     }
     assert_eq!([repulsion.pressure(0.2), repulsion.energy(0.3)], [0.0; 2]);

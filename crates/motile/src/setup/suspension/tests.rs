@@ -202,3 +202,17 @@ fn ten_lines_are_a_thousand_droplets() {
         assert!(error.contains(words), "{error}");
     }
 }
+
+/// Where a channel has room for one row alone, this is in the middle.
+#[test]
+fn one_row_in_a_channel_is_on_its_axis() {
+    let row = SuspensionSetup {
+        count: Some(3),
+        radius: Some(Distribution::Value(1.0)),
+        arrangement: Arrangement::Lattice,
+        ..SuspensionSetup::default()
+    };
+    let placed = of(row, channel(12.0, 2.4)).placed().unwrap();
+    assert!(placed.droplets.iter().all(|droplet| droplet.centre[1] == 0.0), "{:?}", placed.droplets[0].centre);
+    assert_eq!(placed.droplets.len(), 3);
+}
