@@ -5,3 +5,4 @@ mod copies;
 mod killed;
 mod parameters;
 mod suite;
+mod taken_over;

@@ -1,7 +1,7 @@
 //! Rigid bodies that move freely in the flow.
 
 use motile_base::{Vec2, all_points_finite, at_least, polygon::area_and_arm, positive};
-use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe};
+use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, points};
 
 use crate::SolidError;
 
@@ -173,6 +173,11 @@ impl Body for RigidBody {
 
     fn mirror(&self, _markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
         image.copy_from_slice(&[state[0], -state[1], -state[2]]);
+        true
+    }
+
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        points::translate(by, &mut state[..2]);
         true
     }
 

@@ -165,6 +165,11 @@ impl Body for Shell {
         true
     }
 
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        points::translate(by, state);
+        true
+    }
+
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         self.motions.copy_from_slice(velocities);
         if let Some(modes) = self.modes {

@@ -1,4 +1,4 @@
-//! Area and centroid of a closed polygon.
+//! Area and centroid of a closed polygon, and what lies within it.
 
 use crate::Vec2;
 
@@ -25,6 +25,15 @@ pub fn area_and_arm(points: &[Vec2]) -> (f64, Vec2) {
         (area + 0.5 * twice, first + (a + b) * (twice / 6.0))
     });
     (area, first / area)
+}
+
+/// True if a point lies within the closed polygon through points, of either order; on an edge either answer.
+#[must_use]
+pub fn contains(points: &[Vec2], point: Vec2) -> bool {
+    let crossed = edges(points).filter(|(a, b)| {
+        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    });
+    crossed.count() % 2 == 1
 }
 
 #[cfg(test)]

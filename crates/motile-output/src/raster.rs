@@ -98,6 +98,18 @@ impl Raster {
         self.cells
     }
 
+    /// Lower left corner (length).
+    #[must_use]
+    pub fn origin(&self) -> [f64; 2] {
+        self.origin
+    }
+
+    /// Sides along x and y (length).
+    #[must_use]
+    pub fn size(&self) -> [f64; 2] {
+        self.size
+    }
+
     /// Sample points (length), in the order of the samples.
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {

@@ -67,7 +67,7 @@ pub struct Snapshot {
     pub time: f64,
     /// Raster of the sample points of the flow.
     pub raster: Raster,
-    /// Velocity, its gradient and the pressure at the sample points.
+    /// Velocity, its gradient and the pressure at the sample points; empty without the flow.
     pub flow: Vec<FlowSample>,
     /// Droplets, in the order of addition.
     pub droplets: Vec<DropletOutline>,
@@ -95,6 +95,15 @@ impl Snapshot {
         let points = raster.points();
         let mut flow = vec![FlowSample::default(); points.len()];
         system.sample(&points, &mut flow)?;
+        Ok(Self { flow, ..Self::of_bodies(system, raster)? })
+    }
+
+    /// Snapshot of the bodies alone, without the flow and what it costs: no picture can be drawn of it that shows the
+    /// flow.
+    ///
+    /// # Errors
+    /// [`OutputError::Interface`]: a droplet without area.
+    pub fn of_bodies<H: Hydrodynamics>(system: &System<H>, raster: Raster) -> Result<Self, OutputError> {
         let shape = |(_, droplet): (_, &ActiveDroplet)| {
             let markers = droplet.markers().to_vec();
             let concentration = at_markers(droplet.concentrations());
@@ -112,7 +121,7 @@ impl Snapshot {
             inside: system.bodies().map(|(_, body)| InteriorField::of(body)).collect(),
             time: system.time(),
             raster,
-            flow,
+            flow: Vec::new(),
             droplets: system.bodies().map(shape).collect::<Result<_, OutputError>>()?,
             interfaces: system.bodies().map(|(_, body): (_, &ActiveInterface)| InterfaceLine::of(body)).collect(),
             solids: system

@@ -145,11 +145,16 @@ impl CsvTable {
     /// [`OutputError::Count`], [`OutputError::Write`].
     pub fn push(&mut self, row: &[f64]) -> Result<(), OutputError> {
         OutputError::check_count("values of a row", row.len(), self.names.len())?;
-        let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
-        let fields: Vec<String> = row.iter().map(field).collect();
-        writeln!(self.file, "{}", fields.join(",")).map_err(OutputError::writing(&self.path))?;
+        writeln!(self.file, "{}", Self::line(row)).map_err(OutputError::writing(&self.path))?;
         self.rows.push(row.to_vec());
         Ok(())
+    }
+
+    /// Line of a file for a row, without its end. Numbers that are not finite become empty fields.
+    #[must_use]
+    pub fn line(row: &[f64]) -> String {
+        let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
+        row.iter().map(field).collect::<Vec<String>>().join(",")
     }
 
     /// Rows so far.

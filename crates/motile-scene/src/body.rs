@@ -145,6 +145,12 @@ pub trait Body: Any + fmt::Debug + Send {
         false
     }
 
+    /// Moves a state of the body by `by` (length), all else as it is. `false` where there is no such operation, as by
+    /// default.
+    fn translate(&self, _by: Vec2, _state: &mut [f64]) -> bool {
+        false
+    }
+
     /// Parameters of the body: named numbers that stay the same over a run, such as its
     /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
     /// out if it may change.

@@ -172,6 +172,61 @@ impl<H: Hydrodynamics> Scene<H> {
         })
     }
 
+    /// Goes on from a checkpoint of another scene of the same bodies, whose parameters, region or imposed flow may be
+    /// others than here: bodies take over their places and what they carry, the scene the time, the number of steps
+    /// and the strain of a sheared box. The flow is computed anew, time steps start afresh. After an error the scene is
+    /// as it was.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignCheckpoint`] for other bodies or another number of them, [`SceneError::Body`] for a state
+    /// that a body refuses, such as one of another number of markers; places at which bodies overlap, or lie beyond
+    /// walls, here.
+    pub fn take_over(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        self.compare_bodies(checkpoint)?;
+        let before = self.checkpoint("");
+        let taken = self.take_bodies(checkpoint, &before);
+        taken.inspect_err(|_| {
+            let restored = self.take(&before);
+            debug_assert!(restored.is_ok());
+        })
+    }
+
+    fn take_bodies(&mut self, checkpoint: &Checkpoint, before: &Checkpoint) -> Result<(), SceneError> {
+        let records = checkpoint.bodies.iter().map(|part| &part.saved);
+        let system = self.system_mut();
+        system.load(records, &before.flow, checkpoint.time, checkpoint.steps as usize)?;
+        let periods = checkpoint.domain.periods;
+        if let Some(height) = periods[1] {
+            system.take_strain(periods.tilt / height)?;
+        }
+        system.forget_motion();
+        system.evaluate()?;
+        self.control = crate::scene::StepControl::default();
+        self.report = checkpoint.report.clone();
+        self.system_mut().findings.clone_from(&checkpoint.findings);
+        Ok(())
+    }
+
+    /// Refuses a checkpoint of other bodies, by their number and names, or of a time that is none.
+    fn compare_bodies(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        let system = self.system();
+        let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
+        let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
+        if expected != found {
+            return foreign(format!("it has {found} bodies, this scene {expected}"));
+        }
+        for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
+            let (here, there) = (body.name(), &part.name);
+            if here != there {
+                return foreign(format!("its body {index} is {there:?} where this scene has {here:?}"));
+            }
+        }
+        if !(checkpoint.time.is_finite() && usize::try_from(checkpoint.steps).is_ok()) {
+            return foreign(format!("its time is {} after {} steps", checkpoint.time, checkpoint.steps));
+        }
+        Ok(())
+    }
+
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
         let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
@@ -185,22 +240,13 @@ impl<H: Hydrodynamics> Scene<H> {
             return foreign(format!("its domain has {}, this one {}", describe(checkpoint.domain), describe(domain)));
         }
         compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
-        let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
-        if expected != found {
-            return foreign(format!("it has {found} bodies, this scene {expected}"));
-        }
-        for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
-            let (here, there) = (body.name(), &part.name);
-            if here != there {
-                return foreign(format!("its body {index} is {there:?} where this scene has {here:?}"));
-            }
+        self.compare_bodies(checkpoint)?;
+        for ((_, body), part) in system.all_bodies().zip(&checkpoint.bodies) {
+            let here = body.name();
             compare_properties(here, &body.properties(), &part.properties)?;
             if kind(body.kind()) != part.kind {
                 return foreign(format!("the markers of {here} are of another kind"));
             }
-        }
-        if !(checkpoint.time.is_finite() && usize::try_from(checkpoint.steps).is_ok()) {
-            return foreign(format!("its time is {} after {} steps", checkpoint.time, checkpoint.steps));
         }
         Ok(())
     }

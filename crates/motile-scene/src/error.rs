@@ -433,6 +433,12 @@ pub enum SceneError {
         /// Difference.
         problem: String,
     },
+    /// A body that cannot be moved as a whole.
+    #[error("{body} cannot be moved as a whole: only droplets, rigid bodies, shells and plain markers can")]
+    Immovable {
+        /// Name of the body.
+        body: String,
+    },
     /// A handle of another scene.
     #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
     ForeignHandle,

@@ -18,6 +18,14 @@ pub fn mirror(markers: &[usize], state: &[f64], image: &mut [f64]) {
     }
 }
 
+/// Moves the points of a state by `by`.
+pub fn translate(by: Vec2, state: &mut [f64]) {
+    for pair in state.chunks_exact_mut(2) {
+        pair[0] += by.x;
+        pair[1] += by.y;
+    }
+}
+
 /// Reads marker positions (length) from a state that [`write()`] wrote.
 ///
 /// # Errors

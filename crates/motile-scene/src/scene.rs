@@ -17,7 +17,7 @@ pub(crate) use system::Findings;
 pub use system::{Imposed, System};
 pub use warnings::Warnings;
 
-use motile_base::{InputError, finite, positive};
+use motile_base::{InputError, Vec2, finite, positive};
 
 use crate::{
     Body, Hydrodynamics, Observe, SceneError,
@@ -127,6 +127,24 @@ impl<H: Hydrodynamics> Scene<H> {
     /// [`SceneError::ForeignHandle`] for a handle of another scene.
     pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
         self.system.body_mut(handle)
+    }
+
+    /// Moves bodies by `by` (length) at once, between steps: a droplet and what is inside it, say. After an error the
+    /// scene is as it was.
+    ///
+    /// # Errors
+    /// A displacement that is not finite; [`SceneError::ForeignHandle`]; [`SceneError::Immovable`] for a body that
+    /// cannot be moved as a whole; a place where it would overlap another body or lie beyond a wall.
+    pub fn translate(&mut self, bodies: &[Handle<dyn Body>], by: Vec2) -> Result<(), SceneError> {
+        finite("the displacement in x", by.x)?;
+        finite("the displacement in y", by.y)?;
+        self.system.write_state(&mut self.saved);
+        self.system.write_lengths(&mut self.saved_lengths);
+        let moved = self.system.translate(bodies, by);
+        if moved.is_err() {
+            self.system.restore(&self.saved_lengths, &self.saved)?;
+        }
+        moved
     }
 
     /// Observables of a body in the present state, such as those of a droplet; the flow is computed if it is not known

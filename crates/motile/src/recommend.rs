@@ -1,9 +1,10 @@
 //! Settings for an error that is asked for.
 
+use motile_base::Region;
 use motile_scene::StepSize;
 
 use crate::SetupError;
-use crate::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
+use crate::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup};
 
 /// Contents of a scene that set its errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,6 +99,46 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
         return Err(SetupError::TargetError { target: target_error, smallest, largest: LARGEST });
     };
     Ok(Recommendation { method, step: StepSize::default() })
+}
+
+impl Setup {
+    /// The largest relative error of the speed of a steady swimmer (no dimension) that was measured with settings that
+    /// are no finer than these, in the kind of scene that this is, as [`recommend`] knows them; `None` for settings
+    /// coarser than all that were measured, other kernels than the default, and scenes that nothing was measured for:
+    /// unbounded fluid, three dimensions, walls that are elastic or curved.
+    ///
+    /// ```
+    /// use motile::prelude::*;
+    ///
+    /// assert_eq!(Setup::default().expected_error(), Some(0.0007));
+    /// let coarse = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    /// assert_eq!(Setup { method: coarse, ..Setup::default() }.expected_error(), Some(0.0085));
+    /// assert_eq!(Setup { region: Region::Plane, ..Setup::default() }.expected_error(), None);
+    /// ```
+    #[must_use]
+    pub fn expected_error(&self) -> Option<f64> {
+        if !(self.solids.is_empty() && self.walls.is_empty() && self.interfaces.is_empty()) {
+            return None;
+        }
+        let viscosities = self.droplets.iter().filter_map(|droplet| droplet.viscosity);
+        let differ = viscosities.chain([self.viscosity]).any(|viscosity| viscosity != self.viscosity);
+        let scene = match self.region {
+            Region::Box { .. } if differ => SceneKind::ViscosityContrast,
+            Region::Box { .. } => SceneKind::Box,
+            Region::Channel { .. } if !differ => SceneKind::Channel,
+            _ => return None,
+        };
+        let as_fine = |known: &Method| match (self.method, known) {
+            (Method::Integral(here), Method::Integral(there)) => here.nodes >= there.nodes && here.cells >= there.cells,
+            (Method::Layers(here), Method::Layers(there)) => here.nodes >= there.nodes && here.cells >= there.cells,
+            (Method::Grid(here), Method::Grid(there)) => {
+                here.spacing <= there.spacing && GridMethod { spacing: there.spacing, ..here } == *there
+            }
+            _ => false,
+        };
+        let finest = measured(scene, self.method.kind()).into_iter().rev().find(|(_, known)| as_fine(known));
+        finest.map(|(error, _)| error)
+    }
 }
 
 /// Number of droplets from which on a grid is cheaper than boundary integrals at the same error

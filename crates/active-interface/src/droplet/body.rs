@@ -74,6 +74,10 @@ impl Body for ActiveDroplet {
         self.interface.mirror(markers, interface, interface_of_image)
     }
 
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        self.interface.translate(by, state)
+    }
+
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
         self.interface.begin_step(view, step)
     }

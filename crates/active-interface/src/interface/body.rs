@@ -94,6 +94,11 @@ impl Body for ActiveInterface {
         matches!(self.law.motion, Motion::Equidistributed { .. }) && self.advance() == 0.0
     }
 
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        points::translate(by, &mut state[..2 * self.marker_count()]);
+        true
+    }
+
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
         Ok(self.prepare_step(view, self.mean_viscosity(view), step.stabilised)?)
     }

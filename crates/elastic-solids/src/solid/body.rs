@@ -132,6 +132,12 @@ impl Body for Solid {
         self.relaxation.is_none() && self.bonds.is_none()
     }
 
+    /// Only of a solid that nothing holds.
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        points::translate(by, &mut state[..2 * self.free.len()]);
+        self.free.len() == self.positions.len() && self.tethers.is_empty()
+    }
+
     /// Its whole surface; pinned points are fixed.
     fn surfaces(&self) -> Vec<SurfaceCurve> {
         let places = self.mesh.points();

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Look;
 use motile::elastic_solids::ChannelShape;
 use motile::prelude::*;
 use motile::setup::{Hold, Material, SolidOutline, SolidSetup};
@@ -53,6 +54,10 @@ fn all_droplets_and_solids_of_any_material_are_seen() {
     for (droplet, x) in seen.droplets.iter().zip([-2.0, 2.0]) {
         assert!((droplet.centroid - Vec2::new(x, 0.0)).length() < 1e-6, "{}", droplet.centroid);
     }
+    // The same without the flow, of which no picture is drawn.
+    let bodies = Snapshot::of_bodies(scene.system(), raster).unwrap();
+    assert!(bodies.droplets == seen.droplets && bodies.solids == seen.solids && bodies.walls == seen.walls);
+    assert!(bodies.flow.is_empty() && Look::default().svg(&bodies, &[]).is_err());
     // Areas are those of the setup, of the disc's polygon a little less.
     let areas: Vec<f64> = seen.solids.iter().map(|solid| polygon_moments(&solid.area[0]).unwrap().area).collect();
     let exact = [8.0, 8.0, 0.25 * std::f64::consts::PI];

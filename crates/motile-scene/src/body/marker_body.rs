@@ -191,6 +191,11 @@ impl Body for MarkerBody {
         true
     }
 
+    fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
+        points::translate(by, state);
+        true
+    }
+
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let rate = self.decay_rate(view);
         if rate > 0.0 {

@@ -225,6 +225,11 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
+    /// Forgets how fast the bodies move: the next step is bounded like a first one.
+    pub(crate) fn forget_motion(&mut self) {
+        self.clock.first_step = true;
+    }
+
     /// Takes over velocities that were computed at the present state, if they are those that are found here: another
     /// grid, kernel or treatment of surfaces has others.
     pub(crate) fn take_flow(

@@ -2,7 +2,7 @@
 
 use active_interface::Motion;
 use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
-use motile_base::Vec2;
+use motile_base::polygon::contains;
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
@@ -122,7 +122,7 @@ impl Setup {
             let Some((entry, value)) = filled(droplet) else { continue };
             let other = (0..bodies.len()).find(|&other| {
                 other != number
-                    && bodies[other].corners.first().is_some_and(|point| is_inside(*point, &bodies[number].corners))
+                    && bodies[other].corners.first().is_some_and(|point| contains(&bodies[number].corners, *point))
             });
             if let Some(other) = other {
                 let remedy = format!(
@@ -136,13 +136,4 @@ impl Setup {
         }
         Ok(())
     }
-}
-
-/// True if a point lies within a closed polygon.
-fn is_inside(point: Vec2, polygon: &[Vec2]) -> bool {
-    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let crossed = sides.filter(|(a, b)| {
-        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    });
-    crossed.count() % 2 == 1
 }

@@ -132,6 +132,12 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
+    /// Takes over the strain of the images of a sheared box (no dimension); elsewhere there is none.
+    pub(crate) fn take_strain(&mut self, strain: f64) -> Result<(), SceneError> {
+        let sheared = self.background.moves && self.hydrodynamics.fluid_view().domain.periods[1].is_some();
+        if sheared { self.set_flow(self.imposed(), strain) } else { Ok(()) }
+    }
+
     /// Takes the time of the clock over for the imposed flow.
     pub(super) fn set_flow_time(&mut self) -> Result<(), SceneError> {
         self.background.time = self.clock.time;

@@ -1,7 +1,12 @@
 //! The state of all bodies and its rate of change.
 
-use super::{System, bodies::part};
-use crate::{Hydrodynamics, SceneError, integrator::Dynamics};
+use motile_base::Vec2;
+
+use super::{
+    System,
+    bodies::{failure, part},
+};
+use crate::{Body, Handle, Hydrodynamics, SceneError, integrator::Dynamics};
 
 impl<H: Hydrodynamics> Dynamics for System<H> {
     fn state_len(&self) -> usize {
@@ -71,6 +76,24 @@ impl<H: Hydrodynamics> System<H> {
             body.read_state(rest.split_off(..lengths[index]).unwrap_or_default())
         })?;
         self.read_clock(rest)
+    }
+
+    /// Moves bodies by `by` (length), and computes the flow there.
+    pub(crate) fn translate(&mut self, bodies: &[Handle<dyn Body>], by: Vec2) -> Result<(), SceneError> {
+        self.forget_flow();
+        self.forget_motion();
+        for &handle in bodies {
+            let (index, time) = (self.bodies.index_of(handle)?, self.time());
+            let body = self.bodies.list[index].as_mut();
+            let mut state = vec![0.0; body.state_len()];
+            body.write_state(&mut state);
+            if !body.translate(by, &mut state) {
+                return Err(SceneError::Immovable { body: body.name().to_owned() });
+            }
+            body.read_state(&state).map_err(|source| failure(time, body, source))?;
+        }
+        self.evaluate()?;
+        Ok(())
     }
 
     /// Writes the explicit rates of all bodies and of the clock.

@@ -1,0 +1,15 @@
+// The branch of steady states of a scene, in a thread of its own.
+import init, { branch_of } from "./motile.js";
+
+onmessage = async ({ data: { scene, id } }) => {
+  await init();
+  try {
+    branch_of(scene, (activity, speed, _stable, first) => {
+      postMessage({ id, activity, speed, first });
+      return true;
+    });
+    postMessage({ id, done: true });
+  } catch (error) {
+    postMessage({ id, done: true, error: String(error) });
+  }
+};

@@ -1,0 +1,732 @@
+// The page: buttons, sliders, drag and drop of droplets, links and downloads around a simulation in a worker.
+import { Picture } from "./draw.js";
+import { ActivityMap, Plots, short } from "./plots.js";
+import { packed, unpacked } from "./link.js";
+
+const $ = (id) => document.getElementById(id);
+const worker = new Worker("worker.js", { type: "module" });
+const picture = new Picture($("canvas"));
+const plots = new Plots($("plots"));
+const map = new ActivityMap($("map"));
+
+let about = null;
+let number = 0;
+let previous = 0;
+let preset = null;
+let presets = [];
+let playing = false;
+let droplets = 0;
+let last = null;
+let touched = 0;
+let changed = true;
+let scene = "";
+let asked = 0;
+const answers = new Map();
+
+function send(message) {
+  worker.postMessage(message);
+}
+
+/** Answer of the worker to a question. */
+function ask(message) {
+  asked += 1;
+  const id = `q${asked}`;
+  const promise = new Promise((resolve, reject) => answers.set(id, { resolve, reject }));
+  send({ ...message, id });
+  return promise;
+}
+
+let noteTimer = 0;
+function note(text, bad = false) {
+  clearTimeout(noteTimer);
+  $("note").textContent = text;
+  $("note").classList.toggle("bad", bad);
+  if (text && !bad) noteTimer = setTimeout(() => note(""), 3500);
+}
+
+function said(error) {
+  return error.message.replace(/^the scene file is not understood: /, "");
+}
+
+// ---------------------------------------------------------------------------------------------------- scenes
+
+function load(text, { name = null, play = false } = {}) {
+  previous = number;
+  number += 1;
+  preset = name;
+  for (const button of $("presets").children)
+    button.setAttribute("aria-pressed", String(button.dataset.name === name));
+  wanted = { play, text };
+  document.documentElement.dataset.steps = "0";
+  note("");
+  $("problem").textContent = "";
+  setPlaying(false);
+  send({ kind: "load", scene: text, id: number });
+}
+let wanted = { play: false, text: "" };
+
+function showPresets() {
+  presets.forEach(({ name, title, about: words }, k) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.dataset.name = name;
+    button.title = `${words} (${k + 1})`;
+    button.setAttribute("aria-pressed", "false");
+    const image = document.createElement("img");
+    image.src = `thumbnails/${name}.png`;
+    image.alt = "";
+    image.width = 144;
+    image.height = 96;
+    button.append(image, title);
+    button.addEventListener("click", () => choose(name));
+    $("presets").append(button);
+  });
+}
+
+function choose(name) {
+  const found = presets.find((one) => one.name === name) ?? presets[0];
+  history.replaceState(null, "", location.pathname + location.search);
+  load(found.scene, { name: found.name, play: true });
+}
+
+async function fromAddress() {
+  try {
+    const text = await unpacked(location.hash);
+    if (text !== null) {
+      load(text, { play: true });
+      return;
+    }
+  } catch {
+    note("The link is not complete: it holds no scene.", true);
+  }
+  const named = /^#p=([a-z]+)$/.exec(location.hash)?.[1];
+  const found = presets.find((one) => one.name === named) ?? presets[0];
+  load(found.scene, { name: found.name, play: true });
+}
+
+const knobs = new Map();
+
+function showAbout(message) {
+  const fresh = message.number !== picture.number;
+  about = message.about;
+  scene = message.scene;
+  if (fresh) {
+    picture.begin(about);
+    picture.number = message.number;
+    plots.begin();
+    touched = 0;
+    $("scene").value = wanted.text.trim() === "" ? scene : wanted.text.trimEnd() + "\n";
+  } else {
+    picture.about = about;
+    $("scene").value = scene;
+  }
+  showKnobs();
+  showCode();
+  $("quality").textContent =
+    about.error === null
+      ? "The error of these settings was not measured for a scene like this."
+      : `Settings of this scene: speeds of steady swimmers err by at most ${(100 * about.error).toPrecision(1)} %.`;
+  followBranch();
+  changed = true;
+}
+
+function showKnobs() {
+  const box = $("knobs");
+  const names = about.knobs.map((knob) => knob.name).join();
+  if (box.dataset.names !== names) {
+    box.replaceChildren();
+    knobs.clear();
+    box.dataset.names = names;
+    for (const { name } of about.knobs) {
+      const row = document.createElement("div");
+      row.className = "knob";
+      const label = document.createElement("label");
+      label.htmlFor = `knob-${name}`;
+      const output = document.createElement("output");
+      output.htmlFor = `knob-${name}`;
+      const input = document.createElement("input");
+      Object.assign(input, { type: "range", id: `knob-${name}`, min: 0, max: 1000, step: 1 });
+      row.append(label, output, input);
+      box.append(row);
+      input.addEventListener("input", () => turn(name, fromSlider(knobs.get(name).knob, Number(input.value))));
+      knobs.set(name, { label, output, input, knob: null });
+    }
+  }
+  for (const knob of about.knobs) {
+    const row = knobs.get(knob.name);
+    row.knob = knob;
+    row.label.textContent = knob.label;
+    if (!row.busy) row.input.value = toSlider(knob, knob.value);
+    showValue(row, row.busy ? fromSlider(knob, Number(row.input.value)) : knob.value);
+  }
+}
+
+function showValue(row, value) {
+  row.output.textContent = short(value)
+    .replace(/(\.\d*?)0+$/, "$1")
+    .replace(/\.$/, "");
+  row.input.setAttribute("aria-valuetext", row.output.textContent);
+}
+
+function toSlider({ least, most, logarithmic }, value) {
+  const part = logarithmic ? Math.log(value / least) / Math.log(most / least) : (value - least) / (most - least);
+  return Math.round(1000 * part);
+}
+
+function fromSlider({ least, most, logarithmic }, at) {
+  const value = logarithmic ? least * (most / least) ** (at / 1000) : least + (at / 1000) * (most - least);
+  return logarithmic ? Number(value.toPrecision(3)) : Math.round(50 * value) / 50;
+}
+
+let turning = null;
+function turn(name, value) {
+  const row = knobs.get(name);
+  if (!row) return;
+  row.busy = true;
+  clearTimeout(row.timer);
+  row.timer = setTimeout(() => {
+    row.busy = false;
+  }, 300);
+  showValue(row, value);
+  // Of many values on the way one at a time is taken.
+  if (turning) {
+    turning.next = [name, value];
+    return;
+  }
+  turning = { next: null };
+  send({ kind: "turn", knob: name, value });
+  setTimeout(() => {
+    const next = turning?.next;
+    turning = null;
+    if (next) turn(...next);
+  }, 60);
+}
+
+// ---------------------------------------------------------------------------------------------------- run
+
+const ICONS = { play: "M5 3l12 7-12 7z", pause: "M4 3h4.500v14h-4.500zM11.500 3h4.500v14h-4.500z" };
+
+function setPlaying(value) {
+  playing = value;
+  $("play").setAttribute("aria-label", value ? "Pause" : "Play");
+  $("play")
+    .querySelector("path")
+    .setAttribute("d", value ? ICONS.pause : ICONS.play);
+  if (!value) $("rate").textContent = "";
+}
+
+function play() {
+  note("");
+  setPlaying(!playing);
+  send({ kind: playing ? "play" : "pause" });
+  if (!playing) picture.catchUp();
+  changed = true;
+}
+
+function step() {
+  setPlaying(false);
+  send({ kind: "step" });
+}
+
+function reset() {
+  setPlaying(false);
+  wanted = { play: false, text: $("scene").value };
+  plots.begin();
+  picture.number = null;
+  send({ kind: "reset" });
+}
+
+function pace() {
+  return Number($("pace").value);
+}
+
+function take(message) {
+  last = message;
+  droplets = message.shapes ? countDroplets(message) : droplets;
+  picture.add(message);
+  plots.add(message.series, droplets, message.all);
+  if (!playing) picture.catchUp();
+  map.here = { activity: about?.activity, speed: plots.last(0, 0) };
+  changed = true;
+  if (!firstFrame) {
+    firstFrame = performance.now();
+    document.documentElement.dataset.first = String(Math.round(firstFrame));
+    $("loading").hidden = true;
+  }
+  document.documentElement.dataset.steps = String(message.steps);
+  send({ kind: "shown" });
+}
+let firstFrame = 0;
+
+function countDroplets(message) {
+  let count = 0;
+  for (let at = 0; at < message.shapes.length; at += 2 + 3 * message.shapes[at + 1])
+    if (message.shapes[at] === 0) count += 1;
+  return count;
+}
+
+function showRun() {
+  const state = picture.state();
+  if (!state) return;
+  $("time").textContent = `t = ${state.time.toFixed(2)}`;
+  const rate = $("rate");
+  if (playing && last?.rate) {
+    const slow = Number.isFinite(pace()) && last.pace > 0 && last.pace < 0.85 * pace();
+    rate.textContent =
+      `${Math.round(last.rate)} steps a second` +
+      (slow ? `, slower than the pace: ${last.pace.toFixed(1)} a second` : "");
+    rate.classList.toggle("bad", slow);
+  }
+}
+
+worker.onmessage = ({ data }) => {
+  if (data.kind === "ready") {
+    presets = data.presets;
+    showPresets();
+    sendLook();
+    fromAddress();
+    return;
+  }
+  if (data.kind === "answer") {
+    answers.get(data.id)?.resolve(data.answer);
+    answers.delete(data.id);
+    return;
+  }
+  if (data.kind === "grabbed") {
+    grabbed(data.droplet);
+    return;
+  }
+  if (data.kind === "error") {
+    complain(data);
+    return;
+  }
+  if (data.number !== number) {
+    if (data.kind === "frame") send({ kind: "shown" });
+    return;
+  }
+  if (data.kind === "about") {
+    showAbout(data);
+    if (wanted.play) {
+      wanted.play = false;
+      setPlaying(true);
+      send({ kind: "play" });
+    }
+  } else if (data.kind === "frame") take(data);
+  else if (data.kind === "ended") {
+    setPlaying(false);
+    note(`The run has reached t = ${data.time.toFixed(2)}.`);
+  }
+};
+
+function complain({ error, place, id }) {
+  if (answers.has(id)) {
+    answers.get(id).reject(new Error(error.message));
+    answers.delete(id);
+    return;
+  }
+  if (place === "load") {
+    // The scene before is still there.
+    number = previous;
+    $("problem").textContent = said(error);
+    note("This text is no scene that can be run; what is wrong stands below it.", true);
+    $("loading").hidden = true;
+  } else if (place === "drag") note("There is no room there.");
+  else if (place === "turn") {
+    note(said(error), true);
+    for (const row of knobs.values()) row.busy = false;
+    if (about) showKnobs();
+  } else {
+    setPlaying(false);
+    note(said(error), true);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------- pictures
+
+let before = performance.now();
+let sentView = "";
+function tick(now) {
+  const seconds = Math.min((now - before) / 1000, 0.1);
+  before = now;
+  if (playing && picture.follow(seconds, last?.pace > 0 ? Math.min(pace(), 1.05 * last.pace) : pace()))
+    changed = true;
+  if (about && picture.frames.length && changed && !document.hidden) {
+    changed = false;
+    if (picture.draw()) changed = true;
+    showRun();
+    plots.draw();
+    if (about.map) map.draw();
+    $("scale-top").textContent = picture.top ? `${picture.top}× mean` : "";
+    const view = picture.view;
+    if (view) {
+      const key = [view.left, view.low, view.right, view.high].map((value) => value.toFixed(2)).join();
+      if (key !== sentView) {
+        sentView = key;
+        send({ kind: "look", look: { view: [view.left, view.low, view.right, view.high] } });
+      }
+    }
+    describe();
+  }
+  requestAnimationFrame(tick);
+}
+
+let described = 0;
+async function warn() {
+  try {
+    const list = JSON.parse(await ask({ kind: "ask", what: "warnings" }));
+    $("warnings").textContent = list.join(" ");
+  } catch {
+    // Another scene has come in between.
+  }
+}
+
+function describe() {
+  const now = performance.now();
+  if (now - described < 1500) return;
+  described = now;
+  warn();
+  const speed = short(plots.last(0, 0));
+  const count = droplets === 1 ? "One droplet" : `${droplets} droplets`;
+  $("canvas").setAttribute(
+    "aria-label",
+    `${count} at time ${picture.state().time.toFixed(1)}; speed of the first ${speed} radii per time`,
+  );
+  $("map").setAttribute(
+    "aria-label",
+    `Steady speeds over the activity; the droplet has activity ${short(about.activity ?? NaN)} and speed ${speed}`,
+  );
+}
+
+function sendLook() {
+  send({ kind: "look", look: { ...picture.look }, fresh: true });
+}
+
+for (const button of $("look").querySelectorAll("[data-look]")) {
+  button.addEventListener("click", () => {
+    const on = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(on));
+    picture.look[button.dataset.look] = on;
+    if (on && button.dataset.look === "pressure") picture.flowChanged = true;
+    sendLook();
+    changed = true;
+  });
+}
+
+function restyle() {
+  picture.restyle();
+  picture.drawScale($("scale"));
+  changed = true;
+}
+const dark = matchMedia("(prefers-color-scheme: dark)");
+function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  restyle();
+}
+setTheme(dark.matches ? "dark" : "light");
+dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
+$("theme").addEventListener("click", () =>
+  setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"),
+);
+new ResizeObserver(() => {
+  changed = true;
+}).observe($("view"));
+
+// ---------------------------------------------------------------------------------------------------- map
+
+let branchWorker = null;
+let branchKey = "";
+let branchScene = 0;
+function followBranch() {
+  $("mapcard").hidden = !about.map;
+  if (!about.map) return;
+  // The branch does not depend on where along it the droplet is.
+  const key = scene
+    .split("\n")
+    .filter((line) => !/activity|centre|angle|start/.test(line))
+    .join("\n");
+  if (key === branchKey) return;
+  branchKey = key;
+  branchScene += 1;
+  map.begin();
+  clearTimeout(followBranch.timer);
+  followBranch.timer = setTimeout(() => {
+    branchWorker?.terminate();
+    branchWorker = new Worker("branch.js", { type: "module" });
+    const id = branchScene;
+    branchWorker.onmessage = ({ data }) => {
+      if (data.id !== branchScene) return;
+      if (data.done) {
+        branchWorker.terminate();
+        branchWorker = null;
+        document.documentElement.dataset.map = String(map.points.flat().length);
+      } else map.add(data);
+      changed = true;
+    };
+    branchWorker.postMessage({ scene, id });
+  }, 900);
+}
+
+$("map").addEventListener("click", (event) => {
+  const value = Math.round(20 * map.activity(event.offsetX)) / 20;
+  turn("activity", value);
+});
+
+// ---------------------------------------------------------------------------------------------------- pointers
+
+const canvas = $("canvas");
+const pointers = new Map();
+let drag = null;
+let pinch = null;
+
+function at(event) {
+  const box = canvas.getBoundingClientRect();
+  return picture.place(event.clientX - box.left, event.clientY - box.top);
+}
+
+canvas.addEventListener("pointerdown", (event) => {
+  if (!about) return;
+  canvas.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  if (pointers.size === 2) {
+    drag = null;
+    const [a, b] = [...pointers.values()];
+    pinch = { distance: Math.hypot(a[0] - b[0], a[1] - b[1]), zoom: picture.camera.zoom };
+    return;
+  }
+  const place = at(event);
+  drag = {
+    droplet: null,
+    place,
+    from: [event.clientX, event.clientY],
+    camera: { ...picture.camera },
+    scale: picture.view.scale,
+  };
+  canvas.classList.add("holding");
+  send({ kind: "grab", x: place[0], y: place[1] });
+});
+
+function grabbed(droplet) {
+  if (!drag) return;
+  drag.droplet = droplet;
+  if (droplet >= 0) {
+    touched = droplet;
+    picture.held = true;
+  }
+}
+
+let moving = null;
+function moveDroplet(droplet, x, y) {
+  if (moving) {
+    moving.x += x;
+    moving.y += y;
+    return;
+  }
+  moving = { x: 0, y: 0 };
+  send({ kind: "drag", droplet, x, y });
+  setTimeout(() => {
+    const rest = moving;
+    moving = null;
+    if (rest && (rest.x !== 0 || rest.y !== 0)) moveDroplet(droplet, rest.x, rest.y);
+  }, 33);
+}
+
+canvas.addEventListener("pointermove", (event) => {
+  if (!pointers.has(event.pointerId)) return;
+  pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  if (pinch && pointers.size === 2) {
+    const [a, b] = [...pointers.values()];
+    zoomTo((pinch.zoom * Math.hypot(a[0] - b[0], a[1] - b[1])) / pinch.distance);
+    return;
+  }
+  if (!drag || drag.droplet === null) return;
+  if (drag.droplet >= 0) {
+    const place = at(event);
+    const [x, y] = [place[0] - drag.place[0], place[1] - drag.place[1]];
+    if (Math.hypot(x, y) * drag.scale < 1) return;
+    drag.place = place;
+    // The picture of an unbounded region goes along.
+    moveDroplet(drag.droplet, x, y);
+  } else {
+    picture.camera.x = drag.camera.x - (event.clientX - drag.from[0]) / drag.scale;
+    picture.camera.y = drag.camera.y + (event.clientY - drag.from[1]) / drag.scale;
+    changed = true;
+  }
+});
+
+function release(event) {
+  pointers.delete(event.pointerId);
+  if (pointers.size < 2) pinch = null;
+  drag = null;
+  picture.held = false;
+  changed = true;
+  canvas.classList.remove("holding");
+}
+canvas.addEventListener("pointerup", release);
+canvas.addEventListener("pointercancel", release);
+
+function zoomTo(zoom) {
+  picture.camera.zoom = Math.min(Math.max(zoom, 0.3), 8);
+  changed = true;
+}
+canvas.addEventListener(
+  "wheel",
+  (event) => {
+    event.preventDefault();
+    zoomTo(picture.camera.zoom * 1.0016 ** -event.deltaY);
+  },
+  { passive: false },
+);
+canvas.addEventListener("dblclick", () => {
+  picture.camera = { x: 0, y: 0, zoom: 1 };
+  changed = true;
+});
+
+document.addEventListener("keydown", (event) => {
+  const field = event.target.closest("input, textarea, select, [role=tab]");
+  if (event.ctrlKey || event.metaKey || event.altKey || (field && field.type !== "range")) return;
+  const onButton = event.target.closest("button, a");
+  if (event.key === " " && !onButton) play();
+  else if (event.key === ".") step();
+  else if (event.key === "r" || event.key === "R") reset();
+  else if (event.key === "+" || event.key === "=") zoomTo(picture.camera.zoom * 1.25);
+  else if (event.key === "-") zoomTo(picture.camera.zoom / 1.25);
+  else if (/^[1-9]$/.test(event.key) && presets[event.key - 1]) choose(presets[event.key - 1].name);
+  else if (event.target === canvas && event.key.startsWith("Arrow")) {
+    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    moveDroplet(touched, 0.1 * x, 0.1 * y);
+  } else return;
+  event.preventDefault();
+});
+
+// ---------------------------------------------------------------------------------------------------- text
+
+$("play").addEventListener("click", play);
+$("step").addEventListener("click", step);
+$("reset").addEventListener("click", reset);
+$("pace").addEventListener("change", () => send({ kind: "pace", pace: pace() }));
+$("until").addEventListener("change", () => {
+  const value = $("until").value.trim();
+  send({ kind: "until", until: value === "" ? NaN : Number(value) });
+  showCode();
+});
+$("run").addEventListener("click", () => load($("scene").value, { play: true }));
+$("scene").addEventListener("keydown", (event) => {
+  if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) $("run").click();
+});
+
+let way = "command";
+let codeTimer = 0;
+function showCode() {
+  clearTimeout(codeTimer);
+  codeTimer = setTimeout(async () => {
+    const until = Number($("until").value) || 20;
+    try {
+      $("code").textContent = await ask({ kind: "ask", what: "code", arguments: [way, until] });
+    } catch (error) {
+      note(error.message, true);
+    }
+  }, 120);
+}
+const tabs = [...$("ways").children];
+tabs.forEach((tab, k) => {
+  tab.addEventListener("click", () => {
+    for (const other of tabs) {
+      other.setAttribute("aria-selected", String(other === tab));
+      other.tabIndex = other === tab ? 0 : -1;
+    }
+    $("code").setAttribute("aria-labelledby", tab.id);
+    way = tab.dataset.way;
+    showCode();
+  });
+  tab.addEventListener("keydown", (event) => {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!by) return;
+    const next = tabs[(k + by + tabs.length) % tabs.length];
+    next.focus();
+    next.click();
+  });
+});
+
+async function copied(text, words) {
+  try {
+    await navigator.clipboard.writeText(text);
+    note(words);
+  } catch {
+    note("The browser does not let the page copy: take it from the address line.");
+  }
+}
+$("copy").addEventListener("click", () => copied($("code").textContent, "Copied."));
+$("link").addEventListener("click", async () => {
+  history.replaceState(null, "", "#" + (await packed(await ask({ kind: "ask", what: "scene" }))));
+  await copied(location.href, "A link with the whole scene is copied.");
+});
+addEventListener("hashchange", fromAddress);
+
+// ---------------------------------------------------------------------------------------------------- files
+
+function save(blob, name) {
+  const address = URL.createObjectURL(blob);
+  const anchor = document.createElement("a");
+  Object.assign(anchor, { href: address, download: name });
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+const files = {
+  png: () => canvas.toBlob((blob) => save(blob, "motile.png"), "image/png"),
+  svg: async () => save(new Blob([await ask({ kind: "ask", what: "svg" })], { type: "image/svg+xml" }), "motile.svg"),
+  csv: async () => {
+    const name = droplets > 1 ? "droplets.csv" : "trajectory.csv";
+    save(new Blob([await ask({ kind: "ask", what: "csv" })], { type: "text/csv" }), name);
+  },
+};
+for (const button of $("look").querySelectorAll("[data-save]")) {
+  button.addEventListener("click", async () => {
+    try {
+      await files[button.dataset.save]();
+    } catch (error) {
+      note(error.message, true);
+    }
+  });
+}
+
+/** Length of a video (s). */
+const FILM = 10;
+let recorder = null;
+$("film").addEventListener("click", () => {
+  if (recorder) {
+    recorder.stop();
+    return;
+  }
+  if (!window.MediaRecorder || !canvas.captureStream) {
+    note("This browser cannot record videos.", true);
+    return;
+  }
+  const types = ["video/webm;codecs=vp9", "video/webm", "video/mp4"];
+  const mimeType = types.find((type) => MediaRecorder.isTypeSupported(type));
+  recorder = new MediaRecorder(canvas.captureStream(30), { mimeType, videoBitsPerSecond: 6e6 });
+  const parts = [];
+  recorder.ondataavailable = ({ data }) => parts.push(data);
+  recorder.onstop = () => {
+    recorder = null;
+    $("film").setAttribute("aria-pressed", "false");
+    $("film").textContent = "Video";
+    save(new Blob(parts, { type: mimeType }), mimeType.includes("mp4") ? "motile.mp4" : "motile.webm");
+  };
+  recorder.start();
+  $("film").setAttribute("aria-pressed", "true");
+  $("film").textContent = "Stop";
+  note(`Records ${FILM} seconds; press again to end earlier.`);
+  setTimeout(() => recorder?.stop(), 1000 * FILM);
+});
+
+// For tests and for consoles: a run at once, and its numbers.
+window.motile = {
+  go: (options) => {
+    setPlaying(false);
+    return ask({ kind: "go", ...options });
+  },
+  ask: (what, ...list) => ask({ kind: "ask", what, arguments: list }),
+  load: (text) => load(text),
+};
+requestAnimationFrame(tick);

@@ -1,0 +1,252 @@
+//! Logic of the page, on the host.
+
+use motile::motile_base::{Region, Vec2};
+use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
+use motile_web::code::Way;
+use motile_web::concise::concise;
+use motile_web::knob::Knob;
+use motile_web::live::Live;
+use motile_web::preset::PRESETS;
+use motile_web::{branch, dust::Dust, frame};
+
+fn small() -> Setup {
+    Setup {
+        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        droplets: vec![DropletSetup::active(-3.0)],
+        ..Setup::default()
+    }
+}
+
+fn preset(name: &str) -> Setup {
+    let found = PRESETS.iter().find(|preset| preset.name == name).expect("a preset");
+    Setup::from_toml(found.scene).expect("a scene")
+}
+
+#[test]
+fn every_preset_is_a_scene_and_its_short_text_is_the_same_one() {
+    for one in PRESETS {
+        let setup = Setup::from_toml(one.scene).unwrap_or_else(|error| panic!("{}: {error}", one.name));
+        let text = concise(&setup).expect("a text");
+        assert_eq!(Setup::from_toml(&text).expect("a scene"), setup, "{}:\n{text}", one.name);
+        let words: usize = one.scene.lines().filter(|line| !line.starts_with('#')).map(str::len).sum();
+        assert!(text.len() < words + 80, "{}:\n{text}", one.name);
+    }
+}
+
+#[test]
+fn scene_files_of_the_repository_stay_the_same_too() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder") {
+        let given = std::fs::read_to_string(entry.expect("a file").path()).expect("a text");
+        let setup = Setup::from_toml(&given).expect("a scene");
+        let text = concise(&setup).expect("a text");
+        assert_eq!(Setup::from_toml(&text).expect("a scene"), setup, "{text}");
+        assert!(text.len() < given.len(), "{text}");
+        count += 1;
+    }
+    assert!(count > 8, "{count}");
+}
+
+#[test]
+fn the_default_scene_is_one_word_and_nothing_is_left_out_that_matters() {
+    assert_eq!(concise(&Setup::default()).expect("a text"), "[[droplets]]\n");
+    assert_eq!(
+        concise(&small()).expect("a text").lines().collect::<Vec<_>>(),
+        ["method.integral = { nodes = 24, cells = 48 }", "", "[[droplets]]", "particles.activity = -3.0",]
+    );
+}
+
+#[test]
+fn programs_hold_the_scene() {
+    let setup = preset("meeting");
+    for (name, way) in Way::NAMES {
+        let text = way.text(&setup, 12.5).expect("a text");
+        let (_, rest) = text.split_once(["\n\"", "'\n", "\n"][0]).unwrap_or(("", &text));
+        assert!(text.contains("12.5") && !rest.is_empty(), "{name}: {text}");
+        let scene = concise(&setup).expect("a scene");
+        assert!(text.contains(&scene), "{name}: {text}");
+    }
+    assert!(Way::Command.text(&preset("sixteen"), 1.0).expect("a text").contains("--example suspension"));
+    assert!(Way::named("fortran").is_err());
+}
+
+#[test]
+fn steps_are_those_of_a_run() {
+    let mut built = small().build().expect("a scene");
+    built.scene.run(2.0).go().expect("a run");
+    let expected = built.scene.observe(built.droplets[0]).expect("observables").speed();
+    let mut live = Live::new(small()).expect("a scene");
+    while live.step(Some(2.0)).expect("a step") {}
+    assert_eq!((live.time(), live.steps()), (2.0, built.scene.steps()));
+    assert_eq!(live.speed(0).expect("a flow"), Some(expected));
+    assert!(!live.step(Some(2.0)).expect("no step"));
+    assert_eq!(live.speed(1).expect("none"), None);
+    // One row at the start and after each tenth.
+    assert_eq!(live.records(), 21);
+    let (series, csv) = (live.series(0), live.csv());
+    assert_eq!(series.len(), 21 * 4);
+    assert!(series.iter().all(|value| value.is_finite()));
+    let mut lines = csv.lines();
+    assert!(lines.next().expect("a head").starts_with("time,x,y,"));
+    assert_eq!(lines.count(), 21);
+    assert_eq!(live.series(20), series[80..]);
+}
+
+#[test]
+fn tables_of_several_droplets_say_which() {
+    let mut setup = small();
+    setup.region = Region::Box { lengths: [8.0, 4.0] };
+    setup.droplets[0].centre = [-2.0, 0.0];
+    setup.droplets.push(DropletSetup { centre: [2.0, 0.0], ..DropletSetup::active(-2.0) });
+    let live = Live::new(setup).expect("a scene");
+    let csv = live.csv();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines[0].starts_with("time,droplet,x,"), "{csv}");
+    assert!(lines[1].starts_with("0,0,") && lines[2].starts_with("0,1,"), "{csv}");
+    let place = |line: &str| line.split(',').nth(2).and_then(|x| x.parse::<f64>().ok()).expect("a number");
+    assert!((place(lines[1]) + 2.0).abs() < 1e-12 && (place(lines[2]) - 2.0).abs() < 1e-12, "{csv}");
+    assert_eq!(live.series(0).len(), 7);
+}
+
+#[test]
+fn sliders_act_on_the_running_scene_and_on_its_text() {
+    let mut live = Live::new(small()).expect("a scene");
+    while live.step(Some(1.0)).expect("a step") {}
+    let before = live.steps();
+    for (knob, value) in
+        [(Knob::Activity, -4.0), (Knob::ViscosityRatio, 2.0), (Knob::Diffusion, 0.2), (Knob::Size, 7.0)]
+    {
+        live.turn(knob, value).unwrap_or_else(|error| panic!("{knob:?}: {error}"));
+        assert!((knob.value(live.described()).expect("a value") - value).abs() < 1e-12, "{knob:?}");
+    }
+    assert_eq!((live.time(), live.steps()), (1.0, before));
+    for _ in 0..5 {
+        live.step(None).expect("a step");
+    }
+    let text = concise(live.described()).expect("a text");
+    for line in ["region.box.lengths = [7.0, 7.0]", "viscosity = 200.0", "activity = -4.0", "diffusion = 0.2"] {
+        assert!(text.contains(line), "{text}");
+    }
+    // Boxes too small for the droplet, activities beyond the excluded volume: said, and nothing has changed.
+    let refused = live.turn(Knob::Size, 1.5).expect_err("no room");
+    assert!(!refused.message.is_empty());
+    assert!(live.turn(Knob::Diffusion, f64::NAN).expect_err("no number").key.is_some());
+    assert_eq!(concise(live.described()).expect("a text"), text);
+    live.step(None).expect("a step");
+}
+
+#[test]
+fn several_droplets_keep_their_ratios() {
+    let meeting = preset("meeting");
+    let turned = Knob::ViscosityRatio.turned(&meeting, 2.0).expect("a scene");
+    assert_eq!(
+        turned.droplets.iter().map(|droplet| droplet.viscosity).collect::<Vec<_>>(),
+        [Some(200.0), Some(1000.0)]
+    );
+    let sixteen = preset("sixteen");
+    let turned = Knob::Activity.turned(&sixteen, -1.75).expect("a scene");
+    let activities: Vec<f64> = turned.placed().expect("droplets").droplets.iter().map(DropletSetup::activity).collect();
+    assert!(activities.len() == 16 && activities.iter().all(|a| (-2.0..=-1.5).contains(a)), "{activities:?}");
+    // Droplets at places that were found for a box, and walls of their own, do not follow.
+    assert!(Knob::Size.value(&sixteen).is_none() && Knob::Size.value(&preset("constriction")).is_none());
+    assert!(Knob::Size.turned(&sixteen, 9.0).is_err());
+    assert_eq!(Knob::Size.label(&preset("channel")), "Channel width");
+}
+
+#[test]
+fn sixteen_go_on_with_another_activity() {
+    let mut live = Live::new(preset("sixteen")).expect("a scene");
+    live.step(None).expect("a step");
+    live.turn(Knob::Activity, -2.0).expect("a scene");
+    live.turn(Knob::ViscosityRatio, 3.0).expect("a scene");
+    assert!(live.step(None).expect("a step"));
+    assert_eq!(live.described().suspension.len(), 1);
+}
+
+#[test]
+fn droplets_are_found_and_moved_with_what_is_in_them() {
+    let mut live = Live::new(preset("nucleus")).expect("a scene");
+    assert_eq!(live.droplet_at(Vec2::new(0.5, 0.5)), Some(0));
+    assert_eq!(live.droplet_at(Vec2::new(1.5, 0.5)), None);
+    live.drag(0, Vec2::new(2.0, 1.0)).expect("room");
+    assert_eq!(live.droplet_at(Vec2::new(2.5, 1.5)), Some(0));
+    live.step(None).expect("a step");
+    assert!(live.drag(1, Vec2::X).is_err());
+    // In a box every image is the droplet.
+    let mut boxed = Live::new(small()).expect("a scene");
+    assert_eq!(boxed.droplet_at(Vec2::new(6.2, -5.9)), Some(0));
+    // Onto itself by a whole period it goes, onto another one it does not.
+    boxed.drag(0, Vec2::new(6.0, 0.0)).expect("room");
+    let mut meeting = Live::new(preset("meeting")).expect("a scene");
+    let refused = meeting.drag(0, Vec2::new(3.5, 0.5)).expect_err("no room");
+    assert!(refused.message.contains("overlap"), "{refused}");
+    meeting.step(None).expect("a step");
+}
+
+#[test]
+fn pictures_have_all_shapes_and_tracers_stay_in_sight() {
+    for (name, droplets) in [("meeting", 2), ("constriction", 1), ("nucleus", 1), ("tube", 1)] {
+        let mut live = Live::new(preset(name)).expect("a scene");
+        let seen = live.seen().expect("a flow");
+        assert_eq!(seen.droplets.len(), droplets, "{name}");
+        let outlined = live.outlined().expect("shapes");
+        let list = frame::shapes(&seen);
+        assert_eq!(list.iter().map(|v| v.to_bits()).collect::<Vec<_>>(), {
+            frame::shapes(&outlined).iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+        });
+        let (mut at, mut kinds) = (0, Vec::new());
+        while at < list.len() {
+            kinds.push(list[at] as u8);
+            at += 2 + 3 * list[at + 1] as usize;
+        }
+        assert_eq!(kinds.iter().filter(|kind| **kind == 0).count(), droplets, "{name}");
+        assert_eq!(kinds.contains(&2), ["constriction", "nucleus"].contains(&name), "{name}: {kinds:?}");
+        let lines = frame::lines(&seen, seen.raster.size()).expect("streamlines");
+        assert!(lines.len() > 100, "{name}: {}", lines.len());
+    }
+    let mut live = Live::new(small()).expect("a scene");
+    let mut dust = Dust::new(50);
+    let view = [Vec2::splat(-3.0), Vec2::splat(3.0)];
+    dust.see(&live.seen().expect("a flow")).expect("samples");
+    for _ in 0..600 {
+        dust.drift(0.5, view);
+    }
+    let streaks = dust.streaks();
+    assert_eq!(streaks.len(), 200);
+    assert!(streaks.chunks(4).all(|s| s[0].abs() <= 3.0 && s[1].abs() <= 3.0 && s[2].is_finite()));
+    let fastest = streaks.chunks(4).map(|s| s[2].hypot(s[3])).fold(0.0, f32::max);
+    assert!(fastest > 0.01, "{fastest}");
+    assert!(live.svg().expect("a picture").starts_with("<svg"));
+}
+
+#[test]
+fn the_map_has_the_speeds_of_runs() {
+    assert!(branch::mapped(&preset("meeting")).is_none() && branch::mapped(&preset("constriction")).is_none());
+    assert!(branch::mapped(&preset("nucleus")).is_none() && branch::mapped(&preset("channel")).is_some());
+    let setup = preset("swimmer");
+    let mut points = Vec::new();
+    branch::follow(&setup, |point, _| {
+        points.push(point);
+        true
+    })
+    .expect("a branch");
+    points.sort_by(|a, b| a.activity.total_cmp(&b.activity));
+    assert!(points.len() > 12 && points.first().is_some_and(|point| point.activity < -7.0), "{}", points.len());
+    let near = points.windows(2).find(|pair| pair[0].activity <= -3.0 && pair[1].activity >= -3.0).expect("about -3");
+    let part = (-3.0 - near[0].activity) / (near[1].activity - near[0].activity);
+    let of_map = near[0].speed + part * (near[1].speed - near[0].speed);
+    let mut live = Live::new(setup).expect("a scene");
+    while live.step(Some(40.0)).expect("a step") {}
+    let of_run = live.speed(0).expect("a flow").expect("a droplet");
+    assert!((of_map / of_run - 1.0).abs() < 0.01, "{of_map} {of_run}");
+}
+
+#[test]
+fn errors_name_key_value_and_remedy() {
+    let refused = motile_web::Refusal::from(Setup::from_toml("viscosity = -1.0").expect_err("negative"));
+    assert_eq!((refused.key.as_deref(), refused.value.as_deref()), (Some("viscosity"), Some("-1")));
+    assert!(refused.remedy.is_some());
+    let refused = motile_web::Refusal::from(Setup::from_toml("viscosty = 1.0").expect_err("misspelt"));
+    assert!(refused.message.contains("unknown field `viscosty`"), "{refused}");
+}

@@ -1,0 +1,32 @@
+// The compiled page in node against native numbers: `node tests/node.mjs MODULE NUMBERS`.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { resolve } from "node:path";
+
+const [module, numbers] = process.argv.slice(2);
+const { Engine, presets } = createRequire(import.meta.url)(resolve(module));
+const expected = JSON.parse(readFileSync(numbers, "utf8"));
+const known = JSON.parse(presets());
+if (known.length !== expected.length) throw new Error(`${expected.length} scenes, ${known.length} presets`);
+let largest = 0;
+for (const [k, { name, time, speed }] of expected.entries()) {
+  const engine = new Engine(known[k].scene);
+  for (let step = 0; step < 12; step += 1) engine.step(NaN);
+  for (const [what, here, there] of [
+    ["time", engine.time(), time],
+    ["speed", engine.speed(0), speed],
+  ]) {
+    const difference = Math.abs(here / there - 1);
+    largest = Math.max(largest, difference);
+    if (!(difference < 1e-10)) throw new Error(`${name}: ${what} ${here} in wasm, ${there} natively`);
+  }
+  engine.free();
+}
+try {
+  new Engine("viscosity = -1.0");
+  throw new Error("a negative viscosity was taken");
+} catch (error) {
+  const { key, remedy } = JSON.parse(error);
+  if (key !== "viscosity" || !remedy) throw new Error(`an error without key and remedy: ${error}`);
+}
+console.log(`wasm in node: ${expected.length} scenes, largest difference from native ${largest.toExponential(1)}`);

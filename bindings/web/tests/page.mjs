@@ -1,0 +1,204 @@
+// The page in Chromium: `node tests/page.mjs FOLDER [SCREENSHOTS]`; CHROMIUM names the browser.
+import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+import { FLAGS, serve } from "./serve.mjs";
+
+const [folder, shots] = process.argv.slice(2);
+const WAIT = 120_000;
+
+function check(truth, words) {
+  if (!truth) throw new Error(words);
+}
+
+const { server, address } = await serve(folder);
+const executablePath = process.env.CHROMIUM;
+check(executablePath, "CHROMIUM does not say where the browser is");
+const browser = await chromium.launch({ executablePath, args: FLAGS });
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/** Number of different colours in a part of the canvas. */
+const colours = (page) =>
+  page.evaluate(() => {
+    const canvas = document.getElementById("canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const seen = new Set();
+    for (let k = 0; k < data.length; k += 4 * 37) seen.add((data[k] << 16) | (data[k + 1] << 8) | data[k + 2]);
+    return seen.size;
+  });
+
+const steps = (page, least) =>
+  page.waitForFunction((least) => Number(document.documentElement.dataset.steps) >= least, least, { timeout: WAIT });
+
+async function visit({ width, height, touch, scheme, path = "" }) {
+  const context = await browser.newContext({
+    viewport: { width, height },
+    hasTouch: touch,
+    isMobile: touch,
+    colorScheme: scheme,
+    acceptDownloads: true,
+    deviceScaleFactor: touch ? 2 : 1,
+  });
+  const page = await context.newPage();
+  const problems = [];
+  page.on("console", (message) => {
+    if (message.type() === "error") problems.push(message.text());
+  });
+  page.on("pageerror", (error) => problems.push(String(error)));
+  page.on("response", (response) => {
+    if (response.status() >= 400) problems.push(`${response.status()} ${response.url()}`);
+  });
+  await page.goto(address + path);
+  await page.waitForFunction(() => document.documentElement.dataset.first, null, { timeout: WAIT });
+  return { context, page, problems, press: (selector) => (touch ? page.tap(selector) : page.click(selector)) };
+}
+
+async function accessible(page) {
+  // The policy of the page lets no script in but its own: this one comes by the debugger.
+  await page.evaluate(`(() => { ${axe}; window.axe = axe; })()`);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  const bad = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+  const told = bad.map(({ id, nodes }) => `${id}: ${nodes.map((node) => `${node.target} ${node.failureSummary}`)}`);
+  check(bad.length === 0, `axe-core: ${told.join("\n")}`);
+}
+
+async function shot(page, name) {
+  if (!shots) return;
+  mkdirSync(shots, { recursive: true });
+  await page.screenshot({ path: join(shots, `${name}.png`) });
+}
+
+async function whole({ name, ...view }) {
+  const visited = await visit(view);
+  const { context, page, problems, press } = visited;
+  await steps(page, 100);
+  check((await colours(page)) > 20, `${name}: the picture is blank`);
+  check((await page.textContent("#rate")).includes("steps a second"), `${name}: no steps a second`);
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  check(width <= view.width, `${name}: the page is ${width} pixels wide`);
+  await shot(page, name);
+  await accessible(page);
+
+  // A slider acts while it runs.
+  const slider = page.locator("#knob-activity");
+  await slider.scrollIntoViewIfNeeded();
+  const box = await slider.boundingBox();
+  const place = [box.x + 0.25 * box.width, box.y + 0.5 * box.height];
+  if (view.touch) await page.touchscreen.tap(...place);
+  else await page.mouse.click(...place);
+  await page.waitForFunction(() => /activity = -[56]/.test(document.getElementById("scene").value), null, {
+    timeout: WAIT,
+  });
+  const now = await page.evaluate(() => Number(document.documentElement.dataset.steps));
+  await steps(page, now + 10);
+
+  // Pause, a step, drag.
+  await press("#play");
+  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Play");
+  const before = await page.evaluate(() => window.motile.ask("steps"));
+  await press("#step");
+  check((await page.evaluate(() => window.motile.ask("steps"))) === before + 1, `${name}: a step is no step`);
+  await press("#reset");
+  await page.waitForFunction(() => document.getElementById("time").textContent === "t = 0.00");
+  check(
+    (await page.evaluate(() => window.motile.ask("droplet_at", 0.0, -0.8))) === 0,
+    `${name}: the droplet is not at the start`,
+  );
+  await page.locator("#canvas").scrollIntoViewIfNeeded();
+  const picture = await page.locator("#canvas").boundingBox();
+  const middle = [picture.x + picture.width / 2, picture.y + picture.height / 2];
+  if (view.touch) {
+    const touch = await context.newCDPSession(page);
+    const send = (type, y) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x: middle[0], y }] });
+    await send("touchStart", middle[1]);
+    await page.waitForTimeout(150);
+    for (let k = 1; k <= 6; k += 1) {
+      await send("touchMove", middle[1] - 8 * k);
+      await page.waitForTimeout(40);
+    }
+    await send("touchEnd", 0);
+  } else {
+    await page.mouse.move(...middle);
+    await page.mouse.down();
+    await page.waitForTimeout(150);
+    for (let k = 1; k <= 6; k += 1) {
+      await page.mouse.move(middle[0], middle[1] - 20 * k);
+      await page.waitForTimeout(40);
+    }
+    await page.mouse.up();
+  }
+  await page.waitForTimeout(200);
+  const moved = await page.evaluate(async () => (await window.motile.ask("droplet_at", 0.0, -0.8)) === -1);
+  check(moved, `${name}: the droplet cannot be dragged`);
+
+  // Downloads.
+  const csv = page.waitForEvent("download");
+  await press('[data-save="csv"]');
+  const text = readFileSync(await (await csv).path(), "utf8");
+  check(/^time,x,y,/.test(text) && text.split("\n").length >= 2, `${name}: the CSV file has no rows`);
+  const png = page.waitForEvent("download");
+  await press('[data-save="png"]');
+  check(statSync(await (await png).path()).size > 10_000, `${name}: the PNG file is empty`);
+  const svg = page.waitForEvent("download");
+  await press('[data-save="svg"]');
+  check(readFileSync(await (await svg).path(), "utf8").startsWith("<svg"), `${name}: no SVG file`);
+
+  // A link brings the same scene, and its text is what the library reads.
+  await press("#link");
+  await page.waitForFunction(() => location.hash.startsWith("#s="));
+  const hash = await page.evaluate(() => location.hash);
+  check(hash.length < 2000, `${name}: the link has ${hash.length} letters`);
+  const scene = await page.evaluate(() => window.motile.ask("scene"));
+  const other = await visit({ ...view, path: hash });
+  const again = await other.page.evaluate(() => window.motile.ask("scene"));
+  check(again === scene && /activity = -[56]/.test(again), `${name}: the link holds\n${again}\nnot\n${scene}`);
+  check(other.problems.length === 0, `${name}, by its link: ${other.problems.join("\n")}`);
+  await other.context.close();
+
+  // The library's errors, and what runs the scene elsewhere.
+  await page.fill("#scene", "viscosity = -1.0\n");
+  await press("#run");
+  await page.waitForFunction(() => document.getElementById("problem").textContent.includes("viscosity = -1"));
+  await press('[data-way="python"]');
+  await page.waitForFunction(() => document.getElementById("code").textContent.startsWith("import motile"));
+  check(problems.length === 0, `${name}: ${problems.join("\n")}`);
+  const first = await page.evaluate(() => document.documentElement.dataset.first);
+  await context.close();
+  return first;
+}
+
+try {
+  const wide = await whole({ name: "wide", width: 1400, height: 900, touch: false, scheme: "light" });
+  const narrow = await whole({ name: "narrow", width: 390, height: 844, touch: true, scheme: "dark" });
+  // By the keyboard alone: every scene runs, the view of the other theme is readable too.
+  const { context, page, problems } = await visit({ width: 1400, height: 900, touch: false, scheme: "dark" });
+  const presets = await page.locator("#presets button").count();
+  check(presets === 7, `${presets} presets`);
+  for (let k = presets; k >= 1; k -= 1) {
+    await page.keyboard.press(String(k));
+    await page.waitForFunction(
+      (k) => document.querySelectorAll("#presets button")[k - 1].getAttribute("aria-pressed") === "true",
+      k,
+      { timeout: WAIT },
+    );
+    await steps(page, 2);
+    check((await colours(page)) > 20, `preset ${k}: the picture is blank`);
+  }
+  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Pause");
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Play", null, {
+    timeout: WAIT,
+  });
+  await page.waitForFunction(() => Number(document.documentElement.dataset.map) > 12, null, { timeout: WAIT });
+  await accessible(page);
+  check(problems.length === 0, problems.join("\n"));
+  await context.close();
+  console.log(
+    `page in Chromium ${browser.version()}: first droplet after ${wide} ms (1400 pixels), ${narrow} ms (390 pixels)`,
+  );
+} finally {
+  await browser.close();
+  server.close();
+}
