@@ -41,6 +41,9 @@ impl Maxwell {
     }
 }
 
+/// Part of a step below which stages take relaxation times for this part of it.
+const SHORTEST: f64 = 1e-8;
+
 /// A part of the mesh whose stress relaxes.
 #[derive(Debug, Clone, Copy)]
 struct Relaxing<T> {
@@ -74,6 +77,9 @@ pub(crate) struct Relaxation {
     values: Vec<f64>,
     /// Internal variables and what they relaxed towards when the step began.
     before: Vec<[f64; 2]>,
+    /// Shortest relaxation time that stages have (time), a part of the step: one below it is as good as none, and its
+    /// rates would be round-off.
+    shortest: f64,
     /// Positions of a stage.
     stage: Vec<Vec2>,
     /// Sum over the elements of their largest shear moduli (force per length).
@@ -258,7 +264,9 @@ impl Relaxation {
         let (places, values) = state.split_at(2 * free.len());
         self.place(positions, free, places);
         let out = &mut out[places.len()..];
-        self.each_goal(&self.stage, |time, number, goal| out[number] += factor / time * (goal - values[number]));
+        self.each_goal(&self.stage, |time, number, goal| {
+            out[number] += factor / time.max(self.shortest) * (goal - values[number]);
+        });
     }
 
     /// Replaces the internal variables in `state` by the solutions y of `y - factor (goal - y)/tau = state`; see
@@ -269,12 +277,13 @@ impl Relaxation {
         self.each_goal(&self.stage, |time, number, goal| {
             let value = &mut values[number];
             // As a mean of the two, which also holds where the ratio is infinite.
-            *value += (goal - *value) / (1.0 + time / factor);
+            *value += (goal - *value) / (1.0 + time.max(self.shortest) / factor);
         });
     }
 
-    /// Remembers the internal variables and what they relax towards at the start of a step.
-    pub(crate) fn begin_step(&mut self, positions: &[Vec2]) {
+    /// Remembers the internal variables and what they relax towards at the start of a step of `dt` (time).
+    pub(crate) fn begin_step(&mut self, positions: &[Vec2], dt: f64) {
+        self.shortest = SHORTEST * dt;
         let mut before = std::mem::take(&mut self.before);
         self.each_goal(positions, |_, number, goal| before[number] = [self.values[number], goal]);
         self.before = before;

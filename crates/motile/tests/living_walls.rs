@@ -76,6 +76,28 @@ fn the_energy_of_passive_scenes_never_rises() {
     }
 }
 
+/// Adaptive steps at any relaxation time: too short ones leave the walls elastic, and too long ones stiffer.
+#[test]
+fn adaptive_steps_take_any_relaxation_time() {
+    let far = |shear: f64, time: Option<f64>| {
+        let mut setup = channel(&Material::NeoHookean { shear, bulk: 2.0 * shear });
+        for wall in &mut setup.solids {
+            wall.relaxation = time.map(|time| MaxwellSetup { modulus: 60.0, time }).into_iter().collect();
+        }
+        let Built { mut scene, solids, .. } = setup.build().unwrap();
+        scene.run(0.2).go().unwrap();
+        (scene.observe(solids[0]).unwrap().largest_displacement, scene.steps())
+    };
+    let (elastic, steps) = far(60.0, None);
+    for time in [1e-6, 1e-14, 1e-300] {
+        let (found, taken) = far(60.0, Some(time));
+        assert!((found / elastic - 1.0).abs() < 1e-3 && taken <= 3 * steps, "{time:e}: {found} {elastic} {taken}");
+    }
+    let (found, _) = far(60.0, Some(1e300));
+    // Ten times as far from it as the bound on the others.
+    assert!(found < 0.99 * elastic, "{found} {elastic}");
+}
+
 /// The image in y = 0: unequal walls exchanged, a gradient across turned over.
 #[test]
 fn mirrored_walls_give_mirrored_runs() {

@@ -32,7 +32,7 @@ fn relaxation(solid: &Solid) -> Relaxation {
 fn advance(solid: &Solid, relaxation: &mut Relaxation, steps: usize) {
     for step in 0..steps {
         let at = |step: usize| deformed(solid, step as f64 / steps as f64);
-        relaxation.begin_step(&at(step));
+        relaxation.begin_step(&at(step), 1.0 / steps as f64);
         relaxation.end_step(&at(step + 1), 1.0 / steps as f64);
     }
 }
@@ -82,7 +82,7 @@ fn work_is_stored_or_dissipated() {
             for step in 0..steps {
                 let [before, after] = [step, step + 1].map(|step| deformed(&solid, step as f64 * dt));
                 let (forces, [_, dissipation]) = state(&relaxing, &before);
-                relaxing.begin_step(&before);
+                relaxing.begin_step(&before, dt);
                 relaxing.end_step(&after, dt);
                 let (forces_after, [_, dissipation_after]) = state(&relaxing, &after);
                 lost += 0.5 * dt * (dissipation + dissipation_after);
@@ -105,7 +105,7 @@ fn work_is_stored_or_dissipated() {
 fn stress_decays_at_a_fixed_strain() {
     for solid in solids() {
         let mut relaxing = relaxation(&solid);
-        relaxing.begin_step(solid.mesh().points());
+        relaxing.begin_step(solid.mesh().points(), 0.3);
         relaxing.end_step(solid.mesh().points(), 0.3);
         let rest = relaxation(&solid).values;
         assert!(relaxing.values.iter().zip(&rest).all(|(a, b)| (a - b).abs() < 1e-15));
@@ -118,7 +118,7 @@ fn stress_decays_at_a_fixed_strain() {
         };
         let first = forces(&relaxing);
         for dt in [0.1, 1.0, 0.01] {
-            relaxing.begin_step(&strained);
+            relaxing.begin_step(&strained, dt);
             relaxing.end_step(&strained, dt);
         }
         let decay = (-1.11_f64 / 0.7).exp();

@@ -83,9 +83,9 @@ impl Body for Solid {
         }
     }
 
-    fn begin_step(&mut self, _view: &FluidView, _step: StepInfo) -> Result<(), BodyError> {
+    fn begin_step(&mut self, _view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
         if let Some(relaxation) = &mut self.relaxation {
-            relaxation.begin_step(&self.positions);
+            relaxation.begin_step(&self.positions, step.dt);
         }
         Ok(())
     }
