@@ -27,17 +27,10 @@ impl Damping {
         self.viscosity
     }
 
-    /// Adds the forces on the points `free`, which have these velocities (length per time), with all points at
-    /// `positions` (length); the other points are at rest.
-    pub(crate) fn add_forces(
-        &mut self,
-        (positions, free): (&[Vec2], &[usize]),
-        velocities: &[Vec2],
-        forces: &mut [Vec2],
-    ) {
-        for (&point, velocity) in free.iter().zip(velocities) {
-            self.velocities[point] = *velocity;
-        }
+    /// Forces on all points (force), which lie at `positions` (length), from the velocities (length per time) of the
+    /// numbered points that are free; the others are at rest.
+    pub(crate) fn forces(&mut self, positions: &[Vec2], free: impl Iterator<Item = (usize, Vec2)>) -> &[Vec2] {
+        free.for_each(|(point, velocity)| self.velocities[point] = velocity);
         self.forces.fill(Vec2::ZERO);
         for element in &self.elements {
             let gradient = element.gradient(positions);
@@ -46,9 +39,7 @@ impl Damping {
             let stress = (spatial + spatial.transpose()) * (self.viscosity * gradient.determinant());
             element.add_forces(&(stress * inverse.transpose()), &mut self.forces);
         }
-        for (force, &point) in forces.iter_mut().zip(free) {
-            *force += self.forces[point];
-        }
+        &self.forces
     }
 }
 

@@ -7,12 +7,9 @@ use crate::{Interior, Outline};
 fn forces_dissipate_the_power_of_the_stress_and_are_symmetric() {
     let mesh = Interior::new([Outline::circle(Vec2::new(0.2, -0.1), 1.0).unwrap()]).unwrap().mesh(0.25).unwrap();
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| Vec2::new(1.2 * s.x + 0.3 * s.y, 0.9 * s.y)).collect();
-    let all: Vec<usize> = (0..positions.len()).collect();
     let mut damping = Damping::new(&mesh, 3.0);
     let mut power = |one: &dyn Fn(Vec2) -> Vec2, other: &dyn Fn(Vec2) -> Vec2| {
-        let velocities: Vec<Vec2> = positions.iter().map(|x| one(*x)).collect();
-        let mut forces = vec![Vec2::ZERO; positions.len()];
-        damping.add_forces((&positions, &all), &velocities, &mut forces);
+        let forces = damping.forces(&positions, positions.iter().map(|x| one(*x)).enumerate());
         -forces.iter().zip(&positions).map(|(force, x)| force.dot(other(*x))).sum::<f64>()
     };
     let area = mesh.area() * 1.2 * 0.9;

@@ -32,10 +32,13 @@ impl Body for Solid {
     }
 
     fn marker_count(&self) -> usize {
-        self.free.len()
+        self.spreading.as_ref().map_or(self.free.len(), |spreading| spreading.marker_count())
     }
 
     fn write_markers(&self, positions: &mut [Vec2]) {
+        if let Some(spreading) = &self.spreading {
+            return spreading.write_markers(&self.mesh, &self.positions, positions);
+        }
         for (marker, &point) in positions.iter_mut().zip(&self.free) {
             *marker = self.positions[point];
         }
@@ -43,6 +46,11 @@ impl Body for Solid {
 
     fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
+        if let Some(spreading) = &mut self.spreading {
+            forces.fill(Vec2::ZERO);
+            spreading.add_forces(&self.forces, forces);
+            return Ok(());
+        }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
         }
@@ -78,6 +86,13 @@ impl Body for Solid {
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         let (rate, inner) = rate.split_at_mut(2 * self.free.len());
         inner.fill(0.0);
+        if let Some(spreading) = &mut self.spreading {
+            let velocities = spreading.velocities(velocities);
+            for (pair, &point) in rate.chunks_exact_mut(2).zip(&self.free) {
+                pair.copy_from_slice(&velocities[point].to_array());
+            }
+            return;
+        }
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(&velocity.to_array());
         }
@@ -128,6 +143,10 @@ impl Body for Solid {
 
     /// Not of solids with internal variables.
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
+        // Images of markers are not those of points then.
+        if self.spreading.is_some() {
+            return false;
+        }
         points::mirror(markers, state, image);
         self.relaxation.is_none() && self.bonds.is_none()
     }
@@ -141,6 +160,7 @@ impl Body for Solid {
     /// Its whole surface; pinned points are fixed.
     fn surfaces(&self) -> Vec<SurfaceCurve> {
         let places = self.mesh.points();
+        let markers = self.spreading.as_ref().map_or(&self.free, |spreading| &spreading.surface);
         let curves = self.mesh.boundary_loops().iter().map(|outline| {
             // Reference places decide, so that the deformation cannot change the image.
             let (mut shift, mut last) = (0, places[outline.points[0]].x);
@@ -149,7 +169,7 @@ impl Body for Solid {
                 shift -= self.mesh.period().map_or(0, |period| ((x - last) / period).round() as i32);
                 last = x;
                 let fixed = |_| SurfacePoint::Fixed(self.positions[*point]);
-                (self.free.binary_search(point).map_or_else(fixed, SurfacePoint::Marker), shift)
+                (markers.binary_search(point).map_or_else(fixed, SurfacePoint::Marker), shift)
             });
             SurfaceCurve { points: points.collect(), periods: outline.periods }
         });
@@ -184,7 +204,9 @@ impl Body for Solid {
         let active = self.bonds.iter().flat_map(Bonds::properties);
         let damping = self.damping.iter().map(|damping| ("its viscosity above that of the fluid", damping.viscosity()));
         let properties = properties.into_iter().chain(relaxing).chain(active).chain(damping);
-        properties.map(|(name, value)| (name.to_owned(), value)).collect()
+        let spread =
+            self.spreading.as_ref().map(|spreading| ("the number of markers", spreading.marker_count() as f64));
+        properties.chain(spread).map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// Positions of all points, pinned ones too, the tethers, internal variables, and steps of the active springs.
@@ -250,9 +272,14 @@ impl Body for Solid {
 
 impl Viscous for Solid {
     fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]) {
-        if let Some(damping) = &mut self.damping {
-            damping.add_forces((&self.positions, &self.free), velocities, forces);
+        let Some(damping) = &mut self.damping else { return };
+        if let Some(spreading) = &mut self.spreading {
+            let moving = spreading.velocities(velocities).iter().copied().enumerate();
+            let on_points = damping.forces(&self.positions, moving);
+            return spreading.add_forces(on_points, forces);
         }
+        let on_points = damping.forces(&self.positions, self.free.iter().copied().zip(velocities.iter().copied()));
+        forces.iter_mut().zip(&self.free).for_each(|(force, &point)| *force += on_points[point]);
     }
 }
 
