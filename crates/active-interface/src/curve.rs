@@ -208,8 +208,8 @@ impl Curve {
     }
 
     /// Two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by straight sides
-    /// of the length 2 `straight`, as a polygon of 720 corners on it that starts on the x axis: an even number of markers
-    /// is its own mirror image there.
+    /// of the length 2 `straight`, as a polygon of 720 corners on it that starts on the x axis: an even number of
+    /// markers is its own mirror image there.
     ///
     /// # Errors
     /// A radius that is not positive, a negative length.

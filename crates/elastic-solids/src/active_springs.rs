@@ -42,8 +42,8 @@ impl ActiveSprings {
         Ok(Self { tension, rates: [on, off], sensitivities: [0.0; 2], seed })
     }
 
-    /// The same bonds with rates of turning on and off that depend on the strain of their edges by these sensitivities
-    /// (no dimension).
+    /// Bonds of these tensions with rates of turning on and off that depend on the strain of their edges by
+    /// sensitivities (no dimension).
     ///
     /// # Errors
     /// Sensitivities that are not finite.

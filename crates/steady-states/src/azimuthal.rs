@@ -249,9 +249,9 @@ impl System {
 }
 
 impl SteadyState {
-    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order: those of m = 1
-    /// turn a swimmer and push it aside, those of m = 2 flatten it. Shifts across the axis and turns, which neither
-    /// grow nor decay in unbounded fluid, are left out; [`Spectrum::neutral`] is how fast they seem to.
+    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order: those of
+    /// m = 1 turn a swimmer and push it aside, those of m = 2 flatten it. Shifts across the axis and turns, which
+    /// neither grow nor decay in unbounded fluid, are left out; [`Spectrum::neutral`] is how fast they seem to.
     ///
     /// The equations are linearised by hand and integrated over the azimuth by quadrature. Disturbances of m = 0 are
     /// those of [`SteadyState::spectrum`].

@@ -58,7 +58,7 @@ const IN_PLANE: f64 = 0.6;
 #[derive(Debug, Clone)]
 pub(crate) struct Ewald {
     split: Split,
-    /// What samples of the flow need besides, once there have been some.
+    /// Grids that samples of the flow need besides, once there have been some.
     smooth: Option<Smooth>,
     tolerance: f64,
     window: Window,
@@ -66,7 +66,7 @@ pub(crate) struct Ewald {
     /// Width of a channel (length), whose box is higher by the cut-off: then no image beyond its upper and lower side
     /// is within the cut-off of the channel.
     width: Option<f64>,
-    /// What makes the box of nodes in the plane.
+    /// Maker of the box of nodes in the plane.
     cluster: Option<Box<Cluster>>,
     /// Distance beyond which the smooth part is all there is (length).
     cutoff: f64,

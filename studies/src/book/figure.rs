@@ -58,7 +58,7 @@ pub(super) struct Figure {
     #[serde(skip)]
     pub(super) number: String,
     pub(super) title: String,
-    /// What the thesis says, in its words or close to them; of a question of the second part the statement to be tested.
+    /// Statement of the thesis, in its words or close to them; of a question of the second part the one to be tested.
     pub(super) says: String,
     /// Of a figure of the thesis; that of a question of the second part follows from its numbers.
     pub(super) verdict: Option<Verdict>,
@@ -299,8 +299,8 @@ impl Figure {
         self.check.iter().map(judged).collect()
     }
 
-    /// The verdict that follows from the numbers: of the statement if all of the numbers that decide are in their ranges,
-    /// against it if none is; none at all if an error is larger than stated.
+    /// The verdict that follows from the numbers: of the statement if all of the numbers that decide are in their
+    /// ranges, against it if none is; none at all if an error is larger than stated.
     pub(super) fn followed(judged: &[Judged]) -> Verdict {
         let deciding: Vec<bool> = judged.iter().filter(|check| check.decides()).map(|check| check.stands).collect();
         let resolved = judged.iter().all(|check| check.decides() || check.stands);

@@ -32,9 +32,9 @@ const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.m
                      were known when a range was stated, as in chapter 4 and parts of chapter 3, it was chosen from \
                      the claim.";
 
-const SECOND: &str = "What the surroundings do to a cell: questions that the thesis leaves open (its sections 5.2.2 and \
-                      5.2.3), made as the figures are, with `figures --chapter E`. Each has a statement that could be \
-                      false, with ranges stated before the data, and an answer.";
+const SECOND: &str = "What the surroundings do to a cell: questions that the thesis leaves open (its sections 5.2.2 \
+                      and 5.2.3), made as the figures are, with `figures --chapter E`. Each has a statement that could \
+                      be false, with ranges stated before the data, and an answer.";
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")

@@ -248,8 +248,8 @@ impl Body for Solid {
 
     /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h that of the
     /// grid, mu and kappa the largest moduli in the solid. A skin adds the stiffness of its shortest waves to the sum,
-    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them move
-    /// together.
+    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them
+    /// move together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = view.spacing.map_or(0.0, |spacing| self.spacing / spacing);

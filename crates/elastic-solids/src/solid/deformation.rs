@@ -19,8 +19,8 @@ pub struct Deformation {
     pub drift: Vec2,
     /// Mean position, weighted by reference area (length): the centre of mass.
     pub centroid: Vec2,
-    /// Elastic energy (energy), without that of tethers and Maxwell elements; infinite where a triangle is inverted and the energy is
-    /// not defined for it.
+    /// Elastic energy (energy), without that of tethers and Maxwell elements; infinite where a triangle is inverted and
+    /// the energy is not defined for it.
     pub elastic_energy: f64,
     /// Energy of the Maxwell elements (energy); zero without any.
     pub relaxing_energy: f64,

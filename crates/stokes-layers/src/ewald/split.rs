@@ -78,7 +78,7 @@ impl Split {
 
 /// phi by its prolate function, and a quadrature of integrals with it over k.
 struct Spectrum {
-    /// What the split of a single layer may err by.
+    /// Relative error that the split of a single layer may make.
     tolerance: f64,
     c: f64,
     prolate: Prolate,
