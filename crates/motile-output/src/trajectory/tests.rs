@@ -111,11 +111,12 @@ fn what_is_inside_has_its_columns() {
             column("number_inside").iter().zip(column("particle_number")).map(|(a, b)| a.1 + b.1).collect();
         assert!(totals.iter().all(|total| (total / totals[0] - 1.0).abs() < 1e-12), "{totals:?}");
         let flux = column("exchange_flux");
-        // The interface gains what binds, by the trapezoidal rule.
-        let gained: f64 = flux.windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0)).sum();
+        // The interface gains what binds, by the trapezoidal rule, from the second row on: at the start the field has
+        // not yet met the concentration.
+        let gained: f64 = flux[1..].windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0)).sum();
         let numbers = column("particle_number");
-        let gain = numbers.last().unwrap().1 - numbers[0].1;
-        assert!((gained - gain).abs() < 0.02 * gain.abs(), "{diffusion_inside:?} {gained} {gain} {flux:?} {numbers:?}");
+        let gain = numbers.last().unwrap().1 - numbers[1].1;
+        assert!((gained - gain).abs() < 5e-3 * gain.abs(), "{diffusion_inside:?} {gained} {gain} {flux:?} {numbers:?}");
         (text.lines().next().unwrap().split(',').count(), numbers.len())
     };
     let (pool, field) = (inside(None), inside(Some(0.5)));

@@ -227,7 +227,8 @@ pub struct ExchangeSetup {
     /// they are well mixed.
     #[serde(default)]
     pub diffusion_inside: Option<f64>,
-    /// Spacing of the mesh for them (length); `None` for that of the grid, or of five markers without a grid.
+    /// Spacing of the mesh for them (length); `None` for that of the grid, or without a grid that of five markers, at
+    /// most a tenth of the radius.
     #[serde(default)]
     pub spacing_inside: Option<f64>,
 }
