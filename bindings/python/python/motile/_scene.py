@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 import time as clock
@@ -286,8 +287,8 @@ class _Bar:
         self._start, self._until, self._began = start, until, clock.monotonic()
         self._handle: Any = None
         if "ipykernel" in sys.modules:
-            from IPython.display import display  # type: ignore[import-not-found,unused-ignore]
-
+            # IPython's functions have no types, and need not be installed.
+            display: Any = importlib.import_module("IPython.display").display
             self._handle = display("", display_id=True)
 
     def __call__(self, time: float) -> None:
