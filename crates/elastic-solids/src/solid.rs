@@ -257,7 +257,7 @@ impl Solid {
     ///
     /// Otherwise forces act at the points themselves, between which fluid leaks where the grid is much finer than the
     /// mesh, so that a solid seems softer than it is. Spread over the triangles they leak the less the finer the grid,
-    /// and a mesh of four spacings of a fine grid is enough. An evaluation takes two to three times the points' time. A
+    /// and a mesh of four spacings of a fine grid is enough. A run takes some two to three times the points' time. A
     /// held [mirror symmetry](motile_scene::Scene::held_symmetric) is not for such solids.
     #[must_use]
     pub fn spread_over_triangles(mut self) -> Self {
