@@ -508,6 +508,7 @@ canvas.addEventListener("pointerdown", (event) => {
 function grabbed(droplet) {
   if (!drag) return;
   drag.droplet = droplet;
+  canvas.dataset.held = String(droplet);
   if (droplet >= 0) {
     touched = droplet;
     picture.held = true;
@@ -557,6 +558,7 @@ function release(event) {
   pointers.delete(event.pointerId);
   if (pointers.size < 2) pinch = null;
   drag = null;
+  delete canvas.dataset.held;
   picture.held = false;
   changed = true;
   canvas.classList.remove("holding");

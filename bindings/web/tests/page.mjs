@@ -18,18 +18,40 @@ check(executablePath, "CHROMIUM does not say where the browser is");
 const browser = await chromium.launch({ executablePath, args: FLAGS });
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-/** Number of different colours in a part of the canvas. */
-const colours = (page) =>
-  page.evaluate(() => {
+/** Waits until something is true on the page, which works at its own pace: nothing here is looked at only once. */
+async function until(page, words, truth, given) {
+  try {
+    await page.waitForFunction(truth, given);
+  } catch (error) {
+    throw new Error(words, { cause: error });
+  }
+}
+
+/** Waits for a picture of more than twenty colours. */
+const drawn = (page, name) =>
+  until(page, `${name}: the picture is blank`, () => {
     const canvas = document.getElementById("canvas");
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     const seen = new Set();
     for (let k = 0; k < data.length; k += 4 * 37) seen.add((data[k] << 16) | (data[k + 1] << 8) | data[k + 2]);
-    return seen.size;
+    return seen.size > 20;
   });
 
+const plays = (page, name, label) =>
+  until(
+    page,
+    `${name}: the button does not say ${label}`,
+    (label) => document.getElementById("play").getAttribute("aria-label") === label,
+    label,
+  );
+
 const steps = (page, least) =>
-  page.waitForFunction((least) => Number(document.documentElement.dataset.steps) >= least, least, { timeout: WAIT });
+  until(
+    page,
+    `no ${least} steps`,
+    (least) => Number(document.documentElement.dataset.steps) >= least,
+    least,
+  );
 
 async function visit({ width, height, touch, scheme, path = "" }) {
   const context = await browser.newContext({
@@ -40,6 +62,7 @@ async function visit({ width, height, touch, scheme, path = "" }) {
     acceptDownloads: true,
     deviceScaleFactor: touch ? 2 : 1,
   });
+  context.setDefaultTimeout(WAIT);
   const page = await context.newPage();
   const problems = [];
   page.on("console", (message) => {
@@ -50,7 +73,7 @@ async function visit({ width, height, touch, scheme, path = "" }) {
     if (response.status() >= 400) problems.push(`${response.status()} ${response.url()}`);
   });
   await page.goto(address + path);
-  await page.waitForFunction(() => document.documentElement.dataset.first, null, { timeout: WAIT });
+  await until(page, "no droplet is drawn", () => document.documentElement.dataset.first);
   return { context, page, problems, press: (selector) => (touch ? page.tap(selector) : page.click(selector)) };
 }
 
@@ -73,8 +96,10 @@ async function whole({ name, ...view }) {
   const visited = await visit(view);
   const { context, page, problems, press } = visited;
   await steps(page, 100);
-  check((await colours(page)) > 20, `${name}: the picture is blank`);
-  check((await page.textContent("#rate")).includes("steps a second"), `${name}: no steps a second`);
+  await drawn(page, name);
+  await until(page, `${name}: no steps a second`, () =>
+    document.getElementById("rate").textContent.includes("steps a second"),
+  );
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   check(width <= view.width, `${name}: the page is ${width} pixels wide`);
   await shot(page, name);
@@ -84,23 +109,22 @@ async function whole({ name, ...view }) {
   const slider = page.locator("#knob-activity");
   await slider.scrollIntoViewIfNeeded();
   const box = await slider.boundingBox();
-  const place = [box.x + 0.25 * box.width, box.y + 0.5 * box.height];
-  if (view.touch) await page.touchscreen.tap(...place);
-  else await page.mouse.click(...place);
-  await page.waitForFunction(() => /activity = -[56]/.test(document.getElementById("scene").value), null, {
-    timeout: WAIT,
-  });
+  const position = { x: 0.25 * box.width, y: 0.5 * box.height };
+  await (view.touch ? slider.tap({ position }) : slider.click({ position }));
+  await until(page, `${name}: the slider does nothing`, () =>
+    /activity = -[56]/.test(document.getElementById("scene").value),
+  );
   const now = await page.evaluate(() => Number(document.documentElement.dataset.steps));
   await steps(page, now + 10);
 
   // Pause, a step, drag.
   await press("#play");
-  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Play");
+  await plays(page, name, "Play");
   const before = await page.evaluate(() => window.motile.ask("steps"));
   await press("#step");
   check((await page.evaluate(() => window.motile.ask("steps"))) === before + 1, `${name}: a step is no step`);
   await press("#reset");
-  await page.waitForFunction(() => document.getElementById("time").textContent === "t = 0.00");
+  await until(page, `${name}: no start again`, () => document.getElementById("time").textContent === "t = 0.00");
   check(
     (await page.evaluate(() => window.motile.ask("droplet_at", 0.0, -0.8))) === 0,
     `${name}: the droplet is not at the start`,
@@ -108,30 +132,27 @@ async function whole({ name, ...view }) {
   await page.locator("#canvas").scrollIntoViewIfNeeded();
   const picture = await page.locator("#canvas").boundingBox();
   const middle = [picture.x + picture.width / 2, picture.y + picture.height / 2];
+  const held = () => until(page, `${name}: no droplet is held`, () => document.getElementById("canvas").dataset.held === "0");
   if (view.touch) {
     const touch = await context.newCDPSession(page);
     const send = (type, y) =>
       touch.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x: middle[0], y }] });
     await send("touchStart", middle[1]);
-    await page.waitForTimeout(150);
-    for (let k = 1; k <= 6; k += 1) {
-      await send("touchMove", middle[1] - 8 * k);
-      await page.waitForTimeout(40);
-    }
+    await held();
+    for (let k = 1; k <= 6; k += 1) await send("touchMove", middle[1] - 8 * k);
     await send("touchEnd", 0);
   } else {
     await page.mouse.move(...middle);
     await page.mouse.down();
-    await page.waitForTimeout(150);
-    for (let k = 1; k <= 6; k += 1) {
-      await page.mouse.move(middle[0], middle[1] - 20 * k);
-      await page.waitForTimeout(40);
-    }
+    await held();
+    for (let k = 1; k <= 6; k += 1) await page.mouse.move(middle[0], middle[1] - 20 * k);
     await page.mouse.up();
   }
-  await page.waitForTimeout(200);
-  const moved = await page.evaluate(async () => (await window.motile.ask("droplet_at", 0.0, -0.8)) === -1);
-  check(moved, `${name}: the droplet cannot be dragged`);
+  await until(
+    page,
+    `${name}: the droplet cannot be dragged`,
+    async () => (await window.motile.ask("droplet_at", 0.0, -0.8)) === -1,
+  );
 
   // Downloads.
   const csv = page.waitForEvent("download");
@@ -147,7 +168,7 @@ async function whole({ name, ...view }) {
 
   // A link brings the same scene, and its text is what the library reads.
   await press("#link");
-  await page.waitForFunction(() => location.hash.startsWith("#s="));
+  await until(page, `${name}: no link`, () => location.hash.startsWith("#s="));
   const hash = await page.evaluate(() => location.hash);
   check(hash.length < 2000, `${name}: the link has ${hash.length} letters`);
   const scene = await page.evaluate(() => window.motile.ask("scene"));
@@ -160,9 +181,13 @@ async function whole({ name, ...view }) {
   // The library's errors, and what runs the scene elsewhere.
   await page.fill("#scene", "viscosity = -1.0\n");
   await press("#run");
-  await page.waitForFunction(() => document.getElementById("problem").textContent.includes("viscosity = -1"));
+  await until(page, `${name}: no error`, () =>
+    document.getElementById("problem").textContent.includes("viscosity = -1"),
+  );
   await press('[data-way="python"]');
-  await page.waitForFunction(() => document.getElementById("code").textContent.startsWith("import motile"));
+  await until(page, `${name}: no Python`, () =>
+    document.getElementById("code").textContent.startsWith("import motile"),
+  );
   check(problems.length === 0, `${name}: ${problems.join("\n")}`);
   const first = await page.evaluate(() => document.documentElement.dataset.first);
   await context.close();
@@ -178,20 +203,19 @@ try {
   check(presets === 7, `${presets} presets`);
   for (let k = presets; k >= 1; k -= 1) {
     await page.keyboard.press(String(k));
-    await page.waitForFunction(
+    await until(
+      page,
+      `key ${k} chooses nothing`,
       (k) => document.querySelectorAll("#presets button")[k - 1].getAttribute("aria-pressed") === "true",
       k,
-      { timeout: WAIT },
     );
     await steps(page, 2);
-    check((await colours(page)) > 20, `preset ${k}: the picture is blank`);
+    await drawn(page, `preset ${k}`);
   }
-  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Pause");
+  await plays(page, "keyboard", "Pause");
   await page.keyboard.press(" ");
-  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Play", null, {
-    timeout: WAIT,
-  });
-  await page.waitForFunction(() => Number(document.documentElement.dataset.map) > 12, null, { timeout: WAIT });
+  await plays(page, "keyboard", "Play");
+  await until(page, "no map of speeds", () => Number(document.documentElement.dataset.map) > 12);
   await accessible(page);
   check(problems.length === 0, problems.join("\n"));
   await context.close();
