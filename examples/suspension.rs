@@ -7,7 +7,9 @@
 //! * `members.csv`, place, heading and velocity of each droplet over time;
 //! * `pairs.csv`, pair correlation and correlation of velocities over the distance, `diffusion.csv`, mean square
 //!   displacement and correlation of headings over the time between two states, both of the second half of the run;
-//! * `final.png`, a picture of the final state, and `swim.gif`, an animation of the run.
+//! * `final.png`, a picture of the final state, `swim.gif`, an animation of the run, and `observables.png` and `.svg`,
+//!   plots of the tables;
+//! * with `--vtk-every`, `vtk/fields.pvd` and `vtk/interface.pvd`, the flow and the interfaces for ParaView.
 //!
 //! `--help` lists the flags; `--count 1000` takes no other ones. Several threads: `--features rayon`.
 
@@ -25,9 +27,9 @@ use motile::setup::{
     Arrangement, Built, Distribution, Headings, IntegralMethod, LayersMethod, Method, Setup, SuspensionSetup,
 };
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
-use motile_output::CsvTable;
 use motile_output::run::{Job, OutputFlags, Summary};
-use motile_output::suspension::{Crowd, CrowdColour, CrowdFilm, SuspensionCsv};
+use motile_output::suspension::{Crowd, CrowdColour, CrowdFilm, SuspensionCsv, suspension_plots};
+use motile_output::{CsvTable, ParaView, Raster};
 
 /// Region of the suspension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -113,6 +115,9 @@ struct Flags {
     /// Meaning of the colours of pictures
     #[arg(long, value_enum, default_value_t = Colour::Heading)]
     colour: Colour,
+    /// Files for ParaView, so far apart (time) [default: none]
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_hyphen_values = true)]
+    vtk_every: Option<f64>,
     #[command(flatten)]
     method: MethodFlags,
     #[command(flatten)]
@@ -125,6 +130,8 @@ const ROWS: f64 = 200.0;
 const FRAMES: f64 = 60.0;
 const FILM: f64 = 480.0;
 const PICTURE: f64 = 1200.0;
+/// Cells of the flow in files for ParaView along the longer side of the region.
+const CELLS: f64 = 256.0;
 /// Bins of pair correlations, and their reach (R0).
 const BIN: f64 = 0.1;
 const REACH: f64 = 20.0;
@@ -147,6 +154,12 @@ fn simulate(flags: &Flags) -> Result<()> {
     let mut observers: Vec<motile_output::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut tables)];
     if job.draws() {
         observers.push((Every::StepAfter(job.end / FRAMES), &mut film));
+    }
+    let mut files = None;
+    if let Some(interval) = flags.vtk_every {
+        let raster = Raster::of(scene.system(), longer_side(&setup.region) / CELLS)?;
+        let files = files.insert(ParaView::create(job.directory.join("vtk"), raster)?);
+        observers.push((Every::Time(interval), files));
     }
     job.go(&mut scene, observers)?;
 
@@ -204,14 +217,25 @@ fn simulate(flags: &Flags) -> Result<()> {
     summary.put("finished", job.failure().is_none(), "");
     summary.put("failure", job.failure(), "if the run broke off");
     let draws = job.draws();
+    let directory = job.directory.clone();
     let [picture, animation] = ["final.png", "swim.gif"].map(|name| job.directory.join(name));
     job.finish(&summary, || {
         if draws {
             Crowd::take(scene.system_mut())?.write_picture(flags.colour.into(), PICTURE, picture)?;
             film.write(animation)?;
+            suspension_plots(&tables, half, &pairs)?.write(&directory, "observables")?;
         }
         Ok(())
     })
+}
+
+/// The longer side of a box or channel (length); other regions have none, which the raster refuses.
+fn longer_side(region: &Region) -> f64 {
+    match *region {
+        Region::Box { lengths: [lx, ly] } => lx.max(ly),
+        Region::Channel { length, width, .. } => length.max(width),
+        _ => 1.0,
+    }
 }
 
 /// The scene of the file, or that which the flags describe.

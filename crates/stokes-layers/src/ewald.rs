@@ -16,13 +16,12 @@ mod polynomial;
 mod prolate;
 mod rows;
 mod sampled;
-mod shares;
 mod split;
 mod window;
 
 use std::{f64::consts::PI, ops::Range};
 
-use motile_base::{InputError, Region};
+use motile_base::{InputError, Region, Vec2};
 use num_complex::Complex64;
 
 use crate::{
@@ -32,10 +31,11 @@ use crate::{
     greens::{Vectors, walls::Uncorrected},
     images::Images,
     plan::Plan,
+    shares,
 };
 use cells::{Cells, FEWEST};
 use cluster::Cluster;
-pub(crate) use cluster::filling;
+pub(crate) use cluster::{filling, spread};
 use columns::{Columns, Part};
 use lattice::Lattice;
 use near::Carried;
@@ -76,6 +76,8 @@ pub(crate) struct Ewald {
     cells: Cells,
     /// Points at which the flow is sampled.
     targets: Cells,
+    /// Distance from them below which nodes are left out (length).
+    left_out: f64,
     /// Sources of the entries of the cells.
     carried: [Vec<f64>; 3],
     /// Sources at the nodes, curve after curve, then the flow there.
@@ -84,7 +86,8 @@ pub(crate) struct Ewald {
 }
 
 impl Ewald {
-    /// Sums to a relative tolerance over the nodes of curves; none in regions of revolution.
+    /// Sums to a relative tolerance over the nodes of curves, at `points` (length), or at the nodes where there are no
+    /// points; none in regions of revolution.
     ///
     /// # Errors
     /// A grid too large for a transform.
@@ -93,10 +96,11 @@ impl Ewald {
         images: &Images,
         tolerance: f64,
         curves: &[Curve],
+        points: &[Vec2],
     ) -> Result<Option<Self>, InputError> {
         let width = if let Region::Channel { width, .. } = region { Some(*width) } else { None };
         let mut cluster = (*region == Region::Plane).then(|| Box::new(Cluster::new(tolerance)));
-        let around = cluster.as_mut().map(|cluster| cluster.set(curves)).transpose()?;
+        let around = cluster.as_mut().map(|cluster| cluster.set(curves, points)).transpose()?;
         let Some(lattice) = Lattice::of(around.as_ref().unwrap_or(images), width.unwrap_or(0.0)) else {
             return Ok(None);
         };
@@ -116,11 +120,12 @@ impl Ewald {
             columns,
             cells,
             targets,
+            left_out: 0.0,
             carried,
             nodes,
             modes,
         };
-        ewald.plan(curves.iter().map(Curve::len).sum())?;
+        ewald.plan(count(curves, points))?;
         Ok(Some(ewald))
     }
 
@@ -129,13 +134,14 @@ impl Ewald {
         self.tolerance
     }
 
-    /// Takes over the images of a box and the curves; grid and transforms are kept where they fit.
+    /// Takes over the images of a box, the curves, and `points` as in [`Ewald::new`]; grid and transforms are kept
+    /// where they fit.
     ///
     /// # Errors
     /// A grid too large for a transform.
-    pub(crate) fn set(&mut self, images: &Images, curves: &[Curve]) -> Result<(), InputError> {
-        let nodes = curves.iter().map(Curve::len).sum();
-        let around = self.cluster.as_mut().map(|cluster| cluster.set(curves)).transpose()?;
+    pub(crate) fn set(&mut self, images: &Images, curves: &[Curve], points: &[Vec2]) -> Result<(), InputError> {
+        let nodes = count(curves, points);
+        let around = self.cluster.as_mut().map(|cluster| cluster.set(curves, points)).transpose()?;
         let before = self.lattice;
         self.lattice = Lattice::of(around.as_ref().unwrap_or(images), before.lengths[1]).unwrap_or(before);
         if before.steepest != self.lattice.steepest
@@ -343,6 +349,13 @@ impl Ewald {
             first = all.end;
         }
     }
+}
+
+/// Number of nodes, or the geometric mean of their number and that of points: near part and grid cost alike for one
+/// product of both numbers.
+fn count(curves: &[Curve], points: &[Vec2]) -> usize {
+    let nodes = curves.iter().map(Curve::len).sum::<usize>();
+    if points.is_empty() { nodes } else { (nodes as f64 * points.len() as f64).sqrt().ceil() as usize }
 }
 
 /// Transforms what has been spread to the columns of the spectrum.

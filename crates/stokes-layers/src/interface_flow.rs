@@ -517,7 +517,7 @@ impl InterfaceFlow {
             Place::Inside(curve) | Place::Beside { curve, left: true } => equation.sides[curve].viscosity(),
             Place::Beside { curve, left: false } => equation.sides[curve].outside,
         };
-        sampler.sample(layers, density, points, out, viscosity, |interface| motions[interface]);
+        sampler.sample(layers, density, points, out, viscosity, |interface| motions[interface])?;
         if walls.is_some() {
             layers.set_gradient(0.0);
         }

@@ -173,8 +173,8 @@ impl Layers {
     /// Prepares for fast sums where they pay: for many nodes of closed curves whose layers are not stored, in the plane
     /// as far as these are not far between.
     fn plan_fast(&mut self) -> Result<(), LayerError> {
-        let Self { region, fast, images, stored, curves, starts, multipoles, sharpness, .. } = self;
-        let tolerance = *sharpness * multipoles.tolerance();
+        let tolerance = self.sharp_tolerance();
+        let Self { region, fast, images, stored, curves, starts, .. } = self;
         let given = &curves[..stored.first];
         let pays = starts[stored.first] >= MANY_NODES
             && !stored.mutual
@@ -182,10 +182,15 @@ impl Layers {
             && (*region != Region::Plane || filling(curves) > FILLED);
         match fast {
             _ if !pays => *fast = None,
-            Some(fast) if fast.tolerance() == tolerance => fast.set(images, curves)?,
-            _ => *fast = Ewald::new(region, images, tolerance, curves)?.map(Box::new),
+            Some(fast) if fast.tolerance() == tolerance => fast.set(images, curves, &[])?,
+            _ => *fast = Ewald::new(region, images, tolerance, curves, &[])?.map(Box::new),
         }
         Ok(())
+    }
+
+    /// Tolerance of the sums over many nodes.
+    pub(crate) fn sharp_tolerance(&self) -> f64 {
+        self.sharpness * self.multipoles.tolerance()
     }
 
     /// True where the nodes are so many that all are summed together.

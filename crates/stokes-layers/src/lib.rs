@@ -86,6 +86,7 @@ mod plan;
 mod rigid_motion;
 mod sample;
 mod settings;
+mod shares;
 mod single_layer;
 mod transforms;
 

@@ -301,6 +301,7 @@ impl Multipoles {
                 let link = &self.links[index];
                 self.expansion.add(&link.series, &self.moments[link.source], self.unit);
             }
+            self.expansion.divide();
             self.expansion.add_flow(&curve.nodes.position, self.unit, self.images.area(), out);
         }
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::{
-    FlowSample, Vec2,
+    FlowSample, InputError, Vec2,
     boxes::{BoxTree, Frame},
 };
 use num_complex::Complex64;
@@ -12,6 +12,7 @@ use crate::{
     close_weights::{CloseWeights, reach},
     curve::Curve,
     density::Density,
+    ewald::{Ewald, spread},
     greens::{Flow, GreensFunction, Kernels, walls::Uncorrected},
     layer::{Layers, bounding_box},
     plan::Plan,
@@ -21,6 +22,17 @@ use crate::{
 
 /// Part of a radius by which two positions of the same node may differ by round-off.
 const SAME_NODE: f64 = 1e-10;
+
+/// Pairs of nodes and points from which on fast sums cost less than sums over pairs (measured).
+const MANY_PAIRS: f64 = 2.5e5;
+/// Nodes from which on they do so in the plane, and distance of points from the middle of nodes over that of nodes up
+/// to which they do (measured).
+const MANY_NODES: usize = 300;
+const FARTHEST: f64 = 3.0;
+/// Tolerance of fast sums over that of velocities: gradients err by more, the smaller the cut-off the more.
+const SHARPER: f64 = 0.1;
+/// Part of the least distance at which points are close below which nodes are left out of fast sums.
+const LEFT_OUT: f64 = 0.5;
 
 /// Evaluation of layers at points, with its working memory.
 #[derive(Debug, Clone)]
@@ -33,6 +45,8 @@ pub(crate) struct Sampler {
     mean: Complex64,
     /// The image of the last point in a curve itself, not in an image of the curve (length).
     home: Vec2,
+    /// Fast sums over the nodes at many points, once there have been some.
+    sums: Option<Box<Ewald>>,
     /// The flow of the nodes at all points by fast sums; empty without them.
     fast: Vec<Flow>,
     /// Boxes around the curves, and the numbers of those that may be close to the last point.
@@ -60,13 +74,16 @@ pub(crate) enum Place {
 
 impl Sampler {
     pub(crate) fn new(tolerance: f64) -> Self {
-        let (close, mean, fast, tree, near) = Default::default();
-        Self { reach: reach(tolerance), close, mean, home: Vec2::ZERO, fast, tree, near, farthest: 0.0 }
+        let (close, mean, sums, fast, tree, near) = Default::default();
+        Self { reach: reach(tolerance), close, mean, home: Vec2::ZERO, sums, fast, tree, near, farthest: 0.0 }
     }
 
     /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a curve,
     /// beside one that is open, or outside of all, has the viscosity `viscosity(place)`; the curves that have a motion
     /// are rigid bodies.
+    ///
+    /// # Errors
+    /// A grid of fast sums too large for a transform.
     pub(crate) fn sample(
         &mut self,
         layers: &mut Layers,
@@ -75,14 +92,14 @@ impl Sampler {
         out: &mut [FlowSample],
         viscosity: impl Fn(Place) -> f64,
         motion: impl Fn(usize) -> Option<RigidMotion>,
-    ) {
-        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
+    ) -> Result<(), InputError> {
         layers.curves.iter_mut().for_each(|curve| curve.refine(&mut layers.plans[curve.plan].transforms));
         layers.refine(density, |_| true);
-        let uncorrected = self.sum_nodes(layers, density, points.clone());
+        let (uncorrected, sharper) = self.sum_nodes(layers, density, points)?;
+        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
         self.mean = layers.mean_flow(density).unwrap_or_default();
         if let Some(walls) = &mut layers.walls {
-            walls.prepare_points(&layers.curves, density, &layers.fine, uncorrected, points.clone());
+            walls.prepare_points(&layers.curves, density, &layers.fine, (uncorrected, sharper), points.clone());
         }
         let exterior = viscosity(Place::Exterior);
         let forced = layers.forced_flow(exterior);
@@ -117,31 +134,38 @@ impl Sampler {
                 row.iter_mut().zip(forced).for_each(|(slope, forced)| *slope += forced * share);
             }
         }
+        Ok(())
     }
 
-    /// Sums over the nodes at all points at once where the nodes are many, and the part of the sums that walls are to
-    /// correct. In the plane points lie anywhere, so that there is no box for them.
+    /// Sums over the nodes at all points at once where nodes times points are many; the part of the sums that walls are
+    /// to correct, and the tolerance of these over that of velocities.
     fn sum_nodes(
         &mut self,
         layers: &mut Layers,
         density: Density<'_>,
-        points: impl Iterator<Item = Complex64>,
-    ) -> Uncorrected {
+        points: &[Vec2],
+    ) -> Result<(Uncorrected, f64), InputError> {
         self.fast.clear();
         self.near.clear();
-        match &mut layers.fast {
-            Some(fast) if layers.images.periods.lengths[0].is_some() => {
-                fast.sample(&layers.curves, density, points, &mut self.fast);
-                let boxes: Vec<Frame> = layers.curves.iter().map(bounding_box).collect();
-                self.tree.build_by_place(&boxes);
-                self.farthest = self.reach * layers.curves.iter().map(Curve::spacing).fold(0.0, f64::max);
-                fast.uncorrected()
-            }
-            _ => {
-                self.near.extend(0..layers.curves.len());
-                Uncorrected::Row
-            }
+        if !pays(layers, points) {
+            self.near.extend(0..layers.curves.len());
+            return Ok((Uncorrected::Row, 1.0));
         }
+        let sharper = SHARPER * layers.sharpness;
+        let tolerance = SHARPER * layers.sharp_tolerance();
+        let Layers { region, images, curves, .. } = layers;
+        match &mut self.sums {
+            Some(sums) if sums.tolerance() == tolerance => sums.set(images, curves, points)?,
+            sums => *sums = Ewald::new(region, images, tolerance, curves, points)?.map(Box::new),
+        }
+        let Some(sums) = &mut self.sums else { return Ok((Uncorrected::Row, 1.0)) };
+        let spacings = curves.iter().map(Curve::spacing);
+        let nearest = LEFT_OUT * self.reach * spacings.clone().fold(f64::INFINITY, f64::min);
+        self.farthest = self.reach * spacings.fold(0.0, f64::max);
+        sums.sample(curves, density, points, nearest, &mut self.fast);
+        let boxes: Vec<Frame> = curves.iter().map(bounding_box).collect();
+        self.tree.build_by_place(&boxes);
+        Ok((sums.uncorrected(), sharper))
     }
 
     /// Flow at the point of that number, and its place among the curves with a density.
@@ -269,7 +293,7 @@ impl Sampler {
         let weight = curve.weight() * contrast;
         let velocities = (contrast != 0.0).then(|| density.of(number));
         let greens = curve.greens();
-        if let (Some(fast), false) = (&layers.fast, self.fast.is_empty()) {
+        if let (Some(sums), false) = (&self.sums, self.fast.is_empty()) {
             // The nodes are in the sums over all, and in the quadrature for close points.
             for (point, (i, z)) in self
                 .close
@@ -277,7 +301,7 @@ impl Sampler {
                 .flat_map(|point| curve.nodes.position.iter().enumerate().map(move |node| (point, node)))
             {
                 let d = curve.wrap(z - point);
-                let kernels = match fast.leaves_out(d) {
+                let kernels = match sums.leaves_out(d) {
                     false => greens.at(d),
                     true if curve.is_open() => greens.without_nearest(d),
                     true => continue,
@@ -317,4 +341,13 @@ impl Sampler {
             add(&if own { layers.greens.without_nearest(nearest) } else { layers.greens.at(nearest) }, 1.0);
         }
     }
+}
+
+/// True where fast sums at points cost less than sums over pairs; the curves that have a density are closed then.
+pub(crate) fn pays(layers: &Layers, points: &[Vec2]) -> bool {
+    let Layers { greens, curves, stored, .. } = layers;
+    let given = if stored.mutual { curves.len() } else { stored.first };
+    let nodes = layers.starts[curves.len()];
+    let near = || *greens != GreensFunction::Free || nodes >= MANY_NODES && spread(curves, points) <= FARTHEST;
+    nodes as f64 * points.len() as f64 >= MANY_PAIRS && !curves[..given].iter().any(Curve::is_open) && near()
 }

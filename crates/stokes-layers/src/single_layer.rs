@@ -123,7 +123,7 @@ impl SingleLayer {
         finite_vectors("the position", 0, points)?;
         positive("the viscosity", viscosity)?;
         self.layers.refine_stored();
-        self.sampler.sample(&mut self.layers, Density::NONE, points, out, |_| viscosity, |_| None);
+        self.sampler.sample(&mut self.layers, Density::NONE, points, out, |_| viscosity, |_| None)?;
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 use motile::active_interface::suspension::Member;
-use motile::motile_base::Vec2;
+use motile::motile_base::{Region, Vec2};
 use motile::setup::{Built, GridMethod, LayersMethod, Method, Setup};
 use motile_tests::validation::Table;
 use motile_timing::{PlainPair, Turns};
@@ -25,8 +25,13 @@ const BUDGET: f64 = 6.0;
 pub(super) fn table(rows: &mut Rows) -> Result<Table> {
     let columns = ["method", "error in % of the way", "steps", "FFT pairs a unit of time"];
     let mut table = Table::new("sixteen droplets in a box, area fraction 0.3: error at t = 2 against cost", &columns);
+    let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, HELD)?;
+    let Region::Box { lengths: [side, _] } = usual.region else { anyhow::bail!("no box") };
+    // The next spacing of which the box has a whole number.
+    let fitting = |spacing: f64| side / (side / spacing).round();
     let layers = |spacing| {
-        Method::Layers(LayersMethod { nodes: HELD, cells: CELLS * HELD, ..LayersMethod::of_spacing(spacing) })
+        let of_spacing = LayersMethod::of_spacing(fitting(spacing));
+        Method::Layers(LayersMethod { nodes: HELD, cells: CELLS * HELD, ..of_spacing })
     };
     let all = [
         ("integrals, 24 nodes", integral(24)),
@@ -35,10 +40,9 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
         ("integrals, 64 nodes", integral(64)),
         ("layers, h = 0.1", layers(0.1)),
         ("layers, h = 0.06", layers(0.06)),
-        ("grid, h = 0.1", Method::Grid(GridMethod::of_spacing(0.1))),
-        ("grid, h = 0.06", Method::Grid(GridMethod::of_spacing(0.06))),
+        ("grid, h = 0.1", Method::Grid(GridMethod::of_spacing(fitting(0.1)))),
+        ("grid, h = 0.06", Method::Grid(GridMethod::of_spacing(fitting(0.06)))),
     ];
-    let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, HELD)?;
     let by = |method| Setup { method, ..usual.clone() };
     let mut exact = None;
     for (name, method) in all {

@@ -1,16 +1,17 @@
 //! A box around all nodes of the plane, and the flow of its images, which are not there.
 //!
-//! Two places in the nodes' circle are nearer to each other than to any image by the ratio [`LARGEST_RATIO`], so that
-//! the flow of all images together is one Taylor series about the middle.
+//! A place of flow and a node are nearer to each other than to any image by the ratio [`LARGEST_RATIO`], so that the
+//! flow of all images together is one Taylor series about the middle.
 
-use motile_base::{InputError, Region};
+use motile_base::{InputError, Region, Vec2};
 use num_complex::Complex64;
 
 use crate::{
     curve::Curve,
-    greens::Vectors,
+    greens::{Flow, Vectors},
     images::Images,
     multipole::{Expansion, Extent, LARGEST_RATIO, MOST_DEGREES, Moments, Series, SeriesFinder},
+    shares,
 };
 
 /// Sides of boxes in a factor of 2, so that nodes that move a little leave the box as it is.
@@ -26,31 +27,42 @@ pub(super) struct Cluster {
     side: f64,
     centre: Complex64,
     series: Series,
+    /// The flow of the images about the middle.
     expansion: Expansion,
     moments: Moments,
     /// Nodes relative to the middle (length), and what they carry.
     positions: Vec<Complex64>,
     carried: Vec<Complex64>,
     fluxes: Vec<f64>,
+    /// Working memory of the shares of the nodes.
+    shares: Vec<Share>,
+}
+
+/// Working memory of some of the nodes.
+#[derive(Debug, Clone, Default)]
+struct Share {
+    expansion: Expansion,
+    moments: Moments,
     flow: Vectors,
 }
 
 impl Cluster {
     pub(super) fn new(tolerance: f64) -> Self {
         let degree = ((MARGIN * tolerance).ln() / LARGEST_RATIO.ln()).ceil() as usize;
-        let (centre, expansion, moments, positions, carried, fluxes, flow) = Default::default();
+        let (centre, expansion, moments, positions, carried, fluxes, shares) = Default::default();
         let (degree, series) = (degree.min(MOST_DEGREES), Series::new());
-        Self { degree, side: 0.0, centre, series, expansion, moments, positions, carried, fluxes, flow }
+        Self { degree, side: 0.0, centre, series, expansion, moments, positions, carried, fluxes, shares }
     }
 
-    /// Takes over the places of curves; the images of another box, if they need one.
+    /// Takes over the places of curves, where the flow is asked for, and of points (length) at which it is asked for
+    /// too; the images of another box, if they need one.
     ///
     /// # Errors
     /// A transform that cannot be planned.
-    pub(super) fn set(&mut self, curves: &[Curve]) -> Result<Images, InputError> {
+    pub(super) fn set(&mut self, curves: &[Curve], points: &[Vec2]) -> Result<Images, InputError> {
         let (centre, radius) = circle(curves);
         self.centre = centre;
-        let least = 2.0 * radius / LARGEST_RATIO;
+        let least = (radius + farthest(centre, points).max(radius)) / LARGEST_RATIO;
         let side = 2f64.powf((CLASSES * least.log2()).ceil() / CLASSES);
         let region = Region::Box { lengths: [side; 2] };
         if side != self.side {
@@ -70,39 +82,91 @@ impl Cluster {
     }
 
     /// Takes the flow of the images of forces, components at all nodes, from that at the nodes.
-    pub(super) fn remove_forces(&mut self, [x, y]: [&[f64]; 2], out: &mut [Vectors]) {
-        self.carried.clear();
-        self.carried.extend(x.iter().zip(y).map(|(x, y)| Complex64::new(*x, *y)));
-        self.moments.clear(self.degree);
-        self.expansion.forces(self.side, &self.positions, &self.carried, &mut self.moments);
+    pub(super) fn remove_forces(&mut self, forces: [&[f64]; 2], out: &mut [Vectors]) {
+        self.take_forces(forces);
         self.remove(out);
     }
 
     /// Takes the flow of the images of dipoles, products xx, s, yy at all nodes, from that at the nodes.
-    pub(super) fn remove_dipoles(&mut self, [xx, s, yy]: [&[f64]; 3], out: &mut [Vectors]) {
+    pub(super) fn remove_dipoles(&mut self, dipoles: [&[f64]; 3], out: &mut [Vectors]) {
+        self.take_dipoles(dipoles);
+        self.remove(out);
+    }
+
+    fn take_forces(&mut self, [x, y]: [&[f64]; 2]) {
+        self.carried.clear();
+        self.carried.extend(x.iter().zip(y).map(|(x, y)| Complex64::new(*x, *y)));
+        self.fluxes.clear();
+        self.add_moments(|share, side, positions, carried, _| {
+            share.expansion.forces(side, positions, carried, &mut share.moments);
+        });
+    }
+
+    fn take_dipoles(&mut self, [xx, s, yy]: [&[f64]; 3]) {
         self.carried.clear();
         self.fluxes.clear();
         for ((xx, s), yy) in xx.iter().zip(s).zip(yy) {
             self.carried.push(Complex64::new(xx - yy, *s));
             self.fluxes.push(xx + yy);
         }
-        self.moments.clear(self.degree);
-        self.expansion.dipoles(self.side, &self.positions, &self.carried, &self.fluxes, &mut self.moments);
-        self.remove(out);
+        self.add_moments(|share, side, positions, carried, fluxes| {
+            share.expansion.dipoles(side, positions, carried, fluxes, &mut share.moments);
+        });
+    }
+
+    /// Computes the moments of all nodes, by `write` those of a share from its positions and what they carry, and the
+    /// flow of the images from them.
+    fn add_moments(&mut self, write: impl Fn(&mut Share, f64, &[Complex64], &[Complex64], &[f64]) + Sync + Send) {
+        let Self { degree, side, series, expansion, moments, positions, carried, fluxes, shares: all, .. } = self;
+        let len = shares::length(positions.len());
+        all.resize_with(positions.len().div_ceil(len), Share::default);
+        // Forces have no fluxes.
+        fluxes.resize(positions.len(), 0.0);
+        let nodes = positions.chunks(len).zip(carried.chunks(len)).zip(fluxes.chunks(len));
+        shares::each_of(all.iter_mut().zip(nodes), |(share, ((positions, carried), fluxes))| {
+            share.moments.clear(*degree);
+            write(share, *side, positions, carried, fluxes);
+        });
+        moments.clear(*degree);
+        all.iter().for_each(|share| moments.add(&share.moments));
+        expansion.begin(*degree);
+        expansion.add(series, moments, *side);
+        expansion.divide();
+    }
+
+    /// Takes the flow of the images of forces at the nodes from that at points (length).
+    pub(super) fn remove_forces_at(&mut self, [x, y]: [&[f64]; 2], points: &[Vec2], out: &mut [Flow]) {
+        self.take_forces([x, y]);
+        self.sample(points, -1.0, out);
+    }
+
+    /// Adds the flow of the images of dipoles at the nodes to that at points (length), which is without the double
+    /// layers.
+    pub(super) fn remove_dipoles_at(&mut self, dipoles: [&[f64]; 3], points: &[Vec2], out: &mut [Flow]) {
+        self.take_dipoles(dipoles);
+        self.sample(points, 1.0, out);
+    }
+
+    fn sample(&mut self, points: &[Vec2], sign: f64, out: &mut [Flow]) {
+        let Self { expansion, positions, centre, side, .. } = self;
+        positions.clear();
+        positions.extend(points.iter().map(|point| Complex64::new(point.x, point.y) - *centre));
+        expansion.add_samples(positions, *side, *side * *side, sign, out);
     }
 
     fn remove(&mut self, out: &mut [Vectors]) {
-        let Self { expansion, series, moments, positions, flow, side, degree, .. } = self;
-        expansion.begin(*degree);
-        expansion.add(series, moments, *side);
-        flow.clear(positions.len());
-        expansion.add_flow(positions, *side, *side * *side, flow);
-        let mut first = 0;
-        for Vectors { x, y } in out {
-            let all = first..first + x.len();
-            x.iter_mut().zip(&flow.x[all.clone()]).for_each(|(x, u)| *x -= u);
-            y.iter_mut().zip(&flow.y[all.clone()]).for_each(|(y, v)| *y -= v);
-            first = all.end;
+        let Self { expansion, positions, side, shares: all, .. } = self;
+        let (expansion, len) = (&*expansion, shares::length(positions.len()));
+        shares::each_of(all.iter_mut().zip(positions.chunks(len)), |(share, positions)| {
+            share.flow.clear(positions.len());
+            share.expansion.copy(expansion);
+            share.expansion.add_flow(positions, *side, *side * *side, &mut share.flow);
+        });
+        let flows = all.iter().flat_map(|share| share.flow.x.iter().zip(&share.flow.y));
+        let values = out.iter_mut().flat_map(|Vectors { x, y }| x.iter_mut().zip(y));
+        for ((x, y), (u, v)) in values.zip(flows) {
+            *x -= u;
+            *y -= v;
         }
     }
 }
@@ -121,6 +185,17 @@ fn circle(curves: &[Curve]) -> (Complex64, f64) {
     let middle = 0.5 * Complex64::new(corners[0] + corners[2], corners[1] + corners[3]);
     let radius = curves.iter().map(|curve| (curve.centre - middle).norm() + curve.radius).fold(0.0, f64::max);
     (middle, radius)
+}
+
+/// Distance from a place to the point that is farthest from it (length), 0 without points.
+fn farthest(from: Complex64, points: &[Vec2]) -> f64 {
+    points.iter().map(|point| (Complex64::new(point.x, point.y) - from).norm()).fold(0.0, f64::max)
+}
+
+/// Distance to the farthest point from the middle of curves, over the radius of the circle around these.
+pub(crate) fn spread(curves: &[Curve], points: &[Vec2]) -> f64 {
+    let (centre, radius) = circle(curves);
+    farthest(centre, points) / radius
 }
 
 /// Part of the circle around all curves that the circles around each of them fill.

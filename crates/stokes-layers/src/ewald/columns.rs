@@ -5,7 +5,8 @@ use std::{f64::consts::PI, ops::Range};
 use motile_base::{ComplexTransform, InputError};
 use num_complex::Complex64;
 
-use super::{lattice::Lattice, rows::Rows, shares::MOST, split::Split, window::Window};
+use super::{lattice::Lattice, rows::Rows, split::Split, window::Window};
+use crate::shares::MOST;
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
 /// Rows that are taken at a time, as in [`Rows`].

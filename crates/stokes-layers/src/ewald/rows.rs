@@ -55,7 +55,7 @@ impl Rows {
     pub(super) fn divide(cells: usize, size: [usize; 2], points: usize) -> Result<Vec<Self>, InputError> {
         let row_of = |cell: usize| (cell as f64 / cells as f64 * size[1] as f64) as usize;
         let fits = |count: &usize| cells / count * size[1] / cells > points;
-        let count = (2..=super::shares::MOST.min(cells)).rev().find(fits).unwrap_or(1);
+        let count = (2..=crate::shares::MOST.min(cells)).rev().find(fits).unwrap_or(1);
         let transform = ComplexTransform::new(size[0])?;
         let share = |index: usize| {
             let range = index * cells / count..(index + 1) * cells / count;

@@ -5,17 +5,20 @@
 
 use std::f64::consts::PI;
 
+use motile_base::Vec2;
 use num_complex::Complex64;
 
-use super::{Ewald, columns::Part, polynomial::value, shares, split::derivatives};
+use super::{Ewald, columns::Part, polynomial::value, split::derivatives};
 use crate::{
     curve::Curve,
     density::Density,
     greens::{Flow, Kernels, free},
+    shares,
 };
 
-/// Distance of a node from a point, in units of the cut-off, below which the node is left out.
-const LEFT_OUT: f64 = 1e-3;
+/// Largest distance of a node from a point, in units of the cut-off, below which the node is left out: nearer ones,
+/// whose flow others take away again, would leave their round-off.
+const LEFT_OUT: f64 = 0.05;
 
 /// The smooth part of the Green's function with its derivatives, in units of the cut-off.
 #[derive(Debug, Clone)]
@@ -32,8 +35,8 @@ impl Smooth {
     }
 
     /// Kernels without the smooth part at d, in units of a cut-off of that length; the smooth part alone, with the
-    /// other sign, of a node that is left out.
-    fn near(&self, d: Complex64, square: f64, cutoff: f64) -> Kernels {
+    /// other sign, of a node that is `left_out`.
+    fn near(&self, d: Complex64, square: f64, cutoff: f64, left_out: bool) -> Kernels {
         let at = |powers: &[f64]| value(powers, 2.0 * square - 1.0);
         let (b, [g, slope, bend]) = (at(&self.even), self.radial.each_ref().map(|powers| at(powers)));
         let (first, second) = (2.0 * g + square * slope, 3.0 * slope + square * bend);
@@ -44,7 +47,7 @@ impl Smooth {
             e: [-g * conj * conj, slope * conj.powi(3), -0.5 * bend * conj.powi(4)],
             background: first + square * second,
         };
-        if square >= LEFT_OUT * LEFT_OUT {
+        if !left_out {
             let free = free(d);
             kernels.log += free.log + cutoff.ln();
             kernels.c.iter_mut().zip(free.c).for_each(|(own, free)| *own += free);
@@ -62,16 +65,19 @@ impl Smooth {
 
 impl Ewald {
     /// Writes the flow at points, the single layers of all curves less the double layers, but for that in free space of
-    /// nodes that [`Ewald::leaves_out`].
+    /// nodes that [`Ewald::leaves_out`], none of which is as far as `nearest` (length).
     pub(crate) fn sample(
         &mut self,
         curves: &[Curve],
         density: Density<'_>,
-        points: impl Iterator<Item = Complex64>,
+        points: &[Vec2],
+        nearest: f64,
         out: &mut Vec<Flow>,
     ) {
+        self.left_out = (LEFT_OUT * self.cutoff).min(nearest);
         self.place(curves);
-        self.targets.sort(&self.lattice, self.cutoff, false, points.map(|point| [point.re, point.im]));
+        let places = points.iter().map(|point| [point.x, point.y]);
+        self.targets.sort(&self.lattice, self.cutoff, false, places);
         out.clear();
         out.resize(self.targets.points.len(), Flow::default());
         self.load_forces(curves, 0..curves.len());
@@ -79,6 +85,9 @@ impl Ewald {
         self.add_sampled(false, out);
         if self.width.is_some() {
             self.lift_pressure(curves, out);
+        }
+        if let Some(cluster) = &mut self.cluster {
+            cluster.remove_forces_at([&self.nodes[0], &self.nodes[1]], points, out);
         }
         if !density.vanishes() {
             self.load_dipoles(curves, density);
@@ -89,6 +98,10 @@ impl Ewald {
                 let [xx, _, yy] = self.nodes.each_ref().map(|array| array.iter().sum::<f64>());
                 let lift = 4.0 * PI * (xx - yy) / self.lattice.area();
                 out.iter_mut().for_each(|flow| flow.pressure -= lift);
+            }
+            if let Some(cluster) = &mut self.cluster {
+                cluster.place(curves);
+                cluster.remove_dipoles_at(self.nodes.each_ref().map(Vec::as_slice), points, out);
             }
         }
     }
@@ -113,7 +126,7 @@ impl Ewald {
 
     /// True for a node so close to a point that samples there do without its flow in free space.
     pub(crate) fn leaves_out(&self, from: Complex64) -> bool {
-        from.norm_sqr() < (LEFT_OUT * self.cutoff).powi(2)
+        from.norm_sqr() < self.left_out.powi(2)
     }
 
     /// Adds the flow at the points of what the entries carry.
@@ -141,7 +154,8 @@ impl Ewald {
                 }
             }
         }
-        let Self { smooth, tolerance, cells, targets, carried: [a, b, c], cutoff, .. } = self;
+        let Self { smooth, tolerance, cells, targets, carried: [a, b, c], cutoff, left_out, .. } = self;
+        let least = (*left_out / *cutoff).powi(2);
         let smooth = smooth.get_or_insert_with(|| Smooth::new(*tolerance));
         let [columns, rows] = targets.counts();
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
@@ -154,7 +168,7 @@ impl Ewald {
                     if square >= 1.0 {
                         continue;
                     }
-                    let kernels = smooth.near(d, square, *cutoff);
+                    let kernels = smooth.near(d, square, *cutoff, square < least);
                     if double {
                         // v n = -i v z' as complex numbers, and v.n.
                         let product = Complex64::new(-b[source], a[source] - c[source]);

@@ -9,6 +9,8 @@ use std::f64::consts::TAU;
 use motile_base::widely;
 use num_complex::Complex64;
 
+use crate::shares;
+
 mod flow;
 mod points;
 
@@ -145,9 +147,10 @@ impl WallModes {
     }
 
     /// Computes the sums over points with `source(j)` = (q, p); the lower wall takes the conjugate of q.
-    fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64)) {
+    fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64) + Sync) {
         let (k, exponent, modes) = (self.k, self.exponent, self.modes);
-        for ((side, sums), sign) in points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]) {
+        let sides = points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]);
+        shares::each_of(sides, |((side, sums), sign)| {
             sums.clear();
             sums.resize(modes.div_ceil(LANES), Sums::default());
             for (j, powers) in side.iter().enumerate() {
@@ -157,7 +160,7 @@ impl WallModes {
                 if p == 0.0 && q == Complex64::default() {
                     continue;
                 }
-                let (q_re, q_im) = (q.re, sign * q.im);
+                let (q_re, q_im) = (q.re, *sign * q.im);
                 let mut powers = *powers;
                 let first = k * powers.distance;
                 let mut depth: Lanes = std::array::from_fn(|lane| first * (lane + 1) as f64);
@@ -181,11 +184,16 @@ impl WallModes {
                     },
                 );
             }
-        }
+        });
     }
 
     /// Adds forces (times weight) at points as sources; `target_gap` as in [`WallModes::begin`].
-    pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
+    pub(crate) fn add_forces(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        forces: impl Fn(usize) -> Complex64 + Sync,
+    ) {
         self.moments(points, target_gap, |j| (forces(j), forces(j).re));
         self.add_slips(|[plain, mixed], side, mode| {
             let inverse = 1.0 / mode;
@@ -220,7 +228,7 @@ impl WallModes {
         &mut self,
         points: &WallPoints,
         target_gap: f64,
-        dipoles: impl Fn(usize) -> [f64; 3],
+        dipoles: impl Fn(usize) -> [f64; 3] + Sync,
         x: impl Fn(usize) -> f64,
     ) {
         self.moments(points, target_gap, |j| {
@@ -298,11 +306,19 @@ impl WallModes {
         }
     }
 
-    /// Computes the velocity of the correction at points and calls `add(index, u, v)`; `source_gap` as in
-    /// [`WallModes::begin`].
-    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
-        for (i, y) in points.y.iter().enumerate() {
-            let (mut u, mut v) = (self.mean_velocity(*y), self.rise);
+    /// Computes the velocities of the correction at points; `source_gap` as in [`WallModes::begin`].
+    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, out: &mut Vec<[f64; 2]>) {
+        out.resize(points.y.len(), [0.0; 2]);
+        let len = shares::length(out.len());
+        shares::each_of(out.chunks_mut(len).enumerate(), |(piece, out)| {
+            self.write_velocities(points, source_gap, *piece * len, out);
+        });
+    }
+
+    /// Writes the velocities at the points from one on.
+    fn write_velocities(&self, points: &WallPoints, source_gap: f64, first: usize, out: &mut [[f64; 2]]) {
+        for (i, out) in (first..).zip(out) {
+            let (mut u, mut v) = (self.mean_velocity(points.y[i]), self.rise);
             for (side, sign) in [(0, 1.0), (1, -1.0)] {
                 let mut powers = points.sides[side][i];
                 let s = powers.distance;
@@ -329,7 +345,7 @@ impl WallModes {
                 u += sign * (sum - s * linear_re);
                 v += plain - s * linear_im;
             }
-            add(i, u, v);
+            *out = [u, v];
         }
     }
 

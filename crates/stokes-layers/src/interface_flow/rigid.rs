@@ -113,7 +113,7 @@ impl RigidWalls {
             return Err(LayerError::SingularWalls);
         }
         let scale = 2.0 * length * viscosity;
-        let behind = flux_behind(layers, sampler, viscosity, half, &unit);
+        let behind = flux_behind(layers, sampler, viscosity, half, &unit)?;
         let conductance = parabola.dot(&unit) / scale - 2.0 / 3.0 * half.powi(3) / viscosity - behind;
         layers.fix();
         let forces = DVector::zeros(count);
@@ -170,7 +170,13 @@ fn add_walls(layers: &Layers, factor: f64, values: &mut [f64]) {
 }
 
 /// Flux between open walls and the walls of the channel behind them, for a unit pressure gradient.
-fn flux_behind(layers: &mut Layers, sampler: &mut Sampler, viscosity: f64, half: f64, unit: &DVector<f64>) -> f64 {
+fn flux_behind(
+    layers: &mut Layers,
+    sampler: &mut Sampler,
+    viscosity: f64,
+    half: f64,
+    unit: &DVector<f64>,
+) -> Result<f64, LayerError> {
     let mut ends = Vec::new();
     for curve in layers.curves.iter().filter(|curve| curve.is_open()) {
         // Between the wall of the channel and the place that comes closest to it there is no other wall.
@@ -186,12 +192,12 @@ fn flux_behind(layers: &mut Layers, sampler: &mut Sampler, viscosity: f64, half:
         let at = |k: usize, s: f64| Vec2::new(place.re, place.im + step * (k as f64 + 0.5 + 0.5 * s));
         let points: Vec<Vec2> = (0..INTERVALS).flat_map(|k| GAUSS.map(|(s, _)| at(k, s))).collect();
         let mut samples = vec![FlowSample::default(); points.len()];
-        sampler.sample(layers, Density::NONE, &points, &mut samples, |_| viscosity, |_| None);
+        sampler.sample(layers, Density::NONE, &points, &mut samples, |_| viscosity, |_| None)?;
         let weights = GAUSS.iter().map(|(_, weight)| 0.5 * step.abs() * weight).cycle();
         flux += samples.iter().zip(weights).map(|(sample, weight)| sample.velocity.x * weight).sum::<f64>();
     }
     layers.set_gradient(0.0);
-    flux
+    Ok(flux)
 }
 
 /// Refuses walls that cross or touch, themselves or one another.

@@ -1,3 +1,4 @@
+mod film;
 mod free_body;
 mod many;
 mod sheared;

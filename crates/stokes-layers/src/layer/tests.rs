@@ -194,12 +194,15 @@ fn fast_single_layers_are_reciprocal() {
 fn fast_sums_do_not_depend_on_the_number_of_threads() {
     let lengths = [14.0, 14.0];
     let curves = ellipses(lengths, [5, 5]);
-    let bits = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let flows = pool.install(|| flows(&mut loaded(Region::Box { lengths }, 0.0, 1e-8, &curves)));
-        flows.map(|flow| flow.into_iter().map(f64::to_bits).collect::<Vec<_>>())
-    };
-    let expected = bits(1);
-    assert_eq!(bits(2), expected);
-    assert_eq!(bits(3), expected);
+    let channel = Region::Channel { length: 14.0, width: 14.0, drive: Drive::ZeroFlux };
+    for region in [Region::Box { lengths }, channel, Region::Plane] {
+        let bits = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let flows = pool.install(|| flows(&mut loaded(region, 0.0, 1e-8, &curves)));
+            flows.map(|flow| flow.into_iter().map(f64::to_bits).collect::<Vec<_>>())
+        };
+        let expected = bits(1);
+        assert_eq!(bits(2), expected);
+        assert_eq!(bits(3), expected);
+    }
 }

@@ -45,6 +45,8 @@ pub(crate) struct Walls {
     gap: f64,
     /// Points off the curves.
     points: WallPoints,
+    /// Flow of the modes at the nodes.
+    flow: Vec<[f64; 2]>,
 }
 
 impl Walls {
@@ -63,6 +65,7 @@ impl Walls {
             source_owners: Vec::new(),
             refined: Vec::new(),
             gap: 0.0,
+            flow: Vec::new(),
             points,
         }
     }
@@ -110,6 +113,7 @@ impl Walls {
             }
             self.gap = self.gap.min(least);
         }
+        self.nodes.prepare();
         self.load_sources(curves, |refined, number| refined[number]);
         Ok(())
     }
@@ -128,6 +132,7 @@ impl Walls {
                 self.source_owners.push([number, node]);
             }
         }
+        self.sources.prepare();
     }
 
     /// The sources with curve and number of each, and the mode sums.
@@ -145,7 +150,7 @@ impl Walls {
         &mut self,
         curves: &[Curve],
         from: Range<usize>,
-        fine: impl Fn(&[bool], usize) -> bool,
+        fine: impl Fn(&[bool], usize) -> bool + Sync,
         target_gap: f64,
     ) {
         let refined = std::mem::take(&mut self.refined);
@@ -166,7 +171,7 @@ impl Walls {
         curves: &[Curve],
         density: Density<'_>,
         values: &[Complex64],
-        fine: impl Fn(&[bool], usize) -> bool,
+        fine: impl Fn(&[bool], usize) -> bool + Sync,
         (target_gap, sign): (f64, f64),
     ) {
         let refined = std::mem::take(&mut self.refined);
@@ -200,11 +205,11 @@ impl Walls {
     /// Adds the flow of the modes at the nodes.
     fn add_modes(&mut self, out: &mut [Vectors]) {
         self.modes.solve();
-        self.modes.velocities(&self.nodes, self.gap, |i, u, v| {
-            let [curve, i] = self.owners[i];
-            out[curve].x[i] += u;
-            out[curve].y[i] += v;
-        });
+        self.modes.velocities(&self.nodes, self.gap, &mut self.flow);
+        for ([curve, i], [u, v]) in self.owners.iter().zip(&self.flow) {
+            out[*curve].x[*i] += u;
+            out[*curve].y[*i] += v;
+        }
     }
 
     /// Adds the contribution of the walls to the single layer of some curves.
@@ -299,19 +304,21 @@ impl Walls {
         sum
     }
 
-    /// Prepares for [`Walls::add_flow`] at these points, with velocities at the fine nodes.
+    /// Prepares for [`Walls::add_flow`] at these points, with velocities at the fine nodes, to `sharper` times the
+    /// tolerance.
     pub(crate) fn prepare_points(
         &mut self,
         curves: &[Curve],
         density: Density<'_>,
         fine: &[Complex64],
-        uncorrected: Uncorrected,
+        (uncorrected, sharper): (Uncorrected, f64),
         points: impl Iterator<Item = Complex64>,
     ) {
         self.points.clear();
         for z in points {
             self.points.push(z.re, z.im.clamp(-self.half, self.half));
         }
+        self.points.prepare();
         self.load_sources(curves, |_, _| true);
         if curves.is_empty() {
             self.modes.begin(Uncorrected::Row, self.half, self.half, self.tolerance);
@@ -319,7 +326,7 @@ impl Walls {
             let spacing = curves.iter().map(Curve::spacing).fold(0.0, f64::max);
             let source_gap = self.sources.gap().max(LEAST_GAP * spacing);
             let target_gap = self.points.gap().min(self.half);
-            self.modes.begin(uncorrected, source_gap, target_gap, self.tolerance);
+            self.modes.begin(uncorrected, source_gap, target_gap, sharper * self.tolerance);
             self.put_forces(curves, 0..curves.len(), |_, _| true, target_gap);
             if !density.vanishes() {
                 self.put_dipoles(curves, density, fine, |_, _| true, (target_gap, -1.0));

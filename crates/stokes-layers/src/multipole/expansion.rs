@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use crate::greens::Vectors;
+use crate::greens::{Flow, Vectors};
 
 use super::series::Series;
 
@@ -31,6 +31,15 @@ impl Moments {
         for family in [&mut self.plain, &mut self.conjugate, &mut self.mixed, &mut self.flux] {
             family.clear();
             family.resize(degree + 1, Complex64::default());
+        }
+    }
+
+    /// Adds the moments of other sources.
+    pub(crate) fn add(&mut self, other: &Self) {
+        let Self { plain, conjugate, mixed, flux } = self;
+        let others = [&other.plain, &other.conjugate, &other.mixed, &other.flux];
+        for (own, other) in [plain, conjugate, mixed, flux].into_iter().zip(others) {
+            own.iter_mut().zip(other).for_each(|(own, other)| *own += other);
         }
     }
 }
@@ -150,9 +159,72 @@ impl Expansion {
         }
     }
 
-    /// Adds the flow at `positions` (length) to `out`; `area` is that of a box, infinite without a background force.
+    /// Takes over the flow of another expansion.
+    pub(crate) fn copy(&mut self, other: &Self) {
+        for (own, other) in [&mut self.p, &mut self.q, &mut self.r].into_iter().zip([&other.p, &other.q, &other.r]) {
+            own.x.clone_from(&other.x);
+            own.y.clone_from(&other.y);
+        }
+        self.low = other.low;
+    }
+
+    /// Adds the flow at `positions` (length) to `out` after [`Expansion::divide`]; `area` is that of a box, infinite
+    /// without a background force.
     pub(crate) fn add_flow(&mut self, positions: &[Complex64], unit: f64, area: f64, out: &mut Vectors) {
-        // Divide by k!: the coefficients of P, Q and R = -P'.
+        self.place(positions, unit);
+        for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
+            horner(coefficients, &self.power, sums);
+        }
+        let [[a0, a1, _], [b0, b1, b2], [c0, c1, _], [e0, e1, _]] = self.low;
+        let second = PI * unit * unit / (2.0 * area);
+        let flux = 2.0 * PI * unit / area;
+        let constant = second * c1 - 0.5 * second * b2 + flux * e1;
+        let [p, q, r] = &self.accumulators;
+        for i in 0..positions.len() {
+            let z = Complex64::new(self.power.x[i], self.power.y[i]);
+            let r = Complex64::new(r.x[i], -r.y[i]);
+            let quadratic = second * (a0 * z.norm_sqr() - z * c0 - z.conj() * a1)
+                - second * z * (0.5 * z * b0 - b1)
+                - flux * z * e0;
+            let w = constant + quadratic + z * r;
+            out.x[i] += w.re + p.x[i] + q.x[i];
+            out.y[i] += w.im + p.y[i] - q.y[i];
+        }
+    }
+
+    /// Adds `sign` times the flow at `positions`, with its gradient and pressure, to `out`; otherwise as
+    /// [`Expansion::add_flow`]. The derivative by z is `P' + conj R`, that by conj(z) `conj Q' + z conj R'`, and the
+    /// pressure `-4 Re P'`.
+    pub(crate) fn add_samples(&mut self, positions: &[Complex64], unit: f64, area: f64, sign: f64, out: &mut [Flow]) {
+        let mut velocity = Vectors::default();
+        velocity.clear(positions.len());
+        self.add_flow(positions, unit, area, &mut velocity);
+        let [_, _, r] = &mut self.accumulators;
+        let spin = std::mem::take(r);
+        for part in [&mut self.q, &mut self.r] {
+            differentiate(part);
+        }
+        for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.q, &self.r]) {
+            horner(coefficients, &self.power, sums);
+        }
+        let [[a0, a1, _], [b0, b1, _], [c0, _, _], [e0, _, _]] = self.low;
+        let second = PI * unit * unit / (2.0 * area);
+        let flux = 2.0 * PI * unit / area;
+        let [q, r, _] = &self.accumulators;
+        let slope = sign / unit;
+        for (i, flow) in out.iter_mut().enumerate() {
+            let z = Complex64::new(self.power.x[i], self.power.y[i]);
+            let [q, r] = [q, r].map(|part| Complex64::new(part.x[i], -part.y[i]));
+            let turn = second * (a0 * z.conj() - c0 - z * b0 + b1) - flux * e0;
+            flow.velocity += sign * Complex64::new(velocity.x[i], velocity.y[i]);
+            flow.spin += slope * (turn + Complex64::new(0.0, -2.0 * spin.y[i]));
+            flow.strain += slope * (second * (a0 * z - a1) + q + z * r);
+            flow.pressure += slope * 4.0 * (spin.x[i] + second * (c0 - a0 * z.conj()).re);
+        }
+    }
+
+    /// Ends the sum over sources: divides by k!, for the coefficients of P, Q and R = -P'.
+    pub(crate) fn divide(&mut self) {
         let mut inverse = 1.0;
         let len = self.p.x.len();
         self.r.clear(len);
@@ -167,29 +239,24 @@ impl Expansion {
                 part.y[k] *= inverse;
             }
         }
-        let n = positions.len();
-        self.power.clear(n);
+    }
+
+    /// Takes over positions in units of `unit`.
+    fn place(&mut self, positions: &[Complex64], unit: f64) {
+        self.power.clear(positions.len());
         for (i, z) in positions.iter().enumerate() {
             (self.power.x[i], self.power.y[i]) = (z.re / unit, z.im / unit);
         }
-        for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
-            horner(coefficients, &self.power, sums);
+    }
+}
+
+/// Replaces the coefficients of a polynomial by those of its derivative.
+fn differentiate(coefficients: &mut Vectors) {
+    for part in [&mut coefficients.x, &mut coefficients.y] {
+        for k in 1..part.len() {
+            part[k - 1] = k as f64 * part[k];
         }
-        let [[a0, a1, _], [b0, b1, b2], [c0, c1, _], [e0, e1, _]] = self.low;
-        let second = PI * unit * unit / (2.0 * area);
-        let flux = 2.0 * PI * unit / area;
-        let constant = second * c1 - 0.5 * second * b2 + flux * e1;
-        let [p, q, r] = &self.accumulators;
-        for i in 0..n {
-            let z = Complex64::new(self.power.x[i], self.power.y[i]);
-            let r = Complex64::new(r.x[i], -r.y[i]);
-            let quadratic = second * (a0 * z.norm_sqr() - z * c0 - z.conj() * a1)
-                - second * z * (0.5 * z * b0 - b1)
-                - flux * z * e0;
-            let w = constant + quadratic + z * r;
-            out.x[i] += w.re + p.x[i] + q.x[i];
-            out.y[i] += w.im + p.y[i] - q.y[i];
-        }
+        part.pop();
     }
 }
 

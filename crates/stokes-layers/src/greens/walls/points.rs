@@ -4,13 +4,15 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
+use crate::shares;
+
 /// Modes in one pass of a loop, as many as a vector register of AVX has numbers.
 pub(crate) const LANES: usize = 4;
 
 pub(crate) type Lanes = [f64; LANES];
 
 /// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 4 and the factor to the next four, for one wall.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Powers {
     /// Distance from the wall (length).
     pub(crate) distance: f64,
@@ -51,6 +53,7 @@ pub(crate) struct WallPoints {
     half: f64,
     /// Upper wall, lower wall.
     pub(crate) sides: [Vec<Powers>; 2],
+    x: Vec<f64>,
     /// Height above the middle (length).
     pub(crate) y: Vec<f64>,
 }
@@ -58,21 +61,37 @@ pub(crate) struct WallPoints {
 impl WallPoints {
     /// No points, in a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64) -> Self {
-        Self { k: TAU / period, half, sides: Default::default(), y: Vec::new() }
+        Self { k: TAU / period, half, sides: Default::default(), x: Vec::new(), y: Vec::new() }
     }
 
     /// Removes all points, keeping the memory.
     pub(crate) fn clear(&mut self) {
         self.sides.iter_mut().for_each(Vec::clear);
+        self.x.clear();
         self.y.clear();
     }
 
-    /// Adds a point at x and y above the middle (length).
+    /// Adds a point at x and y above the middle (length), before [`WallPoints::prepare`].
     pub(crate) fn push(&mut self, x: f64, y: f64) {
-        let phase = Complex64::cis(self.k * x);
-        self.sides[0].push(Powers::new(self.k, self.half - y, phase));
-        self.sides[1].push(Powers::new(self.k, self.half + y, phase));
+        self.x.push(x);
         self.y.push(y);
+    }
+
+    /// Computes the factors of all points.
+    pub(crate) fn prepare(&mut self) {
+        let Self { k, half, sides: [upper, lower], x, y } = self;
+        for side in [&mut *upper, lower] {
+            side.resize(x.len(), Powers::default());
+        }
+        let len = shares::length(x.len());
+        let places = x.chunks(len).zip(y.chunks(len));
+        shares::each_of(upper.chunks_mut(len).zip(lower.chunks_mut(len)).zip(places), |((upper, lower), (x, y))| {
+            for (((upper, lower), x), y) in upper.iter_mut().zip(lower.iter_mut()).zip(*x).zip(*y) {
+                let phase = Complex64::cis(*k * x);
+                *upper = Powers::new(*k, *half - y, phase);
+                *lower = Powers::new(*k, *half + y, phase);
+            }
+        });
     }
 
     /// Smallest distance of a point from a wall (length), infinite without points.

@@ -9,6 +9,8 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
     let mut to = from.clone();
     from.push(source[0], source[1]);
     to.push(target[0], target[1]);
+    from.prepare();
+    to.prepare();
     modes.begin(Uncorrected::Row, from.gap(), to.gap(), 1e-15);
     modes.add_forces(&from, to.gap(), |_| force);
     modes.solve();
@@ -16,8 +18,9 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
     let mut row = Flow::default();
     let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
     row.add_force(&GreensFunction::Row { k: modes.k }.at(d), force, 1.0);
-    let mut fast = Complex64::default();
-    modes.velocities(&to, from.gap(), |_, u, v| fast = Complex64::new(u, v));
+    let mut fast = Vec::new();
+    modes.velocities(&to, from.gap(), &mut fast);
+    let fast = Complex64::new(fast[0][0], fast[0][1]);
     assert!((fast - walls.velocity).norm() < 1e-11, "{fast} {}", walls.velocity);
     (row.velocity + walls.velocity, walls)
 }
