@@ -30,8 +30,14 @@ pub(crate) fn length(entries: usize) -> usize {
     entries.div_ceil(MOST).max(FEWEST)
 }
 
-/// Does the work of each of at most [`MOST`] pieces, as [`each`] does.
-pub(crate) fn each_of<T: Send>(pieces: impl Iterator<Item = T>, work: impl Fn(&mut T) + Sync + Send) {
+/// Entries from which on pieces are handed over.
+const MANY: usize = 1000;
+
+/// Does the work of each of at most [`MOST`] pieces of so many entries, as [`each`] does, few entries on this thread.
+pub(crate) fn each_of<T: Send>(entries: usize, pieces: impl Iterator<Item = T>, work: impl Fn(&mut T) + Sync + Send) {
+    if entries < MANY {
+        return pieces.for_each(|mut piece| work(&mut piece));
+    }
     let mut pieces = pieces.fuse();
     let mut all: [Option<T>; MOST] = array::from_fn(|_| pieces.next());
     let used = all.iter().take_while(|piece| piece.is_some()).count();

@@ -123,7 +123,7 @@ impl Cluster {
         // Forces have no fluxes.
         fluxes.resize(positions.len(), 0.0);
         let nodes = positions.chunks(len).zip(carried.chunks(len)).zip(fluxes.chunks(len));
-        shares::each_of(all.iter_mut().zip(nodes), |(share, ((positions, carried), fluxes))| {
+        shares::each_of(positions.len(), all.iter_mut().zip(nodes), |(share, ((positions, carried), fluxes))| {
             share.moments.clear(*degree);
             write(share, *side, positions, carried, fluxes);
         });
@@ -157,7 +157,7 @@ impl Cluster {
     fn remove(&mut self, out: &mut [Vectors]) {
         let Self { expansion, positions, side, shares: all, .. } = self;
         let (expansion, len) = (&*expansion, shares::length(positions.len()));
-        shares::each_of(all.iter_mut().zip(positions.chunks(len)), |(share, positions)| {
+        shares::each_of(positions.len(), all.iter_mut().zip(positions.chunks(len)), |(share, positions)| {
             share.flow.clear(positions.len());
             share.expansion.copy(expansion);
             share.expansion.add_flow(positions, *side, *side * *side, &mut share.flow);

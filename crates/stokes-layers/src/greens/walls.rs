@@ -150,7 +150,7 @@ impl WallModes {
     fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64) + Sync) {
         let (k, exponent, modes) = (self.k, self.exponent, self.modes);
         let sides = points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]);
-        shares::each_of(sides, |((side, sums), sign)| {
+        shares::each_of(points.y.len(), sides, |((side, sums), sign)| {
             sums.clear();
             sums.resize(modes.div_ceil(LANES), Sums::default());
             for (j, powers) in side.iter().enumerate() {
@@ -310,7 +310,7 @@ impl WallModes {
     pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, out: &mut Vec<[f64; 2]>) {
         out.resize(points.y.len(), [0.0; 2]);
         let len = shares::length(out.len());
-        shares::each_of(out.chunks_mut(len).enumerate(), |(piece, out)| {
+        shares::each_of(out.len(), out.chunks_mut(len).enumerate(), |(piece, out)| {
             self.write_velocities(points, source_gap, *piece * len, out);
         });
     }

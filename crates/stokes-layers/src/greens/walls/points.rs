@@ -85,13 +85,17 @@ impl WallPoints {
         }
         let len = shares::length(x.len());
         let places = x.chunks(len).zip(y.chunks(len));
-        shares::each_of(upper.chunks_mut(len).zip(lower.chunks_mut(len)).zip(places), |((upper, lower), (x, y))| {
-            for (((upper, lower), x), y) in upper.iter_mut().zip(lower.iter_mut()).zip(*x).zip(*y) {
-                let phase = Complex64::cis(*k * x);
-                *upper = Powers::new(*k, *half - y, phase);
-                *lower = Powers::new(*k, *half + y, phase);
-            }
-        });
+        shares::each_of(
+            x.len(),
+            upper.chunks_mut(len).zip(lower.chunks_mut(len)).zip(places),
+            |((upper, lower), (x, y))| {
+                for (((upper, lower), x), y) in upper.iter_mut().zip(lower.iter_mut()).zip(*x).zip(*y) {
+                    let phase = Complex64::cis(*k * x);
+                    *upper = Powers::new(*k, *half - y, phase);
+                    *lower = Powers::new(*k, *half + y, phase);
+                }
+            },
+        );
     }
 
     /// Smallest distance of a point from a wall (length), infinite without points.
