@@ -16,6 +16,7 @@ mod interfaces;
 mod recommended;
 mod solids;
 mod two_droplets;
+mod viscoelastic;
 
 use clap::{Args, builder::PossibleValuesParser};
 use motile::active_interface::Motion;
@@ -54,7 +55,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 38] = [
+const STUDIES: [(&str, Run); 39] = [
     ("fixed-shapes", fixed),
     ("relaxation", relax),
     ("growth", grow),
@@ -91,6 +92,7 @@ const STUDIES: [(&str, Run); 38] = [
     ("curved-walls", curved_walls::curved_walls),
     ("elastic-walls", elastic_walls::elastic_walls),
     ("solids", solids::solids),
+    ("viscoelastic", viscoelastic::viscoelastic),
     ("fast-sums", fast_sums::fast_sums),
     ("cost", interfaces::cost),
 ];
@@ -105,7 +107,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
     for (name, run) in STUDIES.into_iter().filter(|(name, _)| [ALL, *name].contains(&flags.study.as_str())) {
         let found = run(flags.quick)?;
         found.iter().for_each(say);
-        let solids = ["solids", "elastic-walls"].contains(&name).then_some("crates/elastic-solids");
+        let solids = ["solids", "elastic-walls", "viscoelastic"].contains(&name).then_some("crates/elastic-solids");
         let inputs: Vec<&str> = ["tests/src/validation"].into_iter().chain(solids).collect();
         if flags.check {
             tables::check(name, &found)?;

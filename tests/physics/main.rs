@@ -31,6 +31,7 @@ mod swimmers;
 mod threads;
 mod time_steps;
 mod units;
+mod viscoelastic;
 mod warnings;
 mod without_grid;
 mod work;

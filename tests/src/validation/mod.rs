@@ -31,6 +31,7 @@ pub mod scene;
 pub mod solids;
 pub mod swimmers;
 mod table;
+pub mod viscoelastic;
 
 pub use fixed_shapes::Case;
 pub use order::order;
