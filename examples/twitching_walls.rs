@@ -12,6 +12,7 @@ use motile_examples::{ElasticFlags, SceneFlags, TwitchingFlags, swim_between_wal
 
 /// An active droplet swims between walls that twitch.
 #[derive(Debug, Parser)]
+#[command(after_help = "The default run takes 1,237 steps, 2,475 evaluations of the flow.")]
 struct Flags {
     #[command(flatten)]
     twitching: TwitchingFlags,

@@ -125,12 +125,17 @@ pub fn distribution(text: &str) -> Result<Distribution, String> {
 /// The scene of a file.
 ///
 /// # Errors
-/// A file that cannot be read or describes no scene.
+/// A file that cannot be read or describes no scene, or one in which nothing moves.
 pub fn scene_file(path: &Path) -> anyhow::Result<Setup> {
     let read = || {
         // A device could go on for ever.
         ensure!(!path.exists() || path.is_file(), "it is no regular file");
-        Ok(Setup::from_toml(&std::fs::read_to_string(path)?)?)
+        let setup = Setup::from_toml(&std::fs::read_to_string(path)?)?;
+        let Setup { droplets, suspension, solids, rigid_bodies, shells, gels, interfaces, .. } = &setup;
+        let bodies = [suspension.len(), solids.len(), rigid_bodies.len(), shells.len(), gels.len(), interfaces.len()];
+        let moves = droplets.len() + bodies.iter().sum::<usize>() > 0;
+        ensure!(moves, "nothing in it moves: give it [[droplets]], a [[suspension]], [[interfaces]] or other bodies");
+        Ok(setup)
     };
     read().with_context(|| format!("--scene {}", path.display()))
 }

@@ -115,6 +115,8 @@ fn curved_walls() {
 fn elastic_walls() {
     compare("elastic_channel", "6", "--spacing 0.2 --nodes 24 --no-pictures");
     compare("custom_geometry", "2", "--spacing 0.2 --nodes 24 --width 3 --no-pictures");
+    compare("viscoelastic_channel", "3", "--spacing 0.2 --nodes 24 --no-pictures");
+    compare("twitching_walls", "3", "--spacing 0.2 --nodes 24 --no-pictures");
     compare("constriction", "6", "--spacing 0.2 --nodes 24 --length 8 --throat 1.6 --width 2.4 --no-pictures");
 }
 
@@ -136,8 +138,16 @@ fn two_that_meet() {
 /// How long the default run takes stands in the help, in what does not depend on the machine.
 #[test]
 fn help_tells_how_long_the_default_takes() {
+    let numbers = |example: &str| -> Vec<usize> {
+        let told = Command::new(program(example)).arg("--help").output().expect("help");
+        let told = String::from_utf8(told.stdout).expect("text");
+        let line = told.lines().find(|line| line.starts_with("The default run takes ")).expect(example);
+        line.split(' ').filter_map(|word| word.replace(',', "").parse().ok()).collect()
+    };
+    let out = std::env::temp_dir().join(format!("motile-default-{}", std::process::id()));
     for example in [
         "active_gel",
+        "active_walls",
         "constriction",
         "custom_geometry",
         "elastic_channel",
@@ -146,14 +156,31 @@ fn help_tells_how_long_the_default_takes() {
         "rigid_channel",
         "rigid_geometry",
         "swimming_droplet",
+        "twitching_walls",
         "two_droplets",
+        "viscoelastic_channel",
     ] {
-        let told = Command::new(program(example)).arg("--help").output().expect("help");
-        let told = String::from_utf8(told.stdout).expect("text");
-        let line = told.lines().find(|line| line.starts_with("The default run takes ")).expect(example);
-        let numbers: Vec<usize> = line.split(' ').filter_map(|word| word.replace(',', "").parse().ok()).collect();
-        assert!(numbers.len() == 2 && numbers[1] > numbers[0], "{example}: {line}");
+        assert!(finish(start(example, &["--no-pictures"], &out)).success(), "{example}");
+        let summary = Summary::read(&out.join("summary.json")).expect("a summary").expect("results");
+        let taken = ["steps", "evaluations"].map(|key| summary.values()[key].as_f64().expect("a number"));
+        let told = numbers(example);
+        assert_eq!(told.len(), 2, "{example}");
+        // Rounding of other processors may reject a step more.
+        let agrees = |(told, taken): (&usize, f64)| (*told as f64 / taken - 1.0).abs() < 0.01;
+        assert!(told.iter().zip(taken).all(agrees), "{example}: {told:?} told, {taken:?} taken");
     }
+    fs::remove_dir_all(&out).expect("a directory that can go");
+    // It takes longer than a test should.
+    assert_eq!(numbers("suspension").len(), 2);
+}
+
+/// A scene file without anything that moves is refused, and not run in one step.
+#[test]
+fn empty_scenes_are_refused() {
+    let file = std::env::temp_dir().join(format!("motile-empty-{}.toml", std::process::id()));
+    fs::write(&file, "viscosity = 2.0\n").expect("a file");
+    refused("swimming_droplet", &format!("--scene {}", file.display()), &["nothing in it moves", "[[droplets]]"]);
+    fs::remove_file(&file).expect("a file that can go");
 }
 
 /// A command line that the example refuses in words with these.

@@ -211,6 +211,23 @@ fn a_large_box() {
 }
 
 /// Threads that run scenes of their own do not disturb each other, and there are no others.
+/// A run that goes on in its own scene takes the steps that it would have taken: the first of them looks at the step
+/// before as any other.
+#[test]
+fn a_run_in_parts_is_one_run() {
+    let fast = || scene(&Setup { droplets: vec![DropletSetup::active(-8.0)], ..coarse() });
+    for (step, until) in [(AUTO, 0.4), (ADAPTIVE, 0.4)] {
+        let (mut whole, mut parts) = (fast(), fast());
+        whole.run(until).step_size(step).go().unwrap();
+        for most in [1, 2, 4] {
+            let outcome = parts.run(until).step_size(step).most_steps(most).go();
+            assert!(matches!(outcome, Err(SceneError::TooManySteps { .. })), "{outcome:?}");
+        }
+        parts.run(until).step_size(step).go().unwrap();
+        assert!(bits(&parts) == bits(&whole), "{step:?}: {} and {} steps", parts.steps(), whole.steps());
+    }
+}
+
 #[test]
 fn two_at_a_time_are_as_one() {
     let run = || {

@@ -303,3 +303,6 @@ fn profile(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Vec
     let x = |k: usize| period * (k as f64 / count as f64 - 0.5);
     Ok((0..count).map(x).map(|x| Vec2::new(x, height(x))).collect())
 }
+
+#[cfg(test)]
+mod tests;

@@ -109,3 +109,26 @@ fn a_force_on_a_point_is_taken() {
     assert_eq!(layers.work().stokes_solves, 2);
     assert!(markers.velocities()[pulled].x > before[pulled].x + 0.05);
 }
+
+/// The flow around a rigid body is known without a solution before: on the body it is that of the body.
+#[test]
+fn a_rigid_body_is_sampled_at_first_sight() {
+    let (mut solved, flow) =
+        (rigid(), || BoundaryIntegral::new(Region::Box { lengths: [6.0, 4.0] }, 1.0, SETTINGS).expect("a flow"));
+    let mut known = flow();
+    known.velocities(&mut solved).expect("velocities");
+    let places = [Vec2::new(-1.1, 0.2), Vec2::new(-0.1, 0.2), Vec2::new(1.3, 0.1)];
+    let sampled = |mut flow: BoundaryIntegral, markers: &Markers| {
+        let mut samples = [FlowSample::default(); 3];
+        flow.sample(markers, &places, &mut samples).expect("samples");
+        samples.map(|sample| sample.velocity)
+    };
+    let [first, then] = [sampled(flow(), &rigid()), sampled(known, &solved)];
+    for (first, then) in first.iter().zip(then) {
+        assert!(first.distance(then) < 1e-8, "{first} {then}");
+    }
+    // In its middle the mean of the velocities of its opposite points.
+    let at = |k: usize| solved.velocities()[COUNT + k];
+    let middle = 0.5 * (at(0) + at(COUNT / 2));
+    assert!(first[0].distance(middle) < 1e-6 && middle.length() > 1e-2, "{} {middle}", first[0]);
+}

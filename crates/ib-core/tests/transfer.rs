@@ -282,3 +282,28 @@ fn fields_of_other_grids_and_lists_of_other_lengths_are_refused() {
         assert_eq!(transfer.interpolate(&field, &mut list), Err(FlowError::Input(expected)));
     }
 }
+
+/// Markers are found in pairs, and a last one alone: both as if each were alone, wherever the grid begins.
+#[test]
+fn pairs_are_found_where_each_is() {
+    for grid in [Grid::periodic(20, 16, 0.3).unwrap(), Grid::channel(20, 16, 0.3).unwrap()] {
+        let [x0, y0] = [0.31, -1.27];
+        let grid = grid.with_origin([x0, y0]).unwrap();
+        let velocity = noise(grid, 5);
+        let places: Vec<Vec2> =
+            (0..8).map(|k| Vec2::new(x0 + 0.71 * f64::from(k), y0 + 0.4 + 0.53 * f64::from(k))).collect();
+        for kernel in AnyKernel::ALL {
+            let found = |places: &[Vec2]| {
+                let mut transfer = Transfer::new(grid, kernel);
+                transfer.locate(places);
+                let mut velocities = vec![Vec2::ZERO; places.len()];
+                transfer.interpolate(&velocity, &mut velocities).unwrap();
+                velocities
+            };
+            let alone: Vec<Vec2> = places.iter().flat_map(|place| found(&[*place])).collect();
+            for (place, (one, other)) in places.iter().zip(found(&places).iter().zip(&alone)) {
+                assert!(one.distance(*other) < 1e-13, "{} at {place}: {one} {other}", kernel.name());
+            }
+        }
+    }
+}

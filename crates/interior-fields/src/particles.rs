@@ -384,3 +384,6 @@ impl Observe for ParticlesInDroplet {
         Ok(self.seen())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ pub use error::CheckpointError;
 use serde::{Deserialize, Serialize};
 
 use crate::{Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, scene::Findings, step_report::StepReport};
-use motile_base::{SolveReport, Vec2};
+use motile_base::{SolveReport, Vec2, told, told_apart};
 
 /// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
 ///
@@ -78,6 +78,31 @@ impl Part {
 
 /// Numbers that were computed in the same way differ by less than this part of them on any machine.
 const ROUND_OFF: f64 = 1e-9;
+
+/// First length that a saved domain has otherwise than the present one, in words.
+fn difference(saved: Domain, present: Domain) -> String {
+    let lengths = |Domain { origin: [x, y], periods, walls }: Domain| {
+        let [below, above] = walls.map_or([None; 2], |walls| walls.map(Some));
+        let [period_x, period_y] = *periods;
+        [
+            ("period along x", period_x),
+            ("period along y", period_y),
+            ("lower wall", below),
+            ("upper wall", above),
+            ("origin in x", Some(x)),
+            ("origin in y", Some(y)),
+        ]
+    };
+    let pairs = lengths(saved).into_iter().zip(lengths(present));
+    let texts = pairs.filter(|(saved, present)| saved != present).map(|((name, saved), (_, present))| {
+        let [saved, present] = match (saved, present) {
+            (Some(saved), Some(present)) => told_apart([saved, present]),
+            (saved, present) => [saved, present].map(|value| value.map_or_else(|| "none".to_owned(), told)),
+        };
+        format!("the {name} of its domain is {saved}, here {present}")
+    });
+    texts.take(1).collect()
+}
 
 /// The first property that is not the same here and in a checkpoint.
 fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)]) -> Result<(), SceneError> {
@@ -234,10 +259,7 @@ impl<H: Hydrodynamics> Scene<H> {
         // The strain of a sheared box is part of the state.
         let unstrained = |domain: Domain| Domain { periods: (*domain.periods).into(), ..domain };
         if unstrained(domain) != unstrained(checkpoint.domain) {
-            let describe = |Domain { origin, periods, walls }: Domain| {
-                format!("origin {origin:?}, periods {:?}, walls {walls:?}", *periods)
-            };
-            return foreign(format!("its domain has {}, this one {}", describe(checkpoint.domain), describe(domain)));
+            return foreign(difference(checkpoint.domain, domain));
         }
         compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
         self.compare_bodies(checkpoint)?;

@@ -196,3 +196,15 @@ fn every_special_point_of_a_droplet_at_rest_in_a_channel_is_a_crossing() {
         }
     }
 }
+
+/// A ratio of viscosities is that of the inside to the outside; another one keeps their sum, on which speeds depend.
+#[test]
+fn a_ratio_of_viscosities_keeps_their_sum() {
+    let ratio = Parameter::ViscosityRatio;
+    let droplets = vec![DropletSetup { viscosity: Some(6.0), ..DropletSetup::default() }];
+    let setup = Setup { viscosity: 2.0, droplets, ..Setup::default() };
+    assert_eq!(ratio.get(&setup), Some(3.0));
+    let other = ratio.with(&setup, 0.25).unwrap();
+    assert_eq!((ratio.get(&other), other.viscosity, other.droplets[0].viscosity), (Some(0.25), 6.4, Some(1.6)));
+    assert_eq!(ratio.get(&Setup { viscosity: 2.0, ..Setup::default() }), Some(1.0));
+}

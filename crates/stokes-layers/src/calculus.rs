@@ -104,3 +104,6 @@ impl PeriodicCalculus {
         same_length("out", self.curve.len(), out)
     }
 }
+
+#[cfg(test)]
+mod tests;

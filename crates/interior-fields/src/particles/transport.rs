@@ -124,3 +124,6 @@ impl Transport {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -195,3 +195,6 @@ pub(super) fn view(region: Region, scene: &Scene<AnyFlow>, centre: Vec2, spacing
         _ => Raster::of(scene.system(), spacing)?,
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,8 @@
 //! Tables as CSV files, and summaries as JSON.
 
 use motile::prelude::*;
-use motile_output::{CsvTable, DropletsCsv, TrajectoryCsv};
+use motile::setup::{InterfaceSetup, Side};
+use motile_output::{CsvTable, DropletsCsv, InterfacesCsv, TrajectoryCsv, suspension::SuspensionCsv};
 
 use crate::Directory;
 
@@ -94,6 +95,83 @@ fn all_droplets_are_in_one_table() {
     }
     let first: Vec<f64> = column("x").into_iter().step_by(2).collect();
     assert!(first.windows(2).all(|pair| pair[1] > pair[0]) && first[0] < 3.0 && first[6] > 3.0, "{first:?}");
+}
+
+/// Rows of all interfaces across the period at all times.
+#[test]
+fn all_interfaces_are_in_one_table() {
+    let directory = Directory::new("interfaces");
+    let of = |height: f64, inside: Side| InterfaceSetup { height, inside, ..InterfaceSetup::active(-0.5) };
+    let setup = Setup {
+        region: Region::Channel { length: 6.0, width: 6.0, drive: Drive::ZeroGradient },
+        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        interfaces: vec![of(-1.0, Side::Below), of(1.25, Side::Above)],
+        droplets: Vec::new(),
+        step: StepSize::Fixed(0.05),
+        ..Setup::default()
+    };
+    let Built { mut scene, interfaces, .. } = setup.build().unwrap();
+    let path = directory.0.join("interfaces.csv");
+    let mut rows = InterfacesCsv::create(&path, scene.system_mut()).unwrap();
+    scene.run(0.3).observe(Every::Time(0.1), &mut rows).go().unwrap();
+    drop(rows);
+    let (header, found) = read(&path);
+    let column = |name: &str| -> Vec<f64> {
+        let index = header.iter().position(|known| known == name).expect(name);
+        found.iter().map(|row| row[index]).collect()
+    };
+    let times: Vec<f64> = (0..8).map(|k| 0.1 * f64::from(k / 2)).collect();
+    assert!(crate::near(&column("time"), &times, 1e-9), "{:?}", column("time"));
+    let numbers: Vec<f64> = interfaces.iter().map(|interface| interface.index() as f64).collect();
+    assert_eq!(column("interface"), numbers.repeat(4));
+    let seen: Vec<f64> = interfaces.iter().map(|&interface| scene.observe(interface).unwrap().height).collect();
+    assert_eq!(column("height")[6..], seen);
+    assert!(crate::near(&seen, &[-1.0, 1.25], 1e-6));
+}
+
+/// How far many droplets move and how long they keep their headings is what their rows say.
+#[test]
+fn motion_of_many_droplets_is_that_of_their_rows() {
+    let directory = Directory::new("suspension");
+    let setup = Setup {
+        region: Region::Box { lengths: [6.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: vec![
+            DropletSetup { centre: [-1.5, 0.0], angle: 0.4, ..DropletSetup::active(-6.0) },
+            DropletSetup { centre: [1.5, 0.0], angle: 2.0, ..DropletSetup::active(-4.0) },
+        ],
+        step: StepSize::Fixed(0.025),
+        ..Setup::default()
+    };
+    let Built { mut scene, .. } = setup.build().unwrap();
+    let mut tables = SuspensionCsv::create(&directory.0, scene.system_mut(), 0.1).unwrap();
+    scene.run(0.4).observe(Every::Time(0.1), &mut tables).go().unwrap();
+    let motion = tables.diffusion(0.1);
+    drop(tables);
+    let (header, rows) = read(&directory.0.join("members.csv"));
+    let vector = |row: &[f64], name: &str| {
+        ["x", "y"].map(|axis| {
+            let name = if name.is_empty() { axis.to_owned() } else { format!("{name}_{axis}") };
+            row[header.iter().position(|known| *known == name).expect(&name)]
+        })
+    };
+    // States from the time 0.1 on, of two rows each.
+    let states: Vec<&[Vec<f64>]> = rows[2..].chunks(2).collect();
+    assert_eq!((states.len(), motion.len()), (4, 4));
+    for (lag, found) in motion.iter().enumerate() {
+        let pairs = states.iter().zip(&states[lag..]).flat_map(|(from, to)| from.iter().zip(*to));
+        let mut sums = [0.0; 3];
+        for (from, to) in pairs {
+            let [[x, y], [u, v]] = [vector(from, ""), vector(to, "")];
+            let [[a, b], [c, d]] = [vector(from, "heading"), vector(to, "heading")];
+            for (sum, value) in sums.iter_mut().zip([1.0, (u - x).powi(2) + (v - y).powi(2), a * c + b * d]) {
+                *sum += value;
+            }
+        }
+        let [count, square, product] = sums;
+        assert!(crate::near(found, &[0.1 * lag as f64, square / count, product / count], 1e-9), "{found:?} {sums:?}");
+    }
+    assert!(motion[3][1] > 1e-4 && (motion[0][2] - 1.0).abs() < 1e-9, "{motion:?}");
 }
 
 #[cfg(feature = "sweep")]

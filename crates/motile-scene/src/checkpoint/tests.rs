@@ -17,6 +17,16 @@ fn a_refusal_leaves_the_flow_as_it_was() {
     assert_eq!(scene.checkpoint(""), before);
 }
 
+/// Of two domains the first length that differs, with the digits that tell it.
+#[test]
+fn another_domain_is_told_by_a_length() {
+    let of = |length: f64, walls| Domain { origin: [-0.5 * length, -2.0], periods: [Some(length), None].into(), walls };
+    let told = difference(of(6.472_086_375_185_664, None), of(7.236_012_545_582_676, None));
+    assert_eq!(told, "the period along x of its domain is 6.47, here 7.24");
+    let told = difference(of(6.0, Some([-2.0, 2.0])), of(6.0, None));
+    assert_eq!(told, "the lower wall of its domain is -2, here none");
+}
+
 #[test]
 fn what_keeps_a_file_from_being_read_is_told() {
     use std::io::ErrorKind;

@@ -125,8 +125,11 @@ fn droplet_iterations<S: StokesSolver>(solver: S, ratio: f64, tolerance: f64) ->
     let ring = |x: f64, y: f64| (-(((x - 2.0).hypot(y - 2.0) - 1.0) / 0.2).powi(2)).exp();
     let force = BOX.fill(&grid, |x, y| [ring(x, y) * (y - 2.0), ring(x, y) * (x - 2.0) * (y - 1.0)]);
     let mut velocity = StaggeredField::zeros(grid);
+    let before = flow.work().forward_transforms;
     let report = flow.solve(&force, &mut velocity).unwrap();
     assert_eq!(report.iterations + 1, flow.history().len());
+    // A solution of the flow of one viscosity for the first residual, for each iteration and for the last residual.
+    assert_eq!(flow.work().forward_transforms - before, report.iterations + 2);
     let mut rate = CentreField::zeros(grid);
     divergence(&velocity, &mut rate).unwrap();
     assert!(rate.values().iter().all(|d| d.abs() < 1e-11));
