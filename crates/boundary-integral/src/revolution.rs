@@ -81,7 +81,9 @@ impl Hydrodynamics for RevolutionIntegral {
             viscosity: self.flow.viscosity(),
             spacing: None,
             second_order: true,
-            shape_modes: Some(self.flow.settings().nodes),
+            // Velocities come from as many nodes as there are waves: products of two waves of the shape stay below the
+            // waves that they would pass for, and the shape free of them, where the tension is low.
+            shape_modes: Some(2 * self.flow.settings().nodes / 3),
             interface_stiffness: self.stiffness,
         }
     }

@@ -32,7 +32,8 @@ fn a_droplet_in_space_swims_to_the_steady_state_of_the_reference() {
     let errors = [32, 64, 128].map(|nodes| {
         let Built { mut scene, droplets, .. } = scene(Region::Space, [nodes, 4 * nodes]).build().unwrap();
         let before = scene.observe(droplets[0]).unwrap();
-        scene.run(30.0).go().unwrap();
+        // The slowest disturbance decays at the rate of .226: at 30 it is still 1e-4 of the speed.
+        scene.run(60.0).go().unwrap();
         let seen = scene.observe(droplets[0]).unwrap();
         assert!(
             (before.particle_number / (400.0 * PI) - 1.0).abs() < 1e-12,
@@ -52,6 +53,22 @@ fn a_droplet_in_space_swims_to_the_steady_state_of_the_reference() {
         assert!(fine < 1e-3, "{what}: {fine:e}");
         assert!((coarse / fine).log2() > 3.0, "{what}: {coarse:e} to {fine:e}");
     }
+}
+
+/// Strong activity makes the tension at the front a thirtieth of that at the rear: forces whose truncation leaves
+/// something at a pole, or waves that pass for others, grow into needles there. Runs end at the steady swimmer.
+#[test]
+fn strong_swimmers_stay_smooth_at_their_poles() {
+    let mut setup = scene(Region::Space, [64, 256]);
+    setup.droplets[0] = DropletSetup::contractile(-4.0, 8.0);
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    scene.run(20.0).go().unwrap();
+    let seen = scene.observe(droplets[0]).unwrap();
+    // axisymmetric.csv; the speed by Newton's method with 160 nodes is .327943.
+    assert!((seen.speed() / 0.327_942_031 - 1.0).abs() < 1e-3, "{}", seen.speed());
+    let largest = seen.concentration_range.unwrap()[0] / 340.970_743_5;
+    assert!((largest - 1.0).abs() < 5e-3, "{largest}");
+    assert!((seen.aspect_ratio_moments / 0.908_990_901 - 1.0).abs() < 5e-3, "{}", seen.aspect_ratio_moments);
 }
 
 /// Speed at a time of the start changes with the second order of the time step.

@@ -7,6 +7,7 @@ mod fine;
 mod meridian;
 mod panels;
 mod ring;
+mod truncation;
 
 use std::{collections::HashMap, f64::consts::PI};
 
@@ -648,7 +649,7 @@ fn load(
         halves.push(Half::new(intervals));
         halves.len() - 1
     });
-    let half = &halves[half];
+    let half = &mut halves[half];
     half.analyse(
         grid.nodes,
         |k| ((0.5 * (positions[k] + mirrored(k))).x, 0.5 * (positions[k].y + mirrored(k).y)),
@@ -672,11 +673,10 @@ fn load(
             0.5 * factor * (forces[k] + Vec2::new(image.x, -image.y))
         }
     };
-    half.analyse(grid.nodes, |k| (force(k).y, force(k).x), &mut meridian.force);
-    // The waves that are left out must not leave a net force: it is that of all waves of the points.
-    let left_out = half.integral(|k| force(k).x) - meridian::integral(&meridian.force.sin);
-    if left_out != 0.0 {
-        meridian.add_uniform_force(grid, left_out);
+    if forces.is_empty() || intervals == grid.nodes {
+        half.analyse(grid.nodes, |k| (force(k).y, force(k).x), &mut meridian.force);
+    } else {
+        half.truncation(grid.nodes)?.apply(force, &mut meridian.force)?;
     }
     meridian.update_forces(grid);
     Ok(())

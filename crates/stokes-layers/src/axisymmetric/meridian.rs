@@ -5,7 +5,11 @@ use std::f64::consts::PI;
 use motile_base::Vec2;
 use nalgebra::DMatrix;
 
-use super::panels::{LONGEST, Panels, Source, Spot};
+use super::{
+    panels::{LONGEST, Panels, Source, Spot},
+    truncation::Truncation,
+};
+use crate::LayerError;
 
 /// Waves that are multiplied at once by one factor.
 const LANES: usize = 8;
@@ -95,29 +99,24 @@ pub(super) struct Half {
     intervals: usize,
     /// cos(pi m/intervals) for m = 0 .. 2 intervals - 1.
     cosines: Vec<f64>,
-    /// Weights of the points in integrals of sines from 0 to pi.
-    weights: Vec<f64>,
-}
-
-/// Integral from 0 to pi of a series of sines, coefficient k at the wave k.
-pub(super) fn integral(sines: &[f64]) -> f64 {
-    sines.iter().enumerate().skip(1).step_by(2).map(|(k, value)| 2.0 * value / k as f64).sum()
+    /// Truncation of forces at the points, where there are more than nodes.
+    truncation: Option<Truncation>,
 }
 
 impl Half {
     pub(super) fn new(intervals: usize) -> Self {
         let angle = |m: usize| PI * m as f64 / intervals as f64;
-        let weight = |j: usize| -> f64 {
-            let wave = |k: usize| (k as f64 * angle(j)).sin() * 4.0 / (intervals * k) as f64;
-            (1..intervals).step_by(2).map(wave).sum()
-        };
         let cosines = (0..2 * intervals).map(|m| angle(m).cos()).collect();
-        Self { intervals, cosines, weights: (0..=intervals).map(weight).collect() }
+        Self { intervals, cosines, truncation: None }
     }
 
-    /// Integral from 0 to pi of the series of sines through values at the points.
-    pub(super) fn integral(&self, value: impl Fn(usize) -> f64) -> f64 {
-        self.weights.iter().enumerate().map(|(j, weight)| weight * value(j)).sum()
+    /// The truncation of forces at the points to so many nodes, always of one number.
+    ///
+    /// # Errors
+    /// Those of [`Truncation::new`].
+    pub(super) fn truncation(&mut self, nodes: usize) -> Result<&mut Truncation, LayerError> {
+        let made = self.truncation.take().map_or_else(|| Truncation::new(nodes, self.intervals), Ok)?;
+        Ok(self.truncation.insert(made))
     }
 
     pub(super) fn intervals(&self) -> usize {
@@ -310,15 +309,6 @@ impl Meridian {
             }
         }
         2.0 * Vec2::new(x.iter().sum(), r.iter().sum())
-    }
-
-    /// Adds a uniform force per area along x, of the sum `total` over the parameter (force per azimuth).
-    pub(super) fn add_uniform_force(&mut self, grid: &Grid, total: f64) {
-        let rings: Vec<f64> = self.nodes.iter().map(|node| node.place.y * node.tangent.length()).collect();
-        let mut series = Pair::new(grid.largest() + 1);
-        grid.analyse(&rings, &rings, &mut series);
-        let factor = total / integral(&series.sin);
-        self.force.sin.iter_mut().zip(&series.sin).for_each(|(force, ring)| *force += factor * ring);
     }
 
     /// Takes over forces whose coefficients have been set.
