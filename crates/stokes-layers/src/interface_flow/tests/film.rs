@@ -12,7 +12,7 @@ fn lubrication(film: f64) -> f64 {
     (2.0 * film).powf(1.5) / (3.0 * SQRT_2 * PI)
 }
 
-/// The same by the layers.
+/// Speed of approach by the layers.
 fn approach(film: f64, nodes: usize) -> f64 {
     let circle = |x: f64| -> Vec<Vec2> {
         (0..nodes).map(|k| Vec2::new(x, 0.0) + Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect()
