@@ -1,6 +1,6 @@
 //! What the figures of the book are made from: runs of a plan, steady states of a plan, tables of `docs/tables`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use motile::motile_base::{Region, Vec2};
@@ -12,8 +12,11 @@ use serde_json::Value;
 use steady_states::SteadyState;
 use toml::Table;
 
+mod bisection;
+
 use super::Making;
 use super::expression::Row;
+use bisection::Bisection;
 use crate::tables;
 use motile_output::sweep::{Plan, RunPool, State, Trial};
 
@@ -50,6 +53,9 @@ pub(super) struct Source {
     /// With streamlines around them, in the frame of the laboratory.
     #[serde(default)]
     streamlines: bool,
+    /// Of each point of the plan the boundary between two outcomes.
+    #[serde(default)]
+    bisect: Option<Bisection>,
     /// A scheme that the plan's scene starts from.
     #[serde(default)]
     preset: Option<Preset>,
@@ -146,7 +152,13 @@ impl Source {
 
     /// The runs of its plan.
     pub(super) fn trials(&self, name: &str, making: &Making) -> Result<Vec<Trial>> {
-        let Some(plan) = &self.plan else { return Ok(Vec::new()) };
+        let Some(plan) = self.whole_plan(making)? else { return Ok(Vec::new()) };
+        Plan::of(plan).and_then(|plan| plan.trials(&folder(name, making))).with_context(|| format!("data {name}"))
+    }
+
+    /// Its plan with what a preset and `--quick` change.
+    fn whole_plan(&self, making: &Making) -> Result<Option<Table>> {
+        let Some(plan) = &self.plan else { return Ok(None) };
         let mut plan = plan.clone();
         if let Some(Preset::Thesis) = self.preset {
             let mut scene: Table = toml::from_str(&Setup::thesis().to_toml()?)?;
@@ -164,8 +176,7 @@ impl Source {
         if self.steady {
             plan.entry("time").or_insert(toml::Value::Float(1.0));
         }
-        let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
-        Plan::of(plan).and_then(|plan| plan.trials(&folder)).with_context(|| format!("data {name}"))
+        Ok(Some(plan))
     }
 
     /// Its rows if they take no runs: those of a table or of lists of numbers.
@@ -189,10 +200,24 @@ impl Source {
         if let Some(kept) = self.kept()? {
             return Ok(kept);
         }
-        let about = self.about.clone();
+        let mut data = Data { about: self.about.clone(), ..Data::default() };
         let trials = self.trials(name, making)?;
-        let wanted = trials.len();
-        let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
+        match &self.bisect {
+            Some(bisection) => bisection.rows(self, name, making, trials, &mut data)?,
+            None => {
+                let rows = self.made(name, making, trials, &mut data)?;
+                data.rows = rows.into_iter().flatten().collect();
+            }
+        }
+        Ok(data)
+    }
+
+    /// A row of each run, nothing of those that failed; what they took and failures are added to the data. Runs that
+    /// are not there are made.
+    fn made(&self, name: &str, making: &Making, trials: Vec<Trial>, data: &mut Data) -> Result<Vec<Option<Row>>> {
+        data.wanted += trials.len();
+        let labels: Vec<String> = trials.iter().map(|trial| trial.label.clone()).collect();
+        let folder = folder(name, making);
         make_directory(&folder)?;
         let mut failed = Vec::new();
         for trial in &trials {
@@ -213,7 +238,8 @@ impl Source {
         for failure in &failed {
             say(format_args!("{name}: left out: {failure}"));
         }
-        let seconds = done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum();
+        data.failures.extend(failed);
+        data.seconds += done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum::<f64>();
         let row = |(trial, summary): &(Trial, Summary)| -> Result<Row> {
             let mut row = Row::new();
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
@@ -224,9 +250,19 @@ impl Source {
             }
             Ok(row)
         };
-        let rows = done.iter().map(row).collect::<Result<_>>()?;
-        Ok(Data { about, rows, wanted, seconds, failures: failed })
+        let mut rows = vec![None; labels.len()];
+        for pair in &done {
+            if let Some(place) = labels.iter().position(|label| *label == pair.0.label) {
+                rows[place] = Some(row(pair)?);
+            }
+        }
+        Ok(rows)
     }
+}
+
+/// Folder of the runs of a source.
+fn folder(name: &str, making: &Making) -> PathBuf {
+    making.out.join("data").join(format!("{name}-{}", making.kind()))
 }
 
 /// Places of a run's first droplet along x over the time.
