@@ -234,7 +234,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
     let kept = Kept {
         commit: String::new(),
         runs: own().map(|data| data.wanted).sum(),
-        left_out: own().map(|data| data.wanted.saturating_sub(data.rows.len())).sum(),
+        left_out: own().map(|data| data.failures.len()).sum(),
         failures: own().flat_map(|data| data.failures.clone()).collect(),
         seconds: own().map(|data| data.seconds).sum(),
         data: own().map(|data| data.about.clone()).collect(),

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use motile::motile_base::{Region, Vec2};
 use motile::setup::Setup;
 use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
 use serde::Deserialize;
 use serde_json::Value;
-use steady_states::SteadyState;
+use steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
 use toml::Table;
 
 mod bisection;
@@ -32,6 +32,8 @@ const LINES_APART: f64 = 0.5;
 const POINT_OF_LINE: usize = 3;
 /// How far from a droplet's ends in a channel the pressure is looked at, over the channel's width.
 const BESIDE: f64 = 0.1;
+/// Largest step along a branch that leads to a state, the norm as of [`Continuation`].
+const LARGEST_STEP: f64 = 0.2;
 /// Longest text that becomes a name.
 const LONGEST: usize = 40;
 
@@ -50,6 +52,9 @@ pub(super) struct Source {
     /// Steady states of the plan's points rather than runs.
     #[serde(default)]
     steady: bool,
+    /// Those that are found at another value of a parameter and followed along it.
+    #[serde(default)]
+    follow: Option<Follow>,
     /// With streamlines around them, in the frame of the laboratory.
     #[serde(default)]
     streamlines: bool,
@@ -65,6 +70,34 @@ pub(super) struct Source {
     /// Or lists of numbers.
     #[serde(default)]
     numbers: std::collections::BTreeMap<String, Vec<f64>>,
+}
+
+/// Value of a parameter from which a branch leads to the state of each point.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Follow {
+    /// Name among [`Parameter::NAMES`].
+    parameter: String,
+    from: f64,
+}
+
+impl Follow {
+    /// The state of a description, at the end of the branch.
+    fn state(&self, setup: &Setup) -> Result<SteadyState> {
+        let known = Parameter::NAMES.iter().find(|(name, _)| *name == self.parameter);
+        let parameter = known.with_context(|| format!("no parameter is named {}", self.parameter))?.1;
+        let to = parameter.get(setup).with_context(|| format!("the scene has no parameter {}", self.parameter))?;
+        let start = SteadyState::find(&parameter.with(setup, self.from)?)?;
+        if to == self.from {
+            return Ok(start);
+        }
+        let along = Continuation { largest_step: LARGEST_STEP, ..Continuation::new(parameter, self.from, to) };
+        let mut branch = along.follow(&start, |_, _| true)?;
+        match branch.end {
+            BranchEnd::Range => Ok(branch.points.pop().context("a branch without points")?.state),
+            end => bail!("the branch in {} does not lead from {} to {to}: {end}", self.parameter, self.from),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -231,7 +264,14 @@ impl Source {
         }
         let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
         let pool = RunPool::new(&folder, making.threads, making.quiet)?;
-        let steady = |trial: &Trial| steady(trial, self.streamlines);
+        let steady = |trial: &Trial| {
+            let started = std::time::Instant::now();
+            let setup = &trial.setup;
+            let state = self.follow.as_ref().map_or_else(|| Ok(SteadyState::find(setup)?), |follow| follow.state(setup))?;
+            let mut summary = steady(&state, self.streamlines)?;
+            summary.put("seconds", started.elapsed().as_secs_f64(), "");
+            Ok(summary)
+        };
         let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
         failed.extend(failures.iter().map(explained));
@@ -245,8 +285,11 @@ impl Source {
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
             flatten("", &Value::Object(summary.values().clone()), &mut row);
             if !self.steady {
-                let found = means(&track(trial)?, trial.setup.region.lengths()[0]);
+                let found = means(&track(trial, "x")?, trial.setup.region.lengths()[0]);
                 row.extend(["mean_speed", "late_speed"].map(str::to_owned).into_iter().zip(found));
+                let heights = track(trial, "y")?.into_iter().map(|(_, y)| y);
+                let aside = heights.fold(0.0, |most: f64, y| if y.abs() > most.abs() { y } else { most });
+                row.insert("aside".to_owned(), aside);
             }
             Ok(row)
         };
@@ -265,14 +308,14 @@ fn folder(name: &str, making: &Making) -> PathBuf {
     making.out.join("data").join(format!("{name}-{}", making.kind()))
 }
 
-/// Places of a run's first droplet along x over the time.
-fn track(trial: &Trial) -> Result<Vec<(f64, f64)>> {
+/// A coordinate of a run's first droplet over the time.
+fn track(trial: &Trial, axis: &str) -> Result<Vec<(f64, f64)>> {
     let path = trial.folder.join("trajectory.csv");
     let read = || -> Result<Vec<(f64, f64)>> {
         let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&path)?;
         let headers = table.headers()?.clone();
         let place = |name: &str| headers.iter().position(|header| header == name).with_context(|| name.to_owned());
-        let (time, x) = (place("time")?, place("x")?);
+        let (time, x) = (place("time")?, place(axis)?);
         let number = |row: &csv::StringRecord, place: usize| -> Result<f64> { Ok(row[place].parse()?) };
         let point = |row: csv::StringRecord| Ok((number(&row, time)?, number(&row, x)?));
         table.records().map(|row| row.map_err(Into::into).and_then(point)).collect()
@@ -342,10 +385,8 @@ fn streamlines(state: &SteadyState) -> Result<[Vec<Vec<f64>>; 2]> {
     Ok([component(|x| x.x), component(|x| x.y)])
 }
 
-/// The steady swimmer of a run's scene and all that is known of it.
-fn steady(trial: &Trial, lines: bool) -> Result<Summary> {
-    let started = std::time::Instant::now();
-    let state = SteadyState::find(&trial.setup)?;
+/// All that is known of a steady swimmer.
+fn steady(state: &SteadyState, lines: bool) -> Result<Summary> {
     let mut summary = Summary::default();
     for (name, value) in state.observables()?.entries() {
         summary.put(name, value, "");
@@ -364,14 +405,14 @@ fn steady(trial: &Trial, lines: bool) -> Result<Summary> {
     ] {
         summary.put(name, value, "");
     }
-    for (name, distance) in ["stagnation_ahead", "stagnation_behind"].into_iter().zip(stagnation(&state)?) {
+    for (name, distance) in ["stagnation_ahead", "stagnation_behind"].into_iter().zip(stagnation(state)?) {
         summary.put(name, distance, "");
     }
-    for (name, value) in ["film", "pressure_ahead"].into_iter().zip(narrowness(&state)?) {
+    for (name, value) in ["film", "pressure_ahead"].into_iter().zip(narrowness(state)?) {
         summary.put(name, value, "");
     }
     if lines {
-        for (name, list) in ["streamlines_x", "streamlines_y"].into_iter().zip(streamlines(&state)?) {
+        for (name, list) in ["streamlines_x", "streamlines_y"].into_iter().zip(streamlines(state)?) {
             summary.put(name, list, "");
         }
     }
@@ -381,7 +422,6 @@ fn steady(trial: &Trial, lines: bool) -> Result<Summary> {
     for (name, list) in [("outline_x", x), ("outline_y", y), ("arc", arc), ("concentration", concentration)] {
         summary.put(name, list, "");
     }
-    summary.put("seconds", started.elapsed().as_secs_f64(), "");
     Ok(summary)
 }
 

@@ -385,8 +385,11 @@ impl Figure {
                     }
                 }
             }
-            ensure!(!colours.is_empty(), "panel '{}': no points", panel.title);
-            plots.push(plot);
+            // Short runs of `--quick` may leave nothing of a source, as a bisection without a boundary.
+            let of = |curve: &Curve| curve.points.data.as_ref().or(self.data.first()).and_then(|name| data.get(name));
+            let without = panel.curve.iter().all(|curve| of(curve).is_some_and(|data| data.rows.is_empty()));
+            ensure!(!colours.is_empty() || without, "panel '{}': no points", panel.title);
+            plots.extend((!colours.is_empty()).then_some(plot));
         }
         Ok((plots, table))
     }

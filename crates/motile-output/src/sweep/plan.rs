@@ -265,6 +265,12 @@ fn put(table: &mut Table, path: &str, value: Value) -> Result<()> {
     let holder = match place {
         None => table,
         Some(Value::Table(table)) => table,
+        Some(Value::Array(list)) => {
+            let count = list.len();
+            let number = key.parse().ok().and_then(|k: usize| list.get_mut(k));
+            *number.with_context(|| format!("{above} has {count} entries, from 0"))? = value;
+            return Ok(());
+        }
         Some(_) => bail!("the scene has no table {above}"),
     };
     // Numbers that a range made are whole where the scene has whole ones.

@@ -38,6 +38,8 @@ fn lists_are_points_one_after_the_other() {
     assert_eq!(trials.iter().map(|trial| trial.setup.viscosity).collect::<Vec<_>>(), [5.0, 7.0]);
     assert_eq!(trials[1].setup.droplets[0].angle, 1.0);
     assert_eq!(trials[1].label, "viscosity=7,angle=1");
+    let plan = format!("time = 1.0\n[grid]\n\"droplets.0.centre.1\" = [0.5]\n{SCENE}");
+    assert_eq!(self::trials(&plan).unwrap()[0].setup.droplets[0].centre, [0.0, 0.5].into());
 }
 
 #[test]
@@ -46,6 +48,7 @@ fn what_is_no_plan_is_refused_before_any_run() {
         ("[grid]\nviscosty = [1.0]\n", "viscosty"),
         ("[grid]\nviscosity = [-1.0, \"a\"]\n", "viscosity"),
         ("[grid]\n\"droplets.3.angle\" = [1.0]\n", "has no 3"),
+        ("[grid]\n\"droplets.0.centre.2\" = [1.0]\n", "2 entries"),
         ("[grid]\nviscosity = []\n", "give a list"),
         ("[grid]\nviscosity = 3.0\n", "give a list"),
         ("[grid]\nviscosity = [3.0, 3.0]\n", "twice"),
