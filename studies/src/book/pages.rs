@@ -68,7 +68,7 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     let mut pages = Vec::new();
     let mut counts: Vec<(String, usize)> = Vec::new();
     let mut table = String::from("| figure | statement | verdict | evidence |\n|---|---|---|---|\n");
-    let mut answers = String::from("| question | statement | answer |\n|---|---|---|\n");
+    let mut answers = String::from("| question | verdict | answer |\n|---|---|---|\n");
     for chapter in different(numbers.iter().map(|number| chapter_of(number).to_owned()).collect()) {
         let title = CHAPTERS.iter().find(|(number, _)| *number == chapter).map_or("", |(_, title)| title);
         let name = format!("chapter-{chapter}.md");

@@ -167,7 +167,7 @@ fn answers_stand_at_the_top_of_the_second_part_and_are_not_counted_with_the_figu
     let (front, second) = (page("README.md"), page("chapter-E.md"));
     let of_thesis = numbers().expect("figures").iter().filter(|number| chapter_of(number) != ENVIRONMENT).count();
     assert!(front.contains(&format!("\n{of_thesis} figures: ")), "{front}");
-    let table = "| question | statement | answer |";
+    let table = "| question | verdict | answer |";
     let answers = second.find(table).expect("a table of answers");
     assert!(answers < second.find("## Data").expect("data") && front.contains(table));
     assert!(second.contains("**Statement:**") && !second.contains("**Cowley:**"));

@@ -144,7 +144,7 @@ impl Panel<'_> {
         }
     }
 
-    /// Draws the legend in the corner where it hides the fewest points.
+    /// Draws the legend in the corner, or between two of them, where it hides the fewest points.
     fn legend(&self, drawing: &mut Drawing) {
         let em = self.frame.em;
         let size = 0.9 * em;
@@ -156,9 +156,12 @@ impl Panel<'_> {
         let (width, height) = (widest + 3.6 * em, (1.4 * entries.len() as f64 + 0.5) * em);
         let area = self.frame.area;
         let gap = 0.6 * em;
-        let corners = [area.right() - gap - width, area.left + gap].into_iter().flat_map(|left| {
-            [area.top + gap, area.bottom() - gap - height].map(|top| Rect { left, top, width, height })
-        });
+        let (lefts, tops) = ([area.right() - gap - width, area.left + gap], [area.top + gap, area.bottom() - gap - height]);
+        let [middle, centre] = [0.5 * (tops[0] + tops[1]), 0.5 * (lefts[0] + lefts[1])];
+        // Corners first, then between them.
+        let corners = lefts.into_iter().flat_map(|left| tops.map(|top| [left, top]));
+        let sides = lefts.map(|left| [left, middle]).into_iter().chain(tops.map(|top| [centre, top]));
+        let places = corners.chain(sides).map(|[left, top]| Rect { left, top, width, height });
         // Amount that the legend would hide: the share of each series, and lines with a label.
         let hidden = |panel: &Rect| {
             let inside =
@@ -176,7 +179,7 @@ impl Panel<'_> {
             let ends = lines.map(|(value, _)| [area.right() - gap, self.frame.place(self.frame.x.low, *value)[1]]);
             self.plot.series.iter().map(share).sum::<usize>() + 50 * ends.filter(inside).count()
         };
-        let Some(panel) = corners.min_by_key(hidden) else { return };
+        let Some(panel) = places.min_by_key(hidden) else { return };
         drawing.fill(&[panel.outline()], Rgb::WHITE, 0.85);
         for (k, (series, colour)) in entries.into_iter().enumerate() {
             let y = panel.top + (1.4 * k as f64 + 0.95) * em;
