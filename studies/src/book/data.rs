@@ -16,8 +16,8 @@ mod bisection;
 
 use super::Making;
 use super::expression::Row;
-use bisection::Bisection;
 use crate::tables;
+use bisection::Bisection;
 use motile_output::sweep::{Plan, RunPool, State, Trial};
 
 /// Where on a swimmer's axis the flow is looked at: distances from the interface (length), each that times the last.
@@ -267,7 +267,8 @@ impl Source {
         let steady = |trial: &Trial| {
             let started = std::time::Instant::now();
             let setup = &trial.setup;
-            let state = self.follow.as_ref().map_or_else(|| Ok(SteadyState::find(setup)?), |follow| follow.state(setup))?;
+            let state =
+                self.follow.as_ref().map_or_else(|| Ok(SteadyState::find(setup)?), |follow| follow.state(setup))?;
             let mut summary = steady(&state, self.streamlines)?;
             summary.put("seconds", started.elapsed().as_secs_f64(), "");
             Ok(summary)
@@ -279,7 +280,8 @@ impl Source {
             say(format_args!("{name}: left out: {failure}"));
         }
         data.failures.extend(failed);
-        data.seconds += done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum::<f64>();
+        data.seconds +=
+            done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum::<f64>();
         let row = |(trial, summary): &(Trial, Summary)| -> Result<Row> {
             let mut row = Row::new();
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);

@@ -156,7 +156,8 @@ impl Panel<'_> {
         let (width, height) = (widest + 3.6 * em, (1.4 * entries.len() as f64 + 0.5) * em);
         let area = self.frame.area;
         let gap = 0.6 * em;
-        let (lefts, tops) = ([area.right() - gap - width, area.left + gap], [area.top + gap, area.bottom() - gap - height]);
+        let (lefts, tops) =
+            ([area.right() - gap - width, area.left + gap], [area.top + gap, area.bottom() - gap - height]);
         let [middle, centre] = [0.5 * (tops[0] + tops[1]), 0.5 * (lefts[0] + lefts[1])];
         // Corners first, then between them.
         let corners = lefts.into_iter().flat_map(|left| tops.map(|top| [left, top]));
