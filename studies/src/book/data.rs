@@ -236,7 +236,7 @@ impl Source {
         let mut data = Data { about: self.about.clone(), ..Data::default() };
         let trials = self.trials(name, making)?;
         match &self.bisect {
-            Some(bisection) => bisection.rows(self, name, making, trials, &mut data)?,
+            Some(bisection) => bisection.rows(self, name, making, &trials, &mut data)?,
             None => {
                 let rows = self.made(name, making, trials, &mut data)?;
                 data.rows = rows.into_iter().flatten().collect();

@@ -53,7 +53,7 @@ impl Bisection {
         source: &Source,
         name: &str,
         making: &Making,
-        points: Vec<Trial>,
+        points: &[Trial],
         data: &mut Data,
     ) -> Result<()> {
         ensure!(self.within > 0.0 && self.between.iter().all(|value| *value > 0.0), "data {name}: numbers above 0");
