@@ -39,7 +39,7 @@ fn lists_are_points_one_after_the_other() {
     assert_eq!(trials[1].setup.droplets[0].angle, 1.0);
     assert_eq!(trials[1].label, "viscosity=7,angle=1");
     let plan = format!("time = 1.0\n[grid]\n\"droplets.0.centre.1\" = [0.5]\n{SCENE}");
-    let centre: [f64; 2] = self::trials(&plan).unwrap()[0].setup.droplets[0].centre.into();
+    let centre = self::trials(&plan).unwrap()[0].setup.droplets[0].centre;
     assert_eq!(centre, [0.0, 0.5]);
 }
 
