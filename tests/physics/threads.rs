@@ -4,7 +4,9 @@ use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::motile_base::Region;
 use motile::motile_scene::{Scene, integrator::Dynamics as _};
-use motile::setup::{AnyFlow, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
+use motile::setup::{
+    ActiveSpringsSetup, AnyFlow, DropletSetup, GridMethod, Material, MaxwellSetup, Method, Setup, SolidSetup,
+};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// State and velocities, bitwise, after three steps on that many threads.
@@ -34,11 +36,27 @@ fn a_large_box() {
 
 #[test]
 fn elastic_walls_of_many_points() {
+    walls_of_many_points(|_| {});
+}
+
+#[test]
+fn living_walls_of_many_points() {
+    walls_of_many_points(|wall| {
+        wall.relaxation = vec![MaxwellSetup { modulus: 500.0, time: 0.01 }];
+        let (on_sensitivity, off_sensitivity) = (0.0, 1.0);
+        wall.active_springs =
+            Some(ActiveSpringsSetup { tension: 1.0, on: 50.0, off: 50.0, seed: 3, on_sensitivity, off_sensitivity });
+    });
+}
+
+fn walls_of_many_points(change: impl Fn(&mut SolidSetup)) {
     let shear = Moduli::from_thesis_spring_constant(1e5).expect("moduli").shear();
+    let mut solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
+    solids.iter_mut().for_each(change);
     let setup = Setup {
         region: open_channel(12.0, 5.0),
         droplets: vec![DropletSetup::active(-4.0)],
-        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
+        solids,
         method: Method::Grid(GridMethod::uncorrected(1.0 / 60.0)),
         ..Setup::default()
     };

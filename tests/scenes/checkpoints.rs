@@ -15,8 +15,8 @@ use motile::motile_scene::{
     integrator::{Dynamics as _, RungeKuttaChebyshev},
 };
 use motile::setup::{
-    AnyFlow, Built, DropletSetup, ExchangeSetup, Exclusion, GelSetup, GridMethod, IntegralMethod, LayersMethod,
-    Material, Method, Particles, Setup, SolidSetup,
+    ActiveSpringsSetup, AnyFlow, Built, DropletSetup, ExchangeSetup, Exclusion, GelSetup, GridMethod, IntegralMethod,
+    LayersMethod, Material, MaxwellSetup, Method, Particles, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -200,6 +200,29 @@ fn an_elastic_channel() {
     let make = || scene(&setup);
     compare(make, 3.0, AUTO, &stops(13, 10));
     compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 3.0, ADAPTIVE, &stops(14, 15));
+}
+
+/// Walls that relax, resist and twitch, of springs with uneven triangles and of a neo-Hookean material.
+#[test]
+fn a_channel_of_living_walls() {
+    for material in [Material::Springs { shear: 90.0 }, Material::NeoHookean { shear: 90.0, bulk: 180.0 }] {
+        let mut solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &material);
+        for wall in &mut solids {
+            wall.finer_surface = Some(true);
+            wall.relaxation =
+                vec![MaxwellSetup { modulus: 60.0, time: 0.2 }, MaxwellSetup { modulus: 30.0, time: 5.0 }];
+            let (on_sensitivity, off_sensitivity) = (-1.0, 2.0);
+            let (tension, on, off, seed) = (2.0, 1.0, 2.0, 7);
+            wall.active_springs = Some(ActiveSpringsSetup { tension, on, off, seed, on_sensitivity, off_sensitivity });
+        }
+        // One wall resists, which several evaluations of the flow are solved for.
+        solids[0].viscosity = Some(150.0);
+        let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };
+        let setup = Setup { region, solids, ..layers() };
+        let make = || scene(&setup);
+        compare(make, 0.5, AUTO, &stops(16, 5));
+        compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 0.5, ADAPTIVE, &stops(17, 3));
+    }
 }
 
 /// As large as it has to be for more than one thread to take part.

@@ -1,6 +1,5 @@
 //! Closed curves from which the markers of an interface are made, and the polygon through the markers.
 
-mod crossing;
 mod equidistant;
 pub(crate) mod periodic;
 pub(crate) mod polygon;
@@ -14,9 +13,8 @@ use std::sync::Arc;
 use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
 
 use crate::InterfaceError;
-pub(crate) use crossing::CrossingFinder;
-pub use crossing::first_crossing;
 use equidistant::equidistant;
+pub use motile_base::polygon::first_crossing;
 pub(crate) use periodic::check_period;
 pub use periodic::{line_through, wave};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};

@@ -14,14 +14,14 @@ pub(crate) mod spectral;
 
 use std::sync::Arc;
 
-use motile_base::{InputError, Membrane, PeriodicSeries, Vec2};
+use motile_base::{InputError, Membrane, PeriodicSeries, Vec2, polygon::CrossingFinder};
 use motile_scene::{FluidView, points};
 use serde::{Deserialize, Serialize};
 
 use crate::{
     Tension,
     concentration::{Cells, Repair, Transport},
-    curve::{CrossingFinder, MINIMUM_MARKERS},
+    curve::MINIMUM_MARKERS,
 };
 use bending::Bending;
 use filter::ShortWaveFilter;

@@ -79,7 +79,7 @@ impl ActiveSprings {
 #[derive(Debug, Clone)]
 pub(crate) struct Bonds {
     law: ActiveSprings,
-    /// Bars, and of the tension the part that each has: a half on the boundary.
+    /// Bars, and the factor on the tension that each has: a half of its own on the boundary.
     bars: Vec<(Bar, f64)>,
     on: Vec<bool>,
     /// Steps that were kept.
@@ -93,6 +93,23 @@ impl Bonds {
         let bars: Vec<(Bar, f64)> = Bar::all(mesh).zip(mesh.edges().iter().map(share)).collect();
         let on = (0..bars.len()).map(|bond| uniform(law.seed, bond as u64, 0) < law.duty_ratio()).collect();
         Self { law, bars, on, steps: 0 }
+    }
+
+    /// Multiplies the tension by a factor that is a function of the reference position of the middle of an edge
+    /// (length).
+    ///
+    /// # Errors
+    /// A factor that is negative or not finite.
+    pub(crate) fn graded(
+        mut self,
+        mesh: &TriangleMesh,
+        mut factor: impl FnMut(Vec2) -> f64,
+    ) -> Result<Self, SolidError> {
+        for ((_, share), edge) in self.bars.iter_mut().zip(mesh.edges()) {
+            let middle = mesh.points()[edge.points[0]] + 0.5 * mesh.edge_vector(edge, mesh.points());
+            *share *= not_negative("the factor on the tension of the active springs", factor(middle))?;
+        }
+        Ok(self)
     }
 
     /// States of the bonds, in the order of the edges.
@@ -146,7 +163,8 @@ impl Bonds {
 
     /// Upper bound of the stiffness that the tension adds to the lattice (force per length).
     pub(crate) fn stiffness(&self, spacing: f64) -> f64 {
-        3.0_f64.sqrt() * self.law.tension / spacing
+        let largest = self.bars.iter().fold(0.0, |largest: f64, (_, share)| largest.max(*share));
+        3.0_f64.sqrt() * largest * self.law.tension / spacing
     }
 
     /// Longest step (time) that resolves how bonds turn on and off: half of the time in which they forget.
@@ -155,7 +173,7 @@ impl Bonds {
     }
 
     /// Parameters by their names.
-    pub(crate) fn properties(&self) -> [(&'static str, f64); 6] {
+    pub(crate) fn properties(&self) -> [(&'static str, f64); 7] {
         let ActiveSprings { tension, rates, sensitivities, seed } = self.law;
         [
             ("the tension of its active springs", tension),
@@ -164,6 +182,7 @@ impl Bonds {
             ("the sensitivity of turning on", sensitivities[0]),
             ("the sensitivity of turning off", sensitivities[1]),
             ("the seed of its active springs", seed as f64),
+            ("the sum of the factors on their tension", self.bars.iter().map(|(_, share)| share).sum()),
         ]
     }
 }

@@ -228,18 +228,32 @@ pub enum SolidError {
         /// Fault of the group.
         what: &'static str,
     },
-    /// An inverted triangle.
+    /// An inverted triangle, or one of a solid that flows which is about to be.
     #[error(
-        "triangle {triangle} near ({:.4}, {:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or \
-         mesh spacing, or stiffer material", .place.x, .place.y
+        "triangle {triangle} near ({:.4}, {:.4}) is {}inverted (area ratio {jacobian:.4}): use a smaller time step or \
+         mesh spacing, or stiffer material", .place.x, .place.y, if *jacobian > 0.0 { "as good as " } else { "" }
     )]
     Inverted {
         /// Index of the triangle.
         triangle: usize,
         /// Centroid of the triangle.
         place: Vec2,
-        /// Deformed over reference area of the triangle, negative.
+        /// Deformed over reference area of the triangle, negative, or below 0.02 in a solid that flows.
         jacobian: f64,
+    },
+    /// A surface that has come to cross itself.
+    #[error(
+        "the surface crosses itself near ({:.4}, {:.4}), where the sides that start at the points {first} and {second} \
+         meet: contact of a solid with itself is not in the model; give it a skin that keeps it from creasing, stiffer \
+         material, or use a smaller time step", .place.x, .place.y
+    )]
+    SelfContact {
+        /// First point.
+        place: Vec2,
+        /// Index of the point at which a side starts.
+        first: usize,
+        /// Index of the point at which the other side starts.
+        second: usize,
     },
     /// Points that found no equilibrium.
     #[error(

@@ -2,6 +2,7 @@
 
 mod body;
 mod deformation;
+mod self_contact;
 mod spreading;
 
 use std::sync::Arc;
@@ -16,6 +17,7 @@ use crate::relaxation::{NoElasticity, Relaxation};
 use crate::skin::Skin;
 use crate::{ActiveSprings, ElasticForces, EnergyDensity, Maxwell, SolidError};
 
+use self_contact::SelfContact;
 use spreading::Spreading;
 
 pub use deformation::Deformation;
@@ -65,6 +67,9 @@ pub struct Solid {
     pub(crate) bonds: Option<Bonds>,
     pub(crate) damping: Option<Damping>,
     spreading: Option<Box<Spreading>>,
+    surface: SelfContact,
+    /// True for one without an elasticity of its own.
+    flows: bool,
 }
 
 /// A spring from a point to a fixed place.
@@ -140,11 +145,11 @@ impl Solid {
 
     /// A solid without an elasticity of its own, for one that flows: all its stress is that of Maxwell elements
     /// ([`Solid::with_maxwell`]), on its triangles, and relaxes entirely. As it creeps its triangles are sheared; where
-    /// one is inverted the run ends in [`SolidError::Inverted`], at the time that the scene's error tells.
+    /// one has lost 98 % of its area the run ends in [`SolidError::Inverted`], at the time that the scene's error tells.
     #[must_use]
     pub fn fluid_like(mesh: TriangleMesh) -> Self {
         let law = NoElasticity { points: mesh.points().len(), triangles: mesh.triangles().len() };
-        Self::at_rest(mesh, law)
+        Self { flows: true, ..Self::at_rest(mesh, law) }
     }
 
     fn at_rest(mesh: TriangleMesh, law: impl ElasticForces) -> Self {
@@ -164,13 +169,16 @@ impl Solid {
             bonds: None,
             damping: None,
             spreading: None,
+            surface: SelfContact::of(&mesh),
+            flows: false,
             mesh,
         }
     }
 
-    /// Allows inverted triangles, which springs do not resist: for comparison with work that has them.
-    /// [`Solid::smallest_jacobian`] is negative where there are some. Otherwise a step that inverts a triangle is an
-    /// error, as it always is for a material whose energy is not defined there.
+    /// Allows inverted triangles, which springs do not resist, and a surface that crosses itself: for comparison with
+    /// work that has them. [`Solid::smallest_jacobian`] is negative where there are some. Otherwise a step that inverts
+    /// a triangle or folds the surface onto itself is an error, as the first always is for a material whose energy is
+    /// not defined there.
     #[must_use]
     pub fn allow_inversion(mut self) -> Self {
         self.may_invert = true;
@@ -238,6 +246,20 @@ impl Solid {
     pub fn with_active_springs(mut self, law: ActiveSprings) -> Self {
         self.bonds = Some(Bonds::new(&self.mesh, law));
         self
+    }
+
+    /// Puts [`ActiveSprings`] there whose tension has a factor (no dimension) that is a function of the reference
+    /// position of the middle of an edge (length).
+    ///
+    /// # Errors
+    /// A factor that is negative or not finite.
+    pub fn with_active_springs_graded(
+        mut self,
+        law: ActiveSprings,
+        factor: impl FnMut(Vec2) -> f64,
+    ) -> Result<Self, SolidError> {
+        self.bonds = Some(Bonds::new(&self.mesh, law).graded(&self.mesh, factor)?);
+        Ok(self)
     }
 
     /// Makes the solid more viscous than the fluid by `excess` (force per length times time): a viscous stress beside

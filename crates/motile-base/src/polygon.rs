@@ -1,4 +1,8 @@
-//! Area and centroid of a closed polygon, and what lies within it.
+//! Area and centroid of a closed polygon, what lies within it, and where it crosses itself.
+
+mod crossing;
+
+pub use crossing::{CrossingFinder, first_crossing};
 
 use crate::Vec2;
 

@@ -263,7 +263,7 @@ pub enum SceneError {
         /// Its surroundings after the step.
         now: String,
     },
-    /// An interface and another body, or its own image in a periodic domain, have come to overlap.
+    /// An interface and another body, or its own image in a periodic domain, or two solids have come to overlap.
     #[error(
         "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}: use a \
          smaller time step, a finer grid or a repulsion between the interfaces",

@@ -209,15 +209,20 @@ impl Surfaces {
     }
 
     /// The gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies, and from
-    /// the corners of other bodies to interfaces.
+    /// the corners of other bodies to interfaces; between others only where they have crossed.
     pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool) -> Gaps {
         let (mut gaps, scale, domain) = (Gaps::default(), self.contact_scale(view), &view.domain);
         for (body, from) in self.boundaries.iter().enumerate() {
             let Some(frame) = from.frame() else { continue };
             self.each_near(&frame, domain.periods, reach, &mut |other| {
-                let some = self.kinds[body].is_curve() || self.kinds[other].is_curve();
-                if some && pairs([body, other]) {
-                    self.add_gaps([body, other], domain, [reach, self.allowed(scale, [body, other])], &mut gaps);
+                let (bodies, some) = ([body, other], self.kinds[body].is_curve() || self.kinds[other].is_curve());
+                if (body == other && !some) || !pairs(bodies) {
+                    return;
+                }
+                let (allowed, before) = (self.allowed(scale, bodies), gaps.narrowest);
+                self.add_gaps(bodies, domain, [if some { reach } else { scale }, allowed], &mut gaps);
+                if !some {
+                    gaps.narrowest = before;
                 }
             });
         }

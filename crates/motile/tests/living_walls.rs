@@ -3,9 +3,9 @@
 use motile::active_interface::ActiveDroplet;
 use motile::elastic_solids::{ChannelShape, Solid};
 use motile::motile_base::{Drive, Region};
-use motile::motile_scene::Scene;
 use motile::motile_scene::checkpoint::Checkpoint;
 use motile::motile_scene::integrator::IntegratorKind;
+use motile::motile_scene::{Body as _, Scene};
 use motile::setup::{
     ActiveSpringsSetup, AnyFlow, Axis, Built, DropletSetup, DropletShape, Grading, GridMethod, Material, MaxwellSetup,
     Method, Setup, SolidSetup,
@@ -129,6 +129,104 @@ fn mirrored_walls_give_mirrored_runs() {
     }
 }
 
+/// The image in x = 0: gradients along turned over, a droplet that swims the other way, on lattices, which are their
+/// own images.
+#[test]
+fn gradients_along_that_are_mirrored_give_mirrored_runs() {
+    for material in [Material::Springs { shear: 60.0 }, Material::NeoHookean { shear: 60.0, bulk: 120.0 }] {
+        let run = |sign: f64| {
+            let mut setup = channel(&material);
+            for wall in &mut setup.solids {
+                // Continuous over the seam.
+                let factors = vec![[-3.0, 2.0], [-1.5, 2.0 - sign], [1.5, 2.0 + sign], [3.0, 2.0]];
+                let along = Grading::Along { axis: Axis::X, factors };
+                let across = Grading::Step { axis: Axis::Y, at: 0.0, factors: [1.0, 3.0] };
+                wall.grading = along.times(across);
+                wall.relaxation = vec![MaxwellSetup { modulus: 50.0, time: 0.3 }];
+            }
+            let angle = if sign > 0.0 { 0.0 } else { std::f64::consts::PI };
+            setup.droplets = vec![DropletSetup { centre: [0.1 * sign, 0.0], angle, ..DropletSetup::active(-4.0) }];
+            let Built { mut scene, droplets, solids, .. } = setup.build().unwrap();
+            (0..25).for_each(|_| scene.step(5e-3).unwrap());
+            let centroid = scene.observe(droplets[0]).unwrap().centroid;
+            let energies = [0, 1].map(|k| scene.body(solids[k]).unwrap().elastic_energy().unwrap());
+            (centroid, energies)
+        };
+        let ((right, [a, b]), (left, [c, d])) = (run(1.0), run(-1.0));
+        assert!((right.x + left.x).abs() < 1e-11 && (right.y - left.y).abs() < 1e-11, "{right} {left}");
+        assert!((a / c - 1.0).abs() < 1e-8 && (b / d - 1.0).abs() < 1e-8, "{a} {c} {b} {d}");
+        assert!((right.x - 0.1).abs() > 1e-3 && (a / b - 1.0).abs() > 0.1, "{right} {a} {b}");
+    }
+}
+
+/// Walls without an equilibrium creep beside a droplet that swims until a triangle is as good as inverted; not those
+/// that keep a part of their modulus.
+#[test]
+fn walls_that_flow_end_in_the_error_that_says_when() {
+    let run = |material: &Material| {
+        let mut setup = channel(material);
+        setup.method = Method::Grid(GridMethod::uncorrected(0.2));
+        setup.droplets = vec![DropletSetup::active(-8.0)];
+        setup.solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, material);
+        for wall in &mut setup.solids {
+            wall.relaxation = vec![MaxwellSetup { modulus: 20.0, time: 0.2 }];
+        }
+        let Built { mut scene, .. } = setup.build().unwrap();
+        scene.run(2.0).go().map(|_| ()).map_err(|error| (scene.time(), error.to_string()))
+    };
+    let (time, said) = run(&Material::FluidLike).unwrap_err();
+    assert!(
+        said.contains("at time 1.")
+            && said.contains("wall went wrong: triangle")
+            && said.contains("is as good as inverted"),
+        "{said}"
+    );
+    assert!(time > 1.0, "{time}: {said}");
+    run(&Material::NeoHookean { shear: 200.0, bulk: 400.0 }).unwrap();
+}
+
+/// Factors on relaxation times and on the tension of bonds are those of the place.
+#[test]
+fn relaxation_times_and_tensions_are_graded() {
+    let mut setup = channel(&Material::Springs { shear: 60.0 });
+    let step = Grading::Step { axis: Axis::X, at: 0.0, factors: [1.0, 5.0] };
+    for wall in &mut setup.solids {
+        wall.relaxation = vec![MaxwellSetup { modulus: 50.0, time: 0.3 }];
+        let (on_sensitivity, off_sensitivity) = (0.0, 0.0);
+        // Never off.
+        wall.active_springs =
+            Some(ActiveSpringsSetup { tension: 2.0, on: 1.0, off: 0.0, seed: 1, on_sensitivity, off_sensitivity });
+    }
+    let viscosity = |setup: &Setup| {
+        let Built { scene, solids, .. } = setup.build().unwrap();
+        let properties = scene.body(solids[0]).unwrap().properties();
+        properties.into_iter().find(|(name, _)| name == "that of their viscosities").unwrap().1
+    };
+    let even = viscosity(&setup);
+    for wall in &mut setup.solids {
+        (wall.relaxation_time_grading, wall.tension_grading) = (step.clone(), step.clone());
+    }
+    assert!((viscosity(&setup) / even - 3.0).abs() < 0.02);
+    let Built { scene, solids, .. } = setup.build().unwrap();
+    let wall = scene.body(solids[0]).unwrap();
+    let stresses = wall.internal_stresses().unwrap().unwrap();
+    let spacing = wall.mesh().quality().mean_edge;
+    for (triangle, stress) in stresses.iter().enumerate() {
+        let corners = wall.mesh().triangles()[triangle].map(|point| wall.mesh().points()[point]);
+        if (corners[0].x - corners[1].x).abs().max((corners[0].x - corners[2].x).abs()) > 1.0 {
+            continue;
+        }
+        let place = (corners[0] + corners[1] + corners[2]) / 3.0;
+        // Away from the surface, the step and the seam.
+        let away = place.x.abs().min(3.0 - place.x.abs());
+        if away > 0.2 && (place.y + 1.65).abs() < 0.1 {
+            let factor = if place.x < 0.0 { 1.0 } else { 5.0 };
+            let expected = 3.0_f64.sqrt() * 2.0 * factor / spacing;
+            assert!((stress.x_axis.x / expected - 1.0).abs() < 0.03, "{place}: {} {expected}", stress.x_axis.x);
+        }
+    }
+}
+
 /// Seeds decide, and nothing else.
 #[test]
 fn twitching_walls_repeat_themselves() {
@@ -198,7 +296,7 @@ fn descriptions_that_make_no_sense_are_refused() {
     let relaxing = |modulus: f64, time: f64| vec![MaxwellSetup { modulus, time }];
     let active =
         ActiveSpringsSetup { tension: 2.0, on: 5.0, off: 10.0, seed: 1, on_sensitivity: 0.0, off_sensitivity: 2.0 };
-    let cases: [Case<'_>; 9] = [
+    let cases: [Case<'_>; 12] = [
         (&|s| s.solids[0].relaxation = relaxing(-1.0, 1.0), &["solids[0].relaxation[0].modulus = -1"]),
         (&|s| s.solids[1].relaxation = relaxing(1.0, 0.0), &["solids[1].relaxation[0].time = 0"]),
         (&|s| s.solids[0].material = Material::FluidLike, &["solids[0].material = fluid-like", "relaxation = ["]),
@@ -218,6 +316,24 @@ fn descriptions_that_make_no_sense_are_refused() {
                 s.solids[0].grading = Grading::Stripes { axis: Axis::X, width: 1.3, from: 0.0, factors };
             },
             &["grading.stripes.width = 1.3", "give 1.5"],
+        ),
+        (
+            &|s| {
+                s.mirror_symmetric = true;
+                s.solids[0].relaxation = relaxing(1.0, 1.0);
+            },
+            &["solids[0].relaxation", "no mirror image"],
+        ),
+        (
+            &|s| {
+                s.solids[0].active_springs = Some(active);
+                s.solids[0].tension_grading = Grading::Step { axis: Axis::X, at: 0.0, factors: [1.0, -1.0] };
+            },
+            &["solids[0].tension-grading.step.factors = -1"],
+        ),
+        (
+            &|s| s.solids[0].relaxation_time_grading = Grading::uniform(2.0),
+            &["relaxation-time-grading", "give relaxation"],
         ),
         (
             &|s| s.solids[0].grading = Grading::Step { axis: Axis::Y, at: 0.0, factors: [1.0, -1.0] },

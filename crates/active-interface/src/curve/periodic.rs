@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, positive, within};
+use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, polygon::CrossingFinder, positive, within};
 
 use super::{
-    CrossingFinder, MAXIMUM_MARKERS, MAXIMUM_UNEVENNESS, MINIMUM_MARKERS, equidistant::equidistant, polygon::raw_area,
+    MAXIMUM_MARKERS, MAXIMUM_UNEVENNESS, MINIMUM_MARKERS, equidistant::equidistant, polygon::raw_area,
     spline::PeriodicSpline,
 };
 use crate::InterfaceError;

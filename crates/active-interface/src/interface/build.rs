@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use motile_base::{InputError, Membrane, Vec2, all_finite, finite, not_negative, positive, same_length};
+use motile_base::{
+    InputError, Membrane, Vec2, all_finite, finite, not_negative, polygon::CrossingFinder, positive, same_length,
+};
 
 use super::{
     Account, ActiveInterface, Bending, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
@@ -10,7 +12,7 @@ use super::{
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport},
-    curve::{CrossingFinder, check_period},
+    curve::check_period,
 };
 
 impl Account {

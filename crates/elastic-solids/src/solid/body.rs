@@ -121,6 +121,7 @@ impl Body for Solid {
     fn end_step(&mut self, _view: &FluidView, dt: f64) -> Result<(), BodyError> {
         if !self.may_invert {
             self.check_inversion()?;
+            self.surface.check(&self.positions)?;
         }
         if let Some(relaxation) = &mut self.relaxation {
             relaxation.end_step(&self.positions, dt);

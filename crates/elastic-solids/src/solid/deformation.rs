@@ -6,6 +6,9 @@ use motile_scene::{BodyError, BodyFlow, FluidView, Observe};
 use crate::material::Mat2;
 use crate::{Solid, SolidError};
 
+/// Area ratio of a triangle below which a solid that flows is at its end (no dimension).
+const LEAST_RATIO: f64 = 0.02;
+
 /// Measurements on a solid at one time (`scene.observe(solid)?`). Displacements are those from the reference state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -165,15 +168,16 @@ impl Solid {
         numbered.fold((f64::INFINITY, 0), |least, this| if this.0 < least.0 { this } else { least })
     }
 
-    /// Checks that no triangle is inverted.
+    /// Checks that no triangle is inverted, nor about to be in a solid that flows, whose steps would get ever shorter.
     ///
     /// # Errors
     /// [`SolidError::Inverted`] with the triangle that is inverted the most.
     pub(crate) fn check_inversion(&self) -> Result<(), SolidError> {
         // Mostly none is; the sign alone takes no division and no search.
+        let least = if self.flows { 2.0 * LEAST_RATIO } else { 0.0 };
         let upright = |triangle: usize| {
             let [a, b, c] = self.mesh.raw_corners(triangle, &self.positions);
-            (b - a).perp_dot(c - a) > 0.0
+            (b - a).perp_dot(c - a) > least * self.mesh.areas()[triangle]
         };
         if (0..self.mesh.triangles().len()).all(upright) {
             return Ok(());

@@ -68,3 +68,25 @@ proptest! {
         }
     }
 }
+
+/// Squares of the size 1 that are no interfaces: only where they have crossed, and no gaps of theirs are kept.
+#[test]
+fn solids_that_have_crossed_are_found() {
+    let view = FluidView { spacing: Some(0.1), ..circles(&[], [6.0, 6.0]).1 };
+    let crossed = |apart: f64| {
+        let squares = [(0.0, 0.0), (1.0 + apart, 0.3)].map(|(x, y)| {
+            let mut square = Boundary::default();
+            let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+            square.push_loop(&corners.map(|(u, v)| Vec2::new(x + u, y + v)));
+            (square, MarkerKind::Points)
+        });
+        let gaps = Surfaces::of(squares).gaps_near(&view, 0.0);
+        assert_eq!(gaps.narrowest, None);
+        gaps.crossed.map(|overlap| (overlap.body, overlap.other, (1e6 * overlap.depth).round()))
+    };
+    assert_eq!([0.3, 0.01, -0.024].map(crossed), [None; 3]);
+    assert_eq!(crossed(-0.026), Some((0, 1, 26e3)));
+    // Over the period too.
+    assert_eq!(crossed(4.01), None);
+    assert!(crossed(3.97).is_none() && crossed(4.03).is_some());
+}

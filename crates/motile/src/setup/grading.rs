@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::checked::Checked;
 use crate::SetupError;
 
-/// Moduli as a function of the reference position: a factor on all moduli of the material.
+/// A quantity as a function of the reference position: a factor on all moduli of a material, on relaxation times, or on
+/// the tension of active springs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -64,6 +65,12 @@ impl Grading {
     #[must_use]
     pub fn uniform(factor: f64) -> Self {
         Self::Along { axis: Axis::X, factors: vec![[0.0, factor]] }
+    }
+
+    /// True for no grading.
+    #[must_use]
+    pub fn is_uniform(&self) -> bool {
+        *self == Self::Uniform
     }
 
     /// The product of this grading and another one.

@@ -84,12 +84,18 @@ pub struct SolidSetup {
     /// Maxwell elements beside its elasticity, which make it viscoelastic; their moduli are graded like its own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub relaxation: Vec<MaxwellSetup>,
+    /// Relaxation times of the Maxwell elements as a function of place: a factor on all of them.
+    #[serde(default, skip_serializing_if = "Grading::is_uniform")]
+    pub relaxation_time_grading: Grading,
     /// Viscosity (stress times time) where it is above that of the exterior fluid: a Kelvin-Voigt solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<f64>,
     /// Active springs along the edges of its mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub active_springs: Option<ActiveSpringsSetup>,
+    /// Tension of the active springs as a function of place: a factor on it.
+    #[serde(default, skip_serializing_if = "Grading::is_uniform")]
+    pub tension_grading: Grading,
 }
 
 /// An elastic skin on the surface of a solid ([`Solid::with_skin`]).
@@ -272,8 +278,10 @@ impl SolidSetup {
             grading: Grading::default(),
             skin: None,
             relaxation: Vec::new(),
+            relaxation_time_grading: Grading::default(),
             viscosity: None,
             active_springs: None,
+            tension_grading: Grading::default(),
         }
     }
 
@@ -328,13 +336,14 @@ impl SolidSetup {
             solid = solid.with_skin(stretching, bending)?;
         }
         for &MaxwellSetup { modulus, time } in &self.relaxation {
-            solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * self.grading.factor(s), time))?;
+            let times = |s: Vec2| time * self.relaxation_time_grading.factor(s);
+            solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * self.grading.factor(s), times(s)))?;
         }
         if let Some(excess) = self.viscosity.map(|own| own - setup.viscosity).filter(|excess| *excess > 0.0) {
             solid = solid.with_excess_viscosity(excess)?;
         }
         if let Some(active) = &self.active_springs {
-            solid = solid.with_active_springs(active.law()?);
+            solid = solid.with_active_springs_graded(active.law()?, |s| self.tension_grading.factor(s))?;
         }
         let held = match self.hold {
             Hold::Pinned => solid.pinned(fixed)?,
@@ -549,7 +558,21 @@ impl BodySetup for SolidSetup {
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }
-        self.grading.check("grading", checked, self.side().and(Some(setup.region.lengths()[0])))?;
+        let period = self.side().and(Some(setup.region.lengths()[0]));
+        self.grading.check("grading", checked, period)?;
+        self.relaxation_time_grading.check("relaxation-time-grading", checked, period)?;
+        self.tension_grading.check("tension-grading", checked, period)?;
+        let given = [
+            ("relaxation-time-grading", &self.relaxation_time_grading, self.relaxation.is_empty(), "relaxation"),
+            ("tension-grading", &self.tension_grading, self.active_springs.is_none(), "active-springs"),
+        ];
+        for (key, _, _, of) in given.into_iter().filter(|(_, grading, missing, _)| *missing && !grading.is_uniform()) {
+            checked.refuse(
+                key,
+                &"given",
+                &format!("there is nothing that it is a factor on: give {of}, or leave it out"),
+            )?;
+        }
         for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
             checked.positive(&format!("relaxation[{number}].modulus"), *modulus)?;
             checked.positive(&format!("relaxation[{number}].time"), *time)?;
@@ -570,6 +593,15 @@ impl BodySetup for SolidSetup {
         if !self.relaxation.is_empty() && setup.integrator == IntegratorKind::RungeKutta {
             let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
             checked.refuse("relaxation", &"given", remedy)?;
+        }
+        let without_image = [
+            ("relaxation", !self.relaxation.is_empty()),
+            ("active-springs", self.active_springs.is_some()),
+            ("spread-over-triangles", self.spread_over_triangles),
+        ];
+        for (key, _) in without_image.into_iter().filter(|(_, given)| *given && setup.mirror_symmetric) {
+            let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
+            checked.refuse(key, &"given", remedy)?;
         }
         self.material.check(checked)
     }

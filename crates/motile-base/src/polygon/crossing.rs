@@ -1,8 +1,6 @@
 //! Crossings of a closed polygon with itself.
 
-use motile_base::{Vec2, all_points_finite, at_least};
-
-use crate::InterfaceError;
+use crate::{InputError, Vec2, all_points_finite, at_least};
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
 /// they are about equally spaced.
@@ -14,7 +12,7 @@ use crate::InterfaceError;
 /// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one
 /// pass over the points is enough.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct CrossingFinder {
+pub struct CrossingFinder {
     cells: Vec<(i64, i64)>,
     starts: Vec<usize>,
     entries: Vec<usize>,
@@ -28,7 +26,7 @@ impl CrossingFinder {
     ///
     /// # Errors
     /// Fewer than three points, points that are not finite.
-    pub(crate) fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
+    pub fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InputError> {
         at_least("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
         if is_star_shaped(points) {
@@ -104,11 +102,7 @@ impl CrossingFinder {
     ///
     /// # Errors
     /// Those of [`CrossingFinder::first_crossing`].
-    pub(crate) fn first_crossing_over(
-        &mut self,
-        points: &[Vec2],
-        advance: f64,
-    ) -> Result<Option<(usize, usize)>, InterfaceError> {
+    pub fn first_crossing_over(&mut self, points: &[Vec2], advance: f64) -> Result<Option<(usize, usize)>, InputError> {
         let count = points.len();
         let step = |k: usize| if k + 1 < count { points[k + 1].x } else { points[0].x + advance } - points[k].x;
         if advance != 0.0 && (0..count).all(|k| step(k) * advance > 0.0) {
@@ -144,7 +138,7 @@ impl CrossingFinder {
 ///
 /// # Errors
 /// Fewer than three points, points that are not finite.
-pub fn first_crossing(points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
+pub fn first_crossing(points: &[Vec2]) -> Result<Option<(usize, usize)>, InputError> {
     CrossingFinder::default().first_crossing(points)
 }
 
