@@ -562,16 +562,14 @@ impl BodySetup for SolidSetup {
         self.grading.check("grading", checked, period)?;
         self.relaxation_time_grading.check("relaxation-time-grading", checked, period)?;
         self.tension_grading.check("tension-grading", checked, period)?;
-        let given = [
+        for (key, grading, missing, of) in [
             ("relaxation-time-grading", &self.relaxation_time_grading, self.relaxation.is_empty(), "relaxation"),
             ("tension-grading", &self.tension_grading, self.active_springs.is_none(), "active-springs"),
-        ];
-        for (key, _, _, of) in given.into_iter().filter(|(_, grading, missing, _)| *missing && !grading.is_uniform()) {
-            checked.refuse(
-                key,
-                &"given",
-                &format!("there is nothing that it is a factor on: give {of}, or leave it out"),
-            )?;
+        ] {
+            if missing && !grading.is_uniform() {
+                let remedy = format!("there is nothing that it is a factor on: give {of}, or leave it out");
+                checked.refuse(key, &"given", remedy)?;
+            }
         }
         for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
             checked.positive(&format!("relaxation[{number}].modulus"), *modulus)?;
@@ -594,14 +592,15 @@ impl BodySetup for SolidSetup {
             let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
             checked.refuse("relaxation", &"given", remedy)?;
         }
-        let without_image = [
+        for (key, given) in [
             ("relaxation", !self.relaxation.is_empty()),
             ("active-springs", self.active_springs.is_some()),
             ("spread-over-triangles", self.spread_over_triangles),
-        ];
-        for (key, _) in without_image.into_iter().filter(|(_, given)| *given && setup.mirror_symmetric) {
-            let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
-            checked.refuse(key, &"given", remedy)?;
+        ] {
+            if given && setup.mirror_symmetric {
+                let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
+                checked.refuse(key, &"given", remedy)?;
+            }
         }
         self.material.check(checked)
     }
