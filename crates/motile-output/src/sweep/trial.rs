@@ -14,7 +14,7 @@ use crate::run::{CheckpointFlags, OutputFlags, Summary, Taken, View, WatchedRun,
 pub(super) const FINGERPRINT: &str = "fingerprint";
 
 /// Run of a sweep, told by the values of the swept entries.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Trial {
     /// Values of the swept entries in short, which is also the name of the folder.
     pub label: String,

@@ -5,7 +5,7 @@ use motile_output::sweep::{Plan, Trial};
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Data, Source, folder};
+use super::{Data, Source, flatten, folder, track};
 use crate::book::Making;
 use crate::book::expression::{Definitions, Expression, Row};
 
@@ -16,7 +16,8 @@ const ROUNDS: usize = 20;
 ///
 /// Each point of the plan ends as one row: that of the run nearest to the boundary with the outcome of the second end,
 /// with `boundary`, the middle between the last two values, and `boundary_error`, half their distance. A run that ends
-/// in an error counts as one with the outcome of the first end, and is told as all failures are.
+/// in an error is judged by what it came to (`furthest_x`, all other columns being those of its scene), and is told as
+/// all failures are.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Bisection {
@@ -61,7 +62,11 @@ impl Bisection {
         let outcome = Expression::parse(&self.outcome, &Definitions::new())?;
         let mut run = |asked: &[(usize, f64)]| -> Result<Vec<Option<Row>>> {
             let trials = asked.iter().map(|(k, value)| self.trial(&plan, name, making, (*k, &points[*k]), *value));
-            source.made(name, making, trials.collect::<Result<_>>()?, data)
+            let trials: Vec<Trial> = trials.collect::<Result<_>>()?;
+            let rows = source.made(name, making, trials.clone(), data)?;
+            let ended =
+                |(row, trial): (Option<Row>, &Trial)| row.map_or_else(|| Self::ended(trial), |row| Ok(Some(row)));
+            rows.into_iter().zip(&trials).map(ended).collect()
         };
         let holds = |row: &Option<Row>| row.as_ref().is_some_and(|row| outcome.value(row) != 0.0);
 
@@ -96,6 +101,15 @@ impl Bisection {
             data.rows.push(row);
         }
         Ok(())
+    }
+
+    /// Row of a run that ended in an error; nothing of one without a record.
+    fn ended(trial: &Trial) -> Result<Option<Row>> {
+        let Ok(track) = track(trial, "x") else { return Ok(None) };
+        let mut row = Row::new();
+        flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
+        row.insert("furthest_x".to_owned(), track.iter().map(|(_, x)| *x).fold(f64::NAN, f64::max));
+        Ok(Some(row))
     }
 
     /// The run of a point of the plan at a value.
