@@ -143,7 +143,9 @@ fn swim(Flags { core: core_flags, scene: flags }: &Flags) -> Result<()> {
     let turning = turning_rate(&run.table().curve("time", "heading_degrees")?);
     let speed = run.last()?.observables.speed();
     summary.put("turning_rate", turning, "of the heading, in the second half of the run (radians per time)");
-    summary.put("track_radius", turning.map(|rate| speed / rate.abs()), "of the track, speed over turning rate (R0)");
+    // Straight tracks turn by round-off alone.
+    let radius = turning.filter(|rate| rate.abs() > 1e-12).map(|rate| speed / rate.abs());
+    summary.put("track_radius", radius, "of the track, speed over turning rate (R0)");
     if let Some(core) = core {
         let centroid = run.last()?.observables.centroid;
         let body = run.scene.system_mut();

@@ -18,7 +18,8 @@ use motile_output::run::{Summary, make_directory, say};
 use motile_output::{CsvTable, Progress};
 use motile_steady_examples::SteadyFlags;
 use steady_states::{
-    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyError,
+    SteadyState, Symmetry,
 };
 
 /// A branch of steady states over a parameter, with its stability and special points.
@@ -118,8 +119,12 @@ fn draw(flags: &Flags) -> Result<()> {
         };
         if let Some(point) = rest.special.into_iter().find(wanted) {
             diagram.branch += 1;
-            let branch = settings.switch(&point, true, |point, special| diagram.update_host(point, special))?;
-            diagram.end(&branch)?;
+            match settings.switch(&point, true, |point, special| diagram.update_host(point, special)) {
+                Err(error @ SteadyError::Unsupported { .. }) => {
+                    diagram.tell(format!("branch 1 does not begin: {error}"))
+                }
+                branch => diagram.end(&branch?)?,
+            }
         }
     }
     diagram.finish()
@@ -171,7 +176,9 @@ impl<'a> Diagram<'a> {
         let Flags { parameter, from, to, ref observable, .. } = *self.flags;
         for SpecialPoint { kind, value: at, critical, .. } in special {
             let frequency = critical.mode.value.im;
-            let note = format!("{} at {} = {at:.7}, frequency {frequency:.5}", kind.name(), parameter.name());
+            let (kind_name, mode) = (kind.name(), critical.mode.symmetry.name());
+            let note =
+                format!("{kind_name} at {} = {at:.7}, frequency {frequency:.5}, symmetry {mode}", parameter.name());
             self.progress.note(&note);
             let antisymmetric = critical.mode.symmetry == Symmetry::Antisymmetric;
             let speed = critical.state.measured()?.speed;
@@ -218,10 +225,15 @@ impl<'a> Diagram<'a> {
         let Some(last) = branch.points.last() else { return Ok(()) };
         let end =
             format!("branch {} ends at {} = {:.6}: {}", self.branch, branch.parameter.name(), last.value, branch.end);
-        self.progress.note(&end);
-        self.ends.push(end);
+        self.tell(end);
         self.special.push(&[END, last.value, last.state.measured()?.speed, 0.0, 0.0])?;
         Ok(self.special.flush()?)
+    }
+
+    /// Tells how a branch ends.
+    fn tell(&mut self, end: String) {
+        self.progress.note(&end);
+        self.ends.push(end);
     }
 
     /// Writes the last point, to go on from.
@@ -233,6 +245,9 @@ impl<'a> Diagram<'a> {
         table.push(&[point.value, f64::from(u8::from(point.value > self.before)), 0.0])?;
         table.push(&[velocity.x, velocity.y, f64::from(u8::from(point.state.is_mirror_symmetric()))])?;
         let profile = point.state.profile();
+        for nucleus in &profile.nuclei {
+            table.push(&[nucleus.x, nucleus.y, 0.0])?;
+        }
         for (x, density) in profile.positions.iter().zip(&profile.density) {
             table.push(&[x.x, x.y, *density])?;
         }
@@ -243,14 +258,13 @@ impl<'a> Diagram<'a> {
     /// The last point that was written, and whether the parameter grew there.
     fn last(&mut self, setup: &motile::setup::Setup) -> Result<(SteadyState, bool)> {
         let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"])?;
-        let [place, velocity, nodes @ ..] = table.rows() else {
+        let parts = table.rows().split_at_checked(2 + setup.rigid_bodies.len());
+        let Some(([place, velocity, nuclei @ ..], nodes)) = parts else {
             anyhow::bail!("last.csv is incomplete: run without --resume")
         };
-        let profile = Profile {
-            positions: nodes.iter().map(|row| Vec2::new(row[0], row[1])).collect(),
-            density: nodes.iter().map(|row| row[2]).collect(),
-            nuclei: Vec::new(),
-        };
+        let places = |rows: &[Vec<f64>]| rows.iter().map(|row| Vec2::new(row[0], row[1])).collect();
+        let density = nodes.iter().map(|row| row[2]).collect();
+        let profile = Profile { positions: places(nodes), density, nuclei: places(nuclei) };
         let setup = self.flags.parameter.with(setup, place[0])?;
         let moves = Vec2::new(velocity[0], velocity[1]);
         let state = SteadyState::near(&setup, &profile, moves, velocity[2] == 1.0).context("resuming from last.csv")?;

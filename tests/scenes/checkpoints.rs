@@ -233,7 +233,6 @@ fn a_large_box() {
     compare(|| scene(&setup), 0.2, StepSize::Fixed(0.02), &stops(15, 4));
 }
 
-/// Threads that run scenes of their own do not disturb each other, and there are no others.
 /// A run that goes on in its own scene takes the steps that it would have taken: the first of them looks at the step
 /// before as any other.
 #[test]
@@ -251,6 +250,7 @@ fn a_run_in_parts_is_one_run() {
     }
 }
 
+/// Threads that run scenes of their own do not disturb each other, and there are no others.
 #[test]
 fn two_at_a_time_are_as_one() {
     let run = || {

@@ -72,7 +72,8 @@ impl Continuation {
     /// Branch that crosses the one of a branch point there, in the direction of the critical mode or against it.
     ///
     /// # Errors
-    /// As [`Continuation::follow`]; a special point that is no branch point.
+    /// As [`Continuation::follow`]; a special point that is no branch point; one at rest around a nucleus, which may
+    /// rest anywhere, that leads to nothing else.
     pub fn switch(
         &self,
         point: &SpecialPoint,
@@ -88,7 +89,16 @@ impl Continuation {
         let Critical { state, mode } = &point.critical;
         let enter = |amplitude: f64| self.enter(state, mode, if with_mode { amplitude } else { -amplitude });
         let [first, rest @ ..] = AMPLITUDES;
-        rest.into_iter().fold(enter(first), |found, amplitude| found.or_else(|_| enter(amplitude)))?.go(seen)
+        let mut follower =
+            rest.into_iter().fold(enter(first), |found, amplitude| found.or_else(|_| enter(amplitude)))?;
+        let profile = follower.system.profile(&follower.point);
+        if !profile.nuclei.is_empty() && profile.is_at_rest() {
+            return Err(SteadyError::Unsupported {
+                what: "droplets at rest with a nucleus elsewhere cross there, no swimmers".to_owned(),
+                remedy: "find a swimmer (SteadyState::find, --swimmer) and follow it to the threshold",
+            });
+        }
+        follower.go(seen)
     }
 
     /// First point of the branch that a critical mode leads to, beyond an amplitude of it.

@@ -139,6 +139,12 @@ impl Profile {
         Self { nuclei, ..self }
     }
 
+    /// True for particles that are spread evenly to a thousandth, as at rest; branches of swimmers begin farther off.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let [least, most] = self.density.iter().fold([f64::INFINITY, 0.0], |[a, b], m| [m.min(a), m.max(b)]);
+        most - least <= 1e-3 * most
+    }
+
     /// Shifts the droplet along x (length).
     pub(crate) fn shift(&mut self, x: f64) {
         self.positions.iter_mut().chain(&mut self.nuclei).for_each(|position| position.x += x);

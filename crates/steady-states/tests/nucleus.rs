@@ -215,4 +215,7 @@ fn thresholds_around_a_nucleus_are_found_once() {
     assert_eq!(found.iter().map(|point| point.0).collect::<Vec<_>>(), [Symmetry::Symmetric, Symmetry::Antisymmetric]);
     assert!(found.iter().all(|point| (point.1 / exact - 1.0).abs() < 1e-6), "{exact} {found:?}");
     assert!(branch.special.iter().all(|point| point.kind == SpecialKind::BranchPoint));
+    // No swimmer has its nucleus in the middle, as the flow inside carries it away: what branches off is at rest.
+    let refused = range.switch(&branch.special[0], true, |_, _| true).unwrap_err().to_string();
+    assert!(refused.contains("at rest with a nucleus elsewhere"), "{refused}");
 }

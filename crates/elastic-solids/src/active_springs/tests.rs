@@ -13,6 +13,8 @@ fn bonds_have_the_statistics_of_two_states() {
         let mut bonds = Bonds::new(&mesh, law);
         let (p, k, count) = (law.duty_ratio(), on + off, bonds.on().len() as f64);
         assert!((p - on / k).abs() < 1e-15);
+        // What bonds remember falls by exp(-1/2) in the longest step.
+        assert!((k * bonds.resolved_step() - 0.5).abs() < 1e-15);
         let deviation = |value: bool| f64::from(u8::from(value)) - p;
         // Samples as far apart as bonds remember are independent.
         let apart = (10.0 / (k * dt)).ceil() as usize;

@@ -25,9 +25,14 @@ fn walls_of_a_channel() {
         assert!((triangles - 4.0 * thickness).abs() < 1e-9, "{triangles}");
         assert!(shape.stress.iter().chain(&shape.displacement).all(|v| v.abs() < 1e-9));
         assert!((area(&shape.area[0]) - 4.0 * thickness).abs() < 1e-9, "{}", area(&shape.area[0]));
-        // One line begins within half a period of the other one's end.
+        // One line begins within half a period of the other one's end, wherever the wall is.
         let ends = shape.area[0].iter().fold([f64::INFINITY, -f64::INFINITY], |[a, b], at| [a.min(at.x), b.max(at.x)]);
         assert!(ends[1] - ends[0] < 1.5 * 4.0 + 1e-9, "{ends:?}");
+        let shift = Vec2::new(2.0, 0.0);
+        let moved = Solid::springs(solid.mesh().clone(), 1.0).unwrap().deformed(|place| place + shift).unwrap();
+        let pairs = solid_shape(&moved).area.concat().into_iter().zip(&shape.area[0]);
+        assert!(pairs.clone().count() == shape.area[0].len());
+        pairs.for_each(|(to, from)| assert!((to - *from - shift).length() < 1e-12, "{from:?} to {to:?}"));
     }
     let mut meter = SolidMeter::of(system).unwrap();
     let measured = meter.measure(system).unwrap();

@@ -253,14 +253,15 @@ fn values(value: Value) -> Result<Vec<Value>> {
 fn put(table: &mut Table, path: &str, value: Value) -> Result<()> {
     let (above, key) = path.rsplit_once('.').unwrap_or(("", path));
     let mut place: Option<&mut Value> = None;
-    for part in above.split('.').filter(|part| !part.is_empty()) {
+    for (number, part) in above.split('.').filter(|part| !part.is_empty()).enumerate() {
         let next = match place {
             None => table.get_mut(part),
             Some(Value::Array(list)) => part.parse().ok().and_then(|k: usize| list.get_mut(k)),
             Some(Value::Table(table)) => table.get_mut(part),
             Some(_) => None,
         };
-        place = Some(next.with_context(|| format!("the scene has no {part}"))?);
+        let so_far = || above.split('.').take(number + 1).collect::<Vec<_>>().join(".");
+        place = Some(next.with_context(|| format!("the scene has no {}: write it into the scene", so_far()))?);
     }
     let holder = match place {
         None => table,

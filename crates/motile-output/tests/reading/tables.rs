@@ -134,11 +134,11 @@ fn all_interfaces_are_in_one_table() {
 fn motion_of_many_droplets_is_that_of_their_rows() {
     let directory = Directory::new("suspension");
     let setup = Setup {
-        region: Region::Box { lengths: [6.0, 4.0] },
+        region: Region::Box { lengths: [6.0, 6.0] },
         method: Method::Grid(GridMethod::of_spacing(0.25)),
         droplets: vec![
-            DropletSetup { centre: [-1.5, 0.0], angle: 0.4, ..DropletSetup::active(-6.0) },
-            DropletSetup { centre: [1.5, 0.0], angle: 2.0, ..DropletSetup::active(-4.0) },
+            DropletSetup { centre: [-1.3, 0.0], angle: 0.4, ..DropletSetup::active(-6.0) },
+            DropletSetup { centre: [1.4, 0.0], angle: 2.0, ..DropletSetup::active(-4.0) },
         ],
         step: StepSize::Fixed(0.025),
         ..Setup::default()
@@ -147,6 +147,7 @@ fn motion_of_many_droplets_is_that_of_their_rows() {
     let mut tables = SuspensionCsv::create(&directory.0, scene.system_mut(), 0.1).unwrap();
     scene.run(0.4).observe(Every::Time(0.1), &mut tables).go().unwrap();
     let motion = tables.diffusion(0.1);
+    let pairs = tables.pairs(&setup.region, 0.1, 1.0, 3.0);
     drop(tables);
     let (header, rows) = read(&directory.0.join("members.csv"));
     let vector = |row: &[f64], name: &str| {
@@ -158,6 +159,18 @@ fn motion_of_many_droplets_is_that_of_their_rows() {
     // States from the time 0.1 on, of two rows each.
     let states: Vec<&[Vec<f64>]> = rows[2..].chunks(2).collect();
     assert_eq!((states.len(), motion.len()), (4, 4));
+    for (row, angle) in rows.iter().zip([0.4_f64, 2.0]) {
+        assert!(crate::near(&vector(row, "heading"), &[angle.cos(), angle.sin()], 1e-2), "{row:?}");
+    }
+    // The pair is from 2 to 3 apart, where its velocities are as correlated as in the rows.
+    let (mut product, mut square) = (0.0, 0.0);
+    for state in &states {
+        let [[a, b], [c, d]] = [vector(&state[0], "velocity"), vector(&state[1], "velocity")];
+        product += a * c + b * d;
+        square += 0.5 * (a * a + b * b + c * c + d * d);
+    }
+    assert!(pairs.pairs[..2] == [0.0; 2] && pairs.pairs[2] > 0.0, "{pairs:?}");
+    assert!(crate::near(&pairs.velocities[2..], &[product / square], 1e-9), "{product} {square} {pairs:?}");
     for (lag, found) in motion.iter().enumerate() {
         let pairs = states.iter().zip(&states[lag..]).flat_map(|(from, to)| from.iter().zip(*to));
         let mut sums = [0.0; 3];

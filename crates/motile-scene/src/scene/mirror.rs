@@ -52,15 +52,25 @@ impl Mirror {
         for (one, body) in bodies.iter().enumerate() {
             let start = self.ranges.last().map_or(0, |range| range.end);
             self.ranges.push(start..start + body.state_len());
-            if !single[one] {
-                continue;
-            }
             let problem = |problem| {
                 Err(SceneError::NotSymmetric { time: system.time(), body: system.bodies.name_of(one), problem })
             };
+            let own: Vec<usize> = (0..body.marker_count()).collect();
+            let state = vec![0.0; body.state_len()];
+            if !body.mirror(&own, &state, &mut state.clone()) {
+                return problem(
+                    "is of a kind that has no mirror images, as an interface along x, a mesh or a gel inside, a solid \
+                     that relaxes, twitches or spreads its forces"
+                        .to_owned(),
+                );
+            }
+            if !single[one] {
+                continue;
+            }
             let mut nearest = (f64::INFINITY, Vec2::ZERO);
             let mut image = None;
-            for other in (one..bodies.len()).filter(|&other| single[other]) {
+            let alike = |other: &usize| single[*other] && bodies[*other].state_len() == body.state_len();
+            for other in (one..bodies.len()).filter(alike) {
                 match images(&places[one], &places[other]) {
                     Ok(markers) => {
                         image = Some((other, markers));
@@ -78,12 +88,6 @@ impl Mirror {
             };
             if let Some((name, [here, there])) = other_property(*body, bodies[other]) {
                 return problem(format!("has another mirror image: {name} is {here} of one and {there} of the other"));
-            }
-            let (state, mut image) = (vec![0.0; body.state_len()], vec![0.0; bodies[other].state_len()]);
-            if state.len() != image.len()
-                || ![*body, bodies[other]].iter().all(|body| body.mirror(&markers, &state, &mut image))
-            {
-                return problem("is of a kind that has no mirror images".to_owned());
             }
             let mut back = vec![0; markers.len()];
             markers.iter().enumerate().for_each(|(marker, &image)| back[image] = marker);

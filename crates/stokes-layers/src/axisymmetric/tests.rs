@@ -408,6 +408,13 @@ fn tubes_are_driven_by_flux_or_pressure() {
         flow.sample(&[Vec2::new(-5.0, 0.3), Vec2::new(5.0, 0.3)], &mut samples).unwrap();
         let resistance = 8.0 * flow.flux() / (PI * radius.powi(4));
         let rise = samples[1].pressure - samples[0].pressure - resistance * (length - 10.0);
+        // Far from the drop the flow is Poiseuille's.
+        let [speed, slope] =
+            [2.0 * (1.0 - 0.04) / radius.powi(2), -4.0 * 0.3 / radius.powi(4)].map(|u| u * flow.flux() / PI);
+        for sample in samples {
+            let errors = [sample.velocity.x - speed, sample.velocity.y, sample.gradient[0][1] - slope];
+            assert!(errors.iter().all(|error| error.abs() < 2e-6), "{drive:?}: {errors:?}");
+        }
         let gradient = flow.pressure_gradient().unwrap();
         assert!((gradient * length - rise).abs() < 2e-6, "{drive:?}: {gradient} {rise}");
         if drive.flux().is_none() {

@@ -131,7 +131,7 @@ fn an_unstable_step_is_refused_before_anything_is_written() {
 /// In unbounded fluid the picture is of a square about the start, with as many cells as the spacing gives.
 #[test]
 fn a_run_in_the_plane_is_drawn() {
-    let directory = directory("plane-run");
+    let directory = directory("plane-again");
     let setup = Setup { region: Region::Plane, ..Setup::default() };
     let mut run = watch(&setup, 0.1, &output(&directory, false)).unwrap();
     run.go(None).unwrap();

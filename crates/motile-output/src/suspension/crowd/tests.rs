@@ -27,6 +27,23 @@ fn runs_of_marked_points() {
     assert_eq!(runs(&path, &marked), [vec![[0.0, 0.0], [1.0, 0.0]], vec![[5.0, 0.0], [6.0, 0.0]]]);
 }
 
+/// Crowded parts of an interface are three times as wide as its outline, in pictures of any size.
+#[test]
+fn crowded_parts_are_wide() {
+    let drop = Drop { markers: square(-0.5, -0.5), relative: vec![2.0, 2.0, 2.0, 0.5], heading: Vec2::X };
+    let seen = Crowd { droplets: vec![drop], ..crowd([true; 2]) };
+    let widths = [600.0, 1200.0].map(|width| -> Vec<f64> {
+        let svg = seen.draw(CrowdColour::Heading, width, None).svg();
+        let ink = format!("stroke=\"#{}\" stroke-width=\"", Rgb::INK.0.map(|part| format!("{part:02x}")).concat());
+        svg.split(&ink).skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect()
+    });
+    assert!(widths.iter().all(|widths| widths.len() == 2), "{widths:?}");
+    for [outline, crowded] in widths.iter().map(|widths| [widths[0], widths[1]]) {
+        assert!((crowded / outline - 3.0).abs() < 0.02, "{widths:?}");
+    }
+    assert!((widths[1][0] / widths[0][0] - 2.0).abs() < 0.01, "{widths:?}");
+}
+
 #[test]
 fn opposite_directions_have_other_colours() {
     let difference = |a: Rgb, b: Rgb| a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max().unwrap();
