@@ -91,6 +91,7 @@ impl Continuation {
         let [first, rest @ ..] = AMPLITUDES;
         let mut follower =
             rest.into_iter().fold(enter(first), |found, amplitude| found.or_else(|_| enter(amplitude)))?;
+        follower.settle_nodes()?;
         let profile = follower.system.profile(&follower.point);
         if !profile.nuclei.is_empty() && profile.is_at_rest() {
             return Err(SteadyError::Unsupported {

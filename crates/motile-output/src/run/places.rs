@@ -36,11 +36,15 @@ impl Places {
 
     fn check(&self, what: &str, path: &Path, clashes: impl Fn(&Path) -> bool) -> Result<()> {
         for (other, there) in &self.known {
-            if clashes(there) || is_linked(path, there) {
-                bail!(
-                    "{what} and {other} are one file ({}), of which one would be lost: give them different names",
-                    path.display()
-                );
+            let is_one = path == there || is_linked(path, there);
+            if is_one || clashes(there) {
+                let (one, two) = (path.display(), there.display());
+                let relation = if is_one {
+                    format!("are one file ({one})")
+                } else {
+                    format!("lie one in the other ({one}, {two})")
+                };
+                bail!("{what} and {other} {relation}, of which one would be lost: give them different names");
             }
         }
         Ok(())

@@ -48,7 +48,7 @@ fn files_that_are_one_are_refused_by_both_names() {
         (None, [Some("new"), Some("new/trajectory.csv"), None, None], "--checkpoint", "trajectory.csv"),
         (None, [Some("new"), Some("new/x/../summary.json"), None, None], "--checkpoint", "summary.json"),
         (None, [Some("new"), Some("new/vtk/state"), None, None], "--checkpoint", "files for ParaView"),
-        (None, [Some("state/new"), Some("state"), None, None], "--checkpoint", "--out"),
+        (None, [Some("state/new"), Some("state"), None, None], "--checkpoint", "lie one in the other"),
         (None, [Some("new"), None, None, Some("new/summary.json")], "--write-scene", "summary.json"),
         (None, [Some("new"), Some("same"), None, Some("./same")], "--checkpoint", "--write-scene"),
         (None, [Some("new"), None, Some("new/final.png"), None], "--resume", "final.png"),
