@@ -2,6 +2,7 @@
 
 mod hyperelastic;
 mod inner_stress;
+mod patches;
 mod springs;
 
 use motile_base::Vec2;
