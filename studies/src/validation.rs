@@ -14,6 +14,7 @@ mod headings;
 mod imposed_flows;
 mod interfaces;
 mod recommended;
+mod soft_walls;
 mod solids;
 mod two_droplets;
 mod viscoelastic;
@@ -55,7 +56,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 39] = [
+const STUDIES: [(&str, Run); 40] = [
     ("fixed-shapes", fixed),
     ("relaxation", relax),
     ("growth", grow),
@@ -93,6 +94,7 @@ const STUDIES: [(&str, Run); 39] = [
     ("elastic-walls", elastic_walls::elastic_walls),
     ("solids", solids::solids),
     ("viscoelastic", viscoelastic::viscoelastic),
+    ("soft-walls", soft_walls::soft_walls),
     ("fast-sums", fast_sums::fast_sums),
     ("cost", interfaces::cost),
 ];
@@ -107,7 +109,9 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
     for (name, run) in STUDIES.into_iter().filter(|(name, _)| [ALL, *name].contains(&flags.study.as_str())) {
         let found = run(flags.quick)?;
         found.iter().for_each(say);
-        let solids = ["solids", "elastic-walls", "viscoelastic"].contains(&name).then_some("crates/elastic-solids");
+        let solids = ["solids", "elastic-walls", "viscoelastic", "soft-walls"]
+            .contains(&name)
+            .then_some("crates/elastic-solids");
         let inputs: Vec<&str> = ["tests/src/validation"].into_iter().chain(solids).collect();
         if flags.check {
             tables::check(name, &found)?;

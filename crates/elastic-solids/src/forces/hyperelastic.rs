@@ -12,8 +12,8 @@ use crate::{ElasticForces, EnergyDensity, Moduli, SolidError};
 /// is minus its derivative (4.12).
 ///
 /// Linear triangles whose area can hardly change have too few ways left to move: where the bulk modulus is above ten
-/// times the shear modulus, triangles share their change of area two by two (de Souza Neto, Pires and Owen 2005), with which
-/// displacements are of second order in the size of the triangles at any bulk modulus.
+/// times the shear modulus, triangles share their change of area two by two (de Souza Neto, Pires and Owen 2005), with
+/// which displacements are of second order in the size of the triangles at any bulk modulus.
 #[derive(Debug, Clone)]
 pub struct Hyperelastic<E> {
     elements: Vec<Element>,
