@@ -100,7 +100,10 @@ impl Flow {
     }
 
     /// Takes over interfaces and solves for their velocities.
-    pub(crate) fn solve<'a>(&mut self, all: impl Iterator<Item = Interface<'a>> + Clone) -> Result<(), LayerError> {
+    pub(crate) fn solve<'a>(
+        &mut self,
+        all: impl Iterator<Item = Interface<'a>> + Clone + Send,
+    ) -> Result<(), LayerError> {
         match self {
             Self::Plane { flow, .. } => flow.load(all).and_then(|()| flow.solve()),
             Self::Revolution { flow, .. } => flow.load(all).and_then(|()| flow.solve()),

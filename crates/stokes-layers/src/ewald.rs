@@ -22,7 +22,6 @@ mod window;
 use std::{f64::consts::PI, ops::Range};
 
 use motile_base::{InputError, Region, Vec2};
-use num_complex::Complex64;
 
 use crate::{
     curve::Curve,
@@ -30,7 +29,7 @@ use crate::{
     direct::{add_dipole_at_node, dipole},
     greens::{Vectors, walls::Uncorrected},
     images::Images,
-    plan::Plan,
+    plan::Plans,
     shares,
 };
 use cells::{Cells, FEWEST};
@@ -38,7 +37,7 @@ use cluster::Cluster;
 pub(crate) use cluster::{filling, spread};
 use columns::{Columns, Part};
 use lattice::Lattice;
-use near::Carried;
+use near::{Carried, Near};
 use rows::Rows;
 use sampled::Smooth;
 use split::Split;
@@ -74,6 +73,7 @@ pub(crate) struct Ewald {
     rows: Vec<Rows>,
     columns: Vec<Columns>,
     cells: Cells,
+    near: Vec<Near>,
     /// Points at which the flow is sampled.
     targets: Cells,
     /// Distance from them below which nodes are left out (length).
@@ -82,7 +82,6 @@ pub(crate) struct Ewald {
     carried: [Vec<f64>; 3],
     /// Sources at the nodes, curve after curve, then the flow there.
     nodes: [Vec<f64>; 3],
-    modes: Vec<Complex64>,
 }
 
 impl Ewald {
@@ -105,7 +104,7 @@ impl Ewald {
             return Ok(None);
         };
         let (split, window) = (Split::new(tolerance), Window::new(tolerance));
-        let (rows, columns, cells, targets, carried, nodes, modes) = Default::default();
+        let (rows, columns, cells, near, targets, carried, nodes) = Default::default();
         let mut ewald = Self {
             split,
             smooth: None,
@@ -119,11 +118,11 @@ impl Ewald {
             rows,
             columns,
             cells,
+            near,
             targets,
             left_out: 0.0,
             carried,
             nodes,
-            modes,
         };
         ewald.plan(count(curves, points))?;
         Ok(Some(ewald))
@@ -207,7 +206,7 @@ impl Ewald {
     }
 
     /// Adds the single layers of some curves at the nodes of all, that of a curve on itself by the rule of Kress.
-    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, plans: &mut [Plan], out: &mut [Vectors]) {
+    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, plans: &mut Plans, out: &mut [Vectors]) {
         self.load_forces(curves, from.clone());
         self.carry(2);
         self.sum(false);
@@ -217,22 +216,24 @@ impl Ewald {
         // The smooth part of a node at itself; without the logarithm of the cut-off, which is in that of each pair.
         let own = self.split.own - self.cutoff.ln();
         self.scatter(out);
-        for (curve, out) in curves[from.clone()].iter().zip(&mut out[from]) {
-            let Plan { transforms, kress_modes, .. } = &mut plans[curve.plan];
-            self.modes.clear();
-            let weight = curve.weight();
-            self.modes.extend(curve.force.iter().zip(&*kress_modes).map(|(force, kress)| force * (weight * kress)));
-            transforms.nodes.inverse(&mut self.modes);
-            let nodes = self.modes.iter().zip(&curve.nodes.force).zip(&curve.nodes.tangent);
-            for (i, ((kress, force), tangent)) in nodes.enumerate() {
-                let square = tangent.norm_sqr();
-                let even = -0.5 * square.ln() - own;
-                let along = tangent * ((tangent.conj() * force).re / square);
-                let flow = kress + force * even + along;
-                out.x[i] += flow.re;
-                out.y[i] += flow.im;
+        let nodes = self.nodes[0].len();
+        let len = shares::curves(curves.len(), nodes);
+        let (curves, out) = (&curves[from.clone()], &mut out[from]);
+        let pieces = curves.chunks(len).zip(out.chunks_mut(len)).zip(plans.pieces());
+        shares::each_of(nodes, pieces, |((curves, out), plans)| {
+            for (curve, out) in curves.iter().zip(&mut **out) {
+                let kress = plans[curve.plan].kress_flow(curve);
+                let nodes = kress.iter().zip(&curve.nodes.force).zip(&curve.nodes.tangent);
+                for (i, ((kress, force), tangent)) in nodes.enumerate() {
+                    let square = tangent.norm_sqr();
+                    let even = -0.5 * square.ln() - own;
+                    let along = tangent * ((tangent.conj() * force).re / square);
+                    let flow = kress + force * even + along;
+                    out.x[i] += flow.re;
+                    out.y[i] += flow.im;
+                }
             }
-        }
+        });
     }
 
     /// Adds the double layers of all curves at their nodes, of zero mean over the box.
@@ -284,26 +285,27 @@ impl Ewald {
     fn carry(&mut self, parts: usize) {
         let Self { cells, carried, nodes, .. } = self;
         for (carried, nodes) in carried.iter_mut().zip(nodes).take(parts) {
-            carried.clear();
-            carried.extend(cells.points.iter().map(|&point| nodes[point as usize]));
+            carried.resize(cells.points.len(), 0.0);
+            let len = shares::length(carried.len());
+            let pieces = carried.chunks_mut(len).zip(cells.points.chunks(len));
+            shares::each_of(cells.points.len(), pieces, |(carried, points)| {
+                carried.iter_mut().zip(*points).for_each(|(carried, &point)| *carried = nodes[point as usize]);
+            });
         }
     }
 
     /// Computes near part and smooth part at the entries.
     fn sum(&mut self, double: bool) {
         self.spread(double, Part::Velocity);
-        let Self { split, window, cutoff, rows, cells, carried: [a, b, c], .. } = self;
+        let Self { split, window, cutoff, rows, cells, near, carried: [a, b, c], .. } = self;
         let (split, window, cells) = (&*split, &*window, &*cells);
         let (a, b, c) = (a.as_slice(), b.as_slice(), c.as_slice());
         let (carried, factor) =
             if double { (Carried::Dipoles([a, b, c]), 1.0 / *cutoff) } else { (Carried::Forces([a, b]), 1.0) };
+        Near::divide(near, cells);
+        shares::each(near, |share| share.sum(split, cells, carried, factor));
         shares::each(rows, |share| {
-            let first = share.begin(cells);
-            let Rows { cells: range, candidates, flow, .. } = share;
-            near::add(split, [cells; 2], carried, range.clone(), candidates, first, flow);
-            for flow in flow {
-                flow.iter_mut().for_each(|value| *value *= factor);
-            }
+            share.begin(cells);
             share.interpolate(cells, window);
         });
     }
@@ -333,12 +335,20 @@ impl Ewald {
 
     /// Adds the flow at the entries to that at the nodes.
     fn scatter(&mut self, out: &mut [Vectors]) {
-        let Self { rows, cells, nodes: [u, v, _], .. } = self;
+        let Self { rows, cells, near, nodes: [u, v, _], .. } = self;
+        for Near { rows, flow, .. } in near {
+            let first = rows.clone().next().map_or(0, |row| cells.row(row).start);
+            for entry in rows.clone().flat_map(|row| cells.row(row)) {
+                let node = cells.points[entry] as usize;
+                (u[node], v[node]) = (flow[0][entry - first], flow[1][entry - first]);
+            }
+        }
         for share in rows {
             let first = share.entries(cells).start;
             for entry in share.cells.clone().flat_map(|row| cells.row(row)) {
                 let node = cells.points[entry] as usize;
-                (u[node], v[node]) = (share.flow[0][entry - first], share.flow[1][entry - first]);
+                u[node] += share.flow[0][entry - first];
+                v[node] += share.flow[1][entry - first];
             }
         }
         let mut first = 0;

@@ -129,7 +129,10 @@ impl InterfaceFlow {
     /// # Errors
     /// Another region than a channel; what [`crate::SingleLayer::load`] refuses; more than 3000 nodes; walls that cross
     /// or touch.
-    pub fn with_walls<'a>(mut self, walls: impl Iterator<Item = LayerCurve<'a>> + Clone) -> Result<Self, LayerError> {
+    pub fn with_walls<'a>(
+        mut self,
+        walls: impl Iterator<Item = LayerCurve<'a>> + Clone + Send,
+    ) -> Result<Self, LayerError> {
         let Region::Channel { length, width, drive } = self.region else { return Err(LayerError::NoChannel) };
         // The forcing is that of the flow between the walls.
         let region = Region::Channel { length, width, drive: Drive::ZeroGradient };
@@ -255,7 +258,10 @@ impl InterfaceFlow {
     /// where round-off shows; positions or forces that are not finite, too few or too many points, a clockwise curve, a
     /// node beyond a wall; beside open interfaces a sheared box, or between fluids of different viscosity a prescribed
     /// flux.
-    pub fn load<'a>(&mut self, interfaces: impl Iterator<Item = Interface<'a>> + Clone) -> Result<(), LayerError> {
+    pub fn load<'a>(
+        &mut self,
+        interfaces: impl Iterator<Item = Interface<'a>> + Clone + Send,
+    ) -> Result<(), LayerError> {
         self.equation.clear();
         for Interface { inside, viscosity_outside: outside, .. } in interfaces.clone() {
             let viscosity_inside = if let Inside::Fluid { viscosity } = inside { viscosity } else { outside };
@@ -273,7 +279,7 @@ impl InterfaceFlow {
         let given = |Interface { positions, forces, period, .. }| (LayerCurve { positions, period, nodes }, forces);
         let before = self.len();
         self.layers.sharpness = self.equation.sharpness(self.viscosity);
-        self.layers.load(interfaces.map(given), false)?;
+        self.layers.load(&interfaces.map(given), false)?;
         let changed = before != self.len();
         if let Some(walls) = &mut self.walls
             && (changed || !walls.checked)

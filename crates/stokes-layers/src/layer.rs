@@ -10,6 +10,7 @@ mod rows;
 mod walls;
 
 use std::{
+    array,
     f64::consts::{PI, TAU},
     ops::Range,
 };
@@ -27,7 +28,8 @@ use crate::{
     ewald::{Ewald, filling},
     greens::{GreensFunction, Vectors, walls::Uncorrected},
     multipole::Multipoles,
-    plan::Plan,
+    plan::{Plan, Plans},
+    shares,
     transforms::REFINEMENT,
 };
 use close::CloseCorrection;
@@ -35,8 +37,14 @@ pub(crate) use close::{Crossing, bounding_box};
 use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
 
-/// Nodes from which on fast sums cost less than sums over pairs and series (measured).
-const MANY_NODES: usize = 1000;
+/// Nodes of several curves from which on fast sums cost less than sums over pairs and series (measured at ratios of
+/// viscosities of 1, and of 10 and 100, whose iterations read what pairs have stored); otherwise of one curve, and to a
+/// tolerance at which fast sums show round-off, in any region.
+const MANY_IN_BOX: [usize; 2] = [250, 1500];
+const MANY_IN_CHANNEL: [usize; 2] = [250, 2000];
+const MANY_IN_PLANE: [usize; 2] = [4000, 10_000];
+const MANY_ELSE: usize = 1000;
+const ROUND_OFF: f64 = 1e-12;
 /// Least part of a circle around all curves in the plane that they fill where fast sums cost less (measured).
 const FILLED: f64 = 0.005;
 
@@ -48,7 +56,7 @@ pub(crate) struct Layers {
     /// Strain of the images of a box (no dimension).
     pub(crate) strain: f64,
     pub(crate) greens: GreensFunction,
-    pub(crate) plans: Vec<Plan>,
+    pub(crate) plans: Plans,
     pub(crate) curves: Vec<Curve>,
     /// The first node of each curve among those of all, and their number.
     pub(crate) starts: Vec<usize>,
@@ -94,7 +102,7 @@ impl Layers {
             images,
             strain: 0.0,
             greens: GreensFunction::new(&region, images.tilt(), tolerance),
-            plans: Vec::new(),
+            plans: Plans::default(),
             curves: Vec::new(),
             starts: vec![0],
             stored: StoredLayers { first: 0, mutual: false },
@@ -136,15 +144,14 @@ impl Layers {
     /// the region, a node beyond a wall.
     pub(crate) fn load<'a>(
         &mut self,
-        curves: impl Iterator<Item = (LayerCurve<'a>, &'a [Vec2])>,
+        curves: &(impl Iterator<Item = (LayerCurve<'a>, &'a [Vec2])> + Clone + Send),
         all_stored: bool,
     ) -> Result<(), LayerError> {
         let mut count = 0;
         let mut loaded = self.curves.len() - self.fixed;
         self.starts.truncate(1);
-        for (index, given) in curves.enumerate() {
-            let nodes = given.0.nodes;
-            let plan = Plan::find(&mut self.plans, nodes)?;
+        for (index, (LayerCurve { nodes, .. }, _)) in curves.clone().enumerate() {
+            let plan = self.plans.find(nodes)?;
             if index == loaded {
                 self.curves.insert(index, Curve::new(nodes));
                 self.flow.insert(index, Vectors::default());
@@ -152,9 +159,7 @@ impl Layers {
             } else if self.curves[index].len() != nodes {
                 self.curves[index] = Curve::new(nodes);
             }
-            let curve = &mut self.curves[index];
-            curve.plan = plan;
-            curve.load(&mut self.plans[plan].transforms, given, &self.region, index)?;
+            self.curves[index].plan = plan;
             count += 1;
         }
         self.curves.drain(count..loaded);
@@ -162,6 +167,19 @@ impl Layers {
         for curve in &self.curves {
             self.starts.push(self.starts[self.starts.len() - 1] + curve.len());
         }
+        let len = shares::curves(self.curves.len(), self.starts[self.curves.len()]);
+        self.plans.divide(self.curves.len().div_ceil(len));
+        let mut results = array::from_fn::<_, { shares::MOST }, _>(|_| Ok(()));
+        let pieces = self.curves[..count].chunks_mut(len).zip(self.plans.pieces()).zip(&mut results);
+        let pieces = pieces.enumerate().map(|(piece, own)| (piece * len, curves.clone(), own));
+        let region = &self.region;
+        shares::each_of(self.starts[count], pieces, |(first, given, ((curves, plans), result))| {
+            let mut given = given.clone().enumerate().skip(*first);
+            **result = curves.iter_mut().zip(&mut given).try_for_each(|(curve, (index, given))| {
+                curve.load(&mut plans[curve.plan].transforms, given, region, index)
+            });
+        });
+        results.into_iter().collect::<Result<(), _>>()?;
         self.stored = StoredLayers { first: if all_stored { 0 } else { count }, mutual: all_stored };
         self.plan_fast()?;
         match &mut self.walls {
@@ -173,15 +191,32 @@ impl Layers {
     /// Prepares for fast sums where they pay: for many nodes of closed curves whose layers are not stored, in the plane
     /// as far as these are not far between.
     fn plan_fast(&mut self) -> Result<(), LayerError> {
-        let tolerance = self.sharp_tolerance();
-        let Self { region, fast, images, stored, curves, starts, .. } = self;
+        let Self { region, stored, curves, starts, .. } = &*self;
         let given = &curves[..stored.first];
-        let pays = starts[stored.first] >= MANY_NODES
+        let [equal, different] = match region {
+            _ if given.len() == 1 || self.multipoles.tolerance() < ROUND_OFF => [MANY_ELSE; 2],
+            Region::Box { .. } => MANY_IN_BOX,
+            Region::Channel { .. } => MANY_IN_CHANNEL,
+            _ => MANY_IN_PLANE,
+        };
+        // Sums are sharper where viscosities differ.
+        let many = if self.sharpness < 1.0 { different } else { equal };
+        let pays = starts[stored.first] >= many
             && !stored.mutual
             && !given.iter().any(Curve::is_open)
             && (*region != Region::Plane || filling(curves) > FILLED);
+        if pays {
+            return self.sum_fast();
+        }
+        self.fast = None;
+        Ok(())
+    }
+
+    /// Prepares for fast sums.
+    pub(crate) fn sum_fast(&mut self) -> Result<(), LayerError> {
+        let tolerance = self.sharp_tolerance();
+        let Self { region, fast, images, curves, .. } = self;
         match fast {
-            _ if !pays => *fast = None,
             Some(fast) if fast.tolerance() == tolerance => fast.set(images, curves, &[])?,
             _ => *fast = Ewald::new(region, images, tolerance, curves, &[])?.map(Box::new),
         }

@@ -1,11 +1,58 @@
 //! Transforms and quadrature weights shared by all curves of one number of nodes.
 
-use std::f64::consts::{PI, TAU};
+use std::{
+    f64::consts::{PI, TAU},
+    ops::{Deref, DerefMut},
+};
 
 use motile_base::InputError;
 use num_complex::Complex64;
 
-use crate::{close_weights::CloseWeights, transforms::Transforms};
+use crate::{close_weights::CloseWeights, curve::Curve, transforms::Transforms};
+
+/// Plans for all numbers of nodes that there are, with copies for pieces of the curves that other threads take.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Plans {
+    own: Vec<Plan>,
+    copies: Vec<Vec<Plan>>,
+}
+
+impl Plans {
+    /// Number of the plan for so many nodes, which is made at their first use.
+    pub(crate) fn find(&mut self, nodes: usize) -> Result<usize, InputError> {
+        Plan::find(&mut self.own, nodes)
+    }
+
+    /// Makes the copies for so many pieces.
+    pub(crate) fn divide(&mut self, pieces: usize) {
+        let Self { own, copies } = self;
+        if copies.len() + 1 < pieces {
+            copies.resize_with(pieces - 1, Vec::new);
+        }
+        for copy in copies {
+            copy.extend_from_slice(&own[copy.len()..]);
+        }
+    }
+
+    /// The plans of each piece.
+    pub(crate) fn pieces(&mut self) -> impl Iterator<Item = &mut [Plan]> {
+        std::iter::once(&mut self.own).chain(&mut self.copies).map(Vec::as_mut_slice)
+    }
+}
+
+impl Deref for Plans {
+    type Target = [Plan];
+
+    fn deref(&self) -> &[Plan] {
+        &self.own
+    }
+}
+
+impl DerefMut for Plans {
+    fn deref_mut(&mut self) -> &mut [Plan] {
+        &mut self.own
+    }
+}
 
 /// Transforms, weights and working memory for curves of some number of nodes.
 #[derive(Debug, Clone)]
@@ -16,7 +63,9 @@ pub(crate) struct Plan {
     /// Weights of Kress by shift.
     pub(crate) kress: Vec<f64>,
     /// Factors of Fourier coefficients in the cyclic product with them.
-    pub(crate) kress_modes: Vec<f64>,
+    kress_modes: Vec<f64>,
+    /// Working memory of the cyclic product.
+    product: Vec<Complex64>,
 }
 
 impl Plan {
@@ -30,8 +79,18 @@ impl Plan {
         let mut modes: Vec<_> = kress.iter().map(|weight| Complex64::new(*weight, 0.0)).collect();
         transforms.nodes.forward(&mut modes);
         let kress_modes = modes.iter().map(|mode| mode.re * nodes as f64).collect();
-        plans.push(Self { nodes, transforms, weights, kress, kress_modes });
+        plans.push(Self { nodes, transforms, weights, kress, kress_modes, product: Vec::new() });
         Ok(plans.len() - 1)
+    }
+
+    /// Flow at the nodes of the forces on a curve by the weights of Kress alone.
+    pub(crate) fn kress_flow(&mut self, curve: &Curve) -> &[Complex64] {
+        let Self { transforms, kress_modes, product, .. } = self;
+        let weight = curve.weight();
+        product.clear();
+        product.extend(curve.force.iter().zip(&*kress_modes).map(|(force, kress)| force * (weight * kress)));
+        transforms.nodes.inverse(product);
+        product
     }
 }
 

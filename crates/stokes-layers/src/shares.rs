@@ -33,6 +33,11 @@ pub(crate) fn length(entries: usize) -> usize {
 /// Entries from which on pieces are handed over.
 const MANY: usize = 1000;
 
+/// Number of the curves in a piece, of so many with so many nodes in all: of few nodes all are one piece.
+pub(crate) fn curves(curves: usize, nodes: usize) -> usize {
+    if nodes < MANY { curves.max(1) } else { curves.div_ceil(MOST).max(1) }
+}
+
 /// Does the work of each of at most [`MOST`] pieces of so many entries, as [`each`] does, few entries on this thread.
 pub(crate) fn each_of<T: Send>(entries: usize, pieces: impl Iterator<Item = T>, work: impl Fn(&mut T) + Sync + Send) {
     if entries < MANY {

@@ -73,14 +73,14 @@ impl SingleLayer {
     /// Fewer than 16 or more than 4096 nodes of a curve, more than some 8000 in all; positions that are not finite, too
     /// few or too many points, a clockwise closed curve, an open one whose advance is not the period along x, a node
     /// beyond a wall.
-    pub fn load<'a>(&mut self, curves: impl Iterator<Item = LayerCurve<'a>> + Clone) -> Result<(), LayerError> {
+    pub fn load<'a>(&mut self, curves: impl Iterator<Item = LayerCurve<'a>> + Clone + Send) -> Result<(), LayerError> {
         let mut total = 0.0;
         for (number, curve) in curves.clone().enumerate() {
             curve.check_nodes("curve", number)?;
             total += curve.nodes as f64;
         }
         within("the number of pairs of nodes", total * total, 0.0, MOST_PAIRS)?;
-        self.layers.load(curves.map(|curve| (curve, [].as_slice())), true)?;
+        self.layers.load(&curves.map(|curve| (curve, [].as_slice())), true)?;
         self.layers.single_layer(false);
         Ok(())
     }

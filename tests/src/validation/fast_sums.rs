@@ -116,10 +116,10 @@ impl Suspension {
     }
 }
 
-/// Nine droplets, too few for fast sums, whose copies are enough.
+/// Three droplets, too few for fast sums, whose copies are enough.
 #[must_use]
 pub fn few(ratio: f64) -> Suspension {
-    Suspension::lattice([3, 3], 0.3, ratio)
+    Suspension::lattice([3, 1], 0.3, ratio)
 }
 
 /// Largest error of the velocities of copies of a box at a tolerance, relative to the largest velocity, against those

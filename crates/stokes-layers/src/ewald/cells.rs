@@ -1,6 +1,9 @@
 //! Points of a box sorted into cells of half the cut-off, with the images beyond its sides.
 
+use motile_base::widely;
+
 use super::lattice::Lattice;
+use crate::shares;
 
 /// Cells across the cut-off.
 const ACROSS: usize = 2;
@@ -39,11 +42,21 @@ impl Cells {
         let counts = counts.map(|count| (count.floor() as usize).max(FEWEST));
         self.counts = counts;
         self.homes.clear();
-        self.homes.extend(points.map(|[x, y]| {
-            let parts = lattice.parts(x, y);
-            let cell = [0, 1].map(|axis| ((parts[axis] * counts[axis] as f64) as usize).min(counts[axis] - 1) as u32);
-            (cell, parts)
-        }));
+        self.homes.extend(points.map(|point| ([0; 2], point)));
+        let len = shares::length(self.homes.len());
+        shares::each_of(self.homes.len(), self.homes.chunks_mut(len), |homes| {
+            widely(
+                #[inline(always)]
+                || {
+                    for (cell, place) in &mut **homes {
+                        *place = lattice.parts(place[0], place[1]);
+                        for axis in 0..2 {
+                            cell[axis] = ((place[axis] * counts[axis] as f64) as u32).min(counts[axis] as u32 - 1);
+                        }
+                    }
+                },
+            );
+        });
         let Self { starts, homes, points, x, y, parts, .. } = self;
         let width = counts[0] + 2 * ACROSS;
         starts.clear();

@@ -1,8 +1,10 @@
 //! Sums over sources within the cut-off: the Green's function less its smooth part.
 
+use std::ops::Range;
+
 use motile_base::widely;
 
-use crate::greens::ln;
+use crate::{greens::ln, shares};
 
 use super::{cells::Cells, split::Split};
 
@@ -23,7 +25,7 @@ pub(super) enum Carried<'a> {
 
 /// The sources around a cell.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Candidates {
+struct Candidates {
     x: Vec<f64>,
     y: Vec<f64>,
     carried: [Vec<f64>; 3],
@@ -52,28 +54,48 @@ impl Candidates {
     }
 }
 
-/// Adds the near part of the flow at the targets in some rows of cells, `out` having one value for each of them from
-/// the entry `first` on. The flow of forces is complete; that of dipoles is to be divided by the cut-off.
-pub(super) fn add(
-    split: &Split,
-    [sources, targets]: [&Cells; 2],
-    carried: Carried<'_>,
-    rows: std::ops::Range<usize>,
-    candidates: &mut Candidates,
-    first: usize,
-    out: &mut [Vec<f64>; 2],
-) {
-    for row in rows {
-        for column in 0..targets.counts()[0] {
-            let cell = targets.cell(column, row);
+/// The near part at the entries in some rows of cells.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Near {
+    pub(super) rows: Range<usize>,
+    candidates: Candidates,
+    /// Flow at the entries from the first one in the rows on.
+    pub(super) flow: [Vec<f64>; 2],
+}
+
+impl Near {
+    /// Divides the rows of cells into shares of about as many entries.
+    pub(super) fn divide(all: &mut Vec<Self>, cells: &Cells) {
+        all.resize_with(shares::MOST, Self::default);
+        let mut row = 0;
+        let (rows, start) = (cells.counts()[1], cells.row(0).start);
+        let entries = cells.row(rows - 1).end - start;
+        for (index, share) in all.iter_mut().enumerate() {
+            let (first, end) = (row, start + (index + 1) * entries / shares::MOST);
+            while row < rows && cells.row(row).start < end {
+                row += 1;
+            }
+            share.rows = first..row;
+        }
+    }
+
+    /// Sums the near part of the flow of what the entries carry, times a factor: that of dipoles is in units of the
+    /// cut-off.
+    pub(super) fn sum(&mut self, split: &Split, cells: &Cells, carried: Carried<'_>, factor: f64) {
+        let Self { rows, candidates, flow } = self;
+        let Some(last) = rows.clone().next_back() else { return };
+        let entries = cells.row(rows.start).start..cells.row(last).end;
+        flow.iter_mut().for_each(|flow| flow.resize(entries.len(), 0.0));
+        for (row, column) in rows.clone().flat_map(|row| (0..cells.counts()[0]).map(move |column| (row, column))) {
+            let cell = cells.cell(column, row);
             if cell.is_empty() {
                 continue;
             }
-            let away = targets.x[cell.start].max(targets.y[cell.start]) + AWAY;
-            candidates.take(sources, carried, [column, row], away);
+            let away = cells.x[cell.start].max(cells.y[cell.start]) + AWAY;
+            candidates.take(cells, carried, [column, row], away);
             let Candidates { x, y, carried: [a, b, c] } = &*candidates;
             for entry in cell {
-                let place = [targets.x[entry], targets.y[entry]];
+                let place = [cells.x[entry], cells.y[entry]];
                 let [u, v] = widely(
                     #[inline(always)]
                     || match carried {
@@ -81,8 +103,8 @@ pub(super) fn add(
                         Carried::Dipoles(_) => dipoles(split, place, [x, y, a, b, c]),
                     },
                 );
-                out[0][entry - first] += u;
-                out[1][entry - first] += v;
+                flow[0][entry - entries.start] = u * factor;
+                flow[1][entry - entries.start] = v * factor;
             }
         }
     }

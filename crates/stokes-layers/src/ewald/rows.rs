@@ -5,7 +5,7 @@ use std::ops::Range;
 use motile_base::{ComplexTransform, InputError, widely};
 use num_complex::Complex64;
 
-use super::{cells::Cells, columns::Columns, near::Candidates, window::Window};
+use super::{cells::Cells, columns::Columns, window::Window};
 
 /// Rows that are gathered from the columns at a time: eight complex numbers are two cache lines of each column.
 const BATCH: usize = 8;
@@ -24,9 +24,7 @@ pub(super) struct Rows {
     reach: usize,
     values: Vec<Complex64>,
     transform: ComplexTransform,
-    /// Working memory of the near part.
-    pub(super) candidates: Candidates,
-    /// Flow at the entries of the rows of cells.
+    /// Smooth flow at the entries of the rows of cells.
     pub(super) flow: [Vec<f64>; 2],
 }
 
@@ -64,8 +62,7 @@ impl Rows {
             let own = end - first;
             let values = vec![Complex64::ZERO; (own + points) * (size[0] + points)];
             let transform = transform.clone();
-            let (candidates, flow) = Default::default();
-            Self { cells: range, first, own, size, reach: points, values, transform, candidates, flow }
+            Self { cells: range, first, own, size, reach: points, values, transform, flow: Default::default() }
         };
         Ok((0..count).map(share).collect())
     }
@@ -79,14 +76,13 @@ impl Rows {
         cells.row(self.cells.start).start..cells.row(self.cells.end - 1).end
     }
 
-    /// Sets the flow at the entries of its rows of cells to zero; the first of these entries.
-    pub(super) fn begin(&mut self, cells: &Cells) -> usize {
+    /// Sets the flow at the entries of its rows of cells to zero.
+    pub(super) fn begin(&mut self, cells: &Cells) {
         let entries = self.entries(cells);
         for flow in &mut self.flow {
             flow.clear();
             flow.resize(entries.len(), 0.0);
         }
-        entries.start
     }
 
     /// The grid point at or before an entry and the parts of a distance that it lies behind it, along x and y.

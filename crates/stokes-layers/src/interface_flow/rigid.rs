@@ -73,7 +73,7 @@ impl RigidWalls {
         [length, width]: [f64; 2],
         drive: Drive,
         viscosity: f64,
-        walls: impl Iterator<Item = LayerCurve<'a>> + Clone,
+        walls: impl Iterator<Item = LayerCurve<'a>> + Clone + Send,
     ) -> Result<Self, LayerError> {
         let mut total = 0.0;
         for (number, wall) in walls.clone().enumerate() {
@@ -81,7 +81,7 @@ impl RigidWalls {
             total += wall.nodes as f64;
         }
         within("the number of nodes of all walls", total, 0.0, MOST_NODES)?;
-        layers.load(walls.map(|wall| (wall, [].as_slice())), true)?;
+        layers.load(&walls.map(|wall| (wall, [].as_slice())), true)?;
         layers.single_layer(false);
         layers.refine_stored();
         check_apart(&layers.curves, length)?;

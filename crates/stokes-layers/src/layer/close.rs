@@ -18,7 +18,8 @@ use crate::{
     density::{Density, StoredLayers},
     greens::Vectors,
     images::Images,
-    plan::Plan,
+    plan::{Plan, Plans},
+    shares,
     transforms::REFINEMENT,
 };
 
@@ -35,6 +36,8 @@ struct CloseNode {
     source: usize,
     /// Position of the node relative to the centre of the source or its image (length).
     point: Complex64,
+    /// Flow of the last correction there, but for a stored one.
+    flow: Complex64,
     /// The rows of the single and of the double layer, if they are stored.
     force_row: Option<Row>,
     stress_row: Option<Row>,
@@ -83,105 +86,77 @@ pub(crate) struct Crossing {
     pub(crate) place: Complex64,
 }
 
-/// The corrections for the present positions.
-#[derive(Debug, Clone)]
-pub(crate) struct CloseCorrection {
-    /// Distance in spacings below which a node is close.
-    reach: f64,
-    symmetry: Symmetry,
-    /// Boxes around the curves, and the numbers of the curves near the present one.
-    boxes: Vec<Frame>,
-    tree: BoxTree,
+/// The corrections of some of the curves, for the present positions.
+#[derive(Debug, Clone, Default)]
+struct Share {
+    /// Numbers of the curves near the present one.
     near: Vec<usize>,
     close: Vec<CloseNode>,
-    sources: Vec<Source>,
     /// Entries of the rows.
     rows: Vec<f64>,
     squares: Vec<f64>,
     fine: Vec<Complex64>,
-    coarse: Vec<Complex64>,
     crossing: Option<Crossing>,
 }
 
-impl CloseCorrection {
-    pub(crate) fn new(tolerance: f64, symmetry: Symmetry) -> Self {
-        let (boxes, tree, near, close, sources, rows, squares) = Default::default();
-        let [fine, coarse] = Default::default();
-        let (reach, crossing) = (reach(tolerance), None);
-        Self { reach, symmetry, boxes, tree, near, close, sources, rows, squares, fine, coarse, crossing }
-    }
-
-    /// Finds the nodes that are close to a curve and prepares the fine nodes of the curves that have some.
-    pub(crate) fn find(&mut self, curves: &mut [Curve], plans: &mut [Plan], images: &Images, stored: StoredLayers) {
-        let one_sided = self.symmetry == Symmetry::ToRoundOff;
-        self.close.clear();
-        self.sources.resize_with(curves.len().max(self.sources.len()), Source::default);
-        self.boxes.clear();
-        self.boxes.extend(curves.iter().map(bounding_box));
-        self.tree.build_by_place(&self.boxes);
-        for source in 0..curves.len() {
-            let curve = &curves[source];
-            let reach = self.reach * curve.spacing();
-            let first = self.close.len();
-            self.squares.resize(curve.len(), 0.0);
-            self.near.clear();
-            self.tree.each_near(&self.boxes[source], images.periods, reach, &mut |target| self.near.push(target));
-            self.near.sort_unstable();
-            for &target in &self.near {
-                let other = &curves[target];
-                if !stored.couples(target, source) || one_sided && !finer(curves, target, source) {
+impl Share {
+    /// Finds the nodes that are close to a curve.
+    fn find(&mut self, curves: &[Curve], source: usize, search: &Search<'_>) {
+        let Self { near, close, squares, .. } = self;
+        let curve = &curves[source];
+        let reach = search.reach * curve.spacing();
+        squares.resize(curve.len(), 0.0);
+        near.clear();
+        search.tree.each_near(&search.boxes[source], search.images.periods, reach, &mut |target| near.push(target));
+        near.sort_unstable();
+        for &target in &*near {
+            let other = &curves[target];
+            if !search.stored.couples(target, source) || search.one_sided && !finer(curves, target, source) {
+                continue;
+            }
+            let apart = search.images.wrap(other.centre - curve.centre);
+            // An open curve has its own images along x.
+            for shift in search.images.shifts(curve.is_open()) {
+                let own = target == source && shift == Complex64::default();
+                let offset = apart + shift;
+                let far = |d: Complex64, radii: f64| !curve.is_open() && d.norm_sqr() >= (radii + reach).powi(2);
+                if own || far(offset, curve.radius + other.radius) {
                     continue;
                 }
-                let apart = images.wrap(other.centre - curve.centre);
-                // An open curve has its own images along x.
-                for shift in images.shifts(curve.is_open()) {
-                    let own = target == source && shift == Complex64::default();
-                    let offset = apart + shift;
-                    let far = |d: Complex64, radii: f64| !curve.is_open() && d.norm_sqr() >= (radii + reach).powi(2);
-                    if own || far(offset, curve.radius + other.radius) {
-                        continue;
-                    }
-                    for (node, z) in other.nodes.position.iter().enumerate() {
-                        let point = z + offset;
-                        if !far(point, curve.radius) && curve.squares_from(point, &mut self.squares) < reach * reach {
-                            let (force_row, stress_row, polar) = Default::default();
-                            self.close.push(CloseNode { target, node, source, point, force_row, stress_row, polar });
-                        }
+                for (node, z) in other.nodes.position.iter().enumerate() {
+                    let point = z + offset;
+                    if !far(point, curve.radius) && curve.squares_from(point, squares) < reach * reach {
+                        let (flow, force_row, stress_row, polar) = Default::default();
+                        close.push(CloseNode { target, node, source, point, flow, force_row, stress_row, polar });
                     }
                 }
-            }
-            self.sources[source].used = false;
-            if self.close.len() > first {
-                let plan = &mut plans[curves[source].plan];
-                curves[source].refine(&mut plan.transforms);
-                self.sources[source].load(&curves[source]);
             }
         }
     }
 
-    /// Adds the corrections of the single layer, or stores them for [`CloseCorrection::add_stored`] on stored curves.
-    /// With `stress`, stores those of the double layer.
-    pub(crate) fn add_forces(
+    /// Computes the flow of the corrections of the single layer, or stores them on stored curves; with `stress`, stores
+    /// those of the double layer.
+    fn find_flow(
         &mut self,
         curves: &[Curve],
         plans: &mut [Plan],
-        stored: StoredLayers,
-        stress: bool,
-        out: &mut [Vectors],
+        sources: &[Source],
+        (stored, reach, stress): (StoredLayers, f64, bool),
     ) {
-        self.rows.clear();
-        self.crossing = None;
-        for close in &mut self.close {
-            let CloseNode { target, node, source: number, point, .. } = *close;
+        let Self { close, rows, crossing, .. } = self;
+        rows.clear();
+        *crossing = None;
+        for close in close {
+            let CloseNode { target, source: number, point, .. } = *close;
             let curve = &curves[number];
-            let (weights, source) = (&mut plans[curve.plan].weights, &self.sources[number]);
-            let place = weights.place(curve, point, self.reach);
+            let (weights, source) = (&mut plans[curve.plan].weights, &sources[number]);
+            let place = weights.place(curve, point, reach);
             // Fluid is to the left of open walls and outside of closed ones; walls are outside of interfaces.
             if stored.has(target) != stored.has(number)
                 && place.is_left().is_some_and(|left| left != (stored.has(number) && curve.is_open()))
             {
                 let (curve, wall) = if stored.has(number) { (target, number) } else { (number, target) };
-                self.crossing = Some(Crossing { curve, wall, place: curves[number].centre + point });
+                *crossing = Some(Crossing { curve, wall, place: curves[number].centre + point });
             }
             let stress = stress && !stored.has(number);
             if stress {
@@ -190,24 +165,149 @@ impl CloseCorrection {
                 weights.fill::<1>(curve, &place);
             }
             close.polar = weights.polar;
-            let row = Row::forces(weights.arrays(), &mut self.rows);
+            let row = Row::forces(weights.arrays(), rows);
             if stored.has(number) {
                 close.force_row = Some(row);
                 continue;
             }
-            let sum = row.product(&self.rows, &source.values) + CloseWeights::modal(close.polar, &curve.force);
-            self.rows.truncate(row.start);
-            out[target].x[node] += sum.re;
-            out[target].y[node] += sum.im;
+            close.flow = row.product(rows, &source.values) + CloseWeights::modal(close.polar, &curve.force);
+            rows.truncate(row.start);
             if stress {
-                close.stress_row = Some(Row::stresses(weights.arrays(), &source.tangents, &mut self.rows));
+                close.stress_row = Some(Row::stresses(weights.arrays(), &source.tangents, rows));
             }
+        }
+    }
+
+    /// Computes the flow of the corrections of the double layer, `sources` being those of the share's curves, of which
+    /// the first one has the number `first`.
+    fn find_stress_flow(
+        &mut self,
+        plans: &mut [Plan],
+        (curves, sources): (&[Curve], &mut [Source]),
+        first: usize,
+        density: Density<'_>,
+    ) {
+        let Self { close, rows, fine, .. } = self;
+        for (index, (source, curve)) in sources.iter_mut().zip(curves).enumerate() {
+            if source.used && density.contrast(first + index) != 0.0 {
+                let (x, y) = density.of(first + index);
+                fine.resize(REFINEMENT * x.len(), Complex64::default());
+                plans[curve.plan].transforms.at_fine(density.values_of(first + index), fine);
+                let [on_fine, nodes] = &mut source.values;
+                on_fine.fill(fine);
+                nodes.copy([x, y]);
+            }
+        }
+        for close in close {
+            let contrast = density.contrast(close.source);
+            close.flow = match close.stress_row {
+                Some(row) if contrast != 0.0 => row.product(rows, &sources[close.source - first].values) * contrast,
+                _ => Complex64::default(),
+            };
+        }
+    }
+}
+
+/// What the search for close nodes needs to know of all curves.
+struct Search<'a> {
+    /// Distance in spacings below which a node is close.
+    reach: f64,
+    one_sided: bool,
+    images: &'a Images,
+    stored: StoredLayers,
+    boxes: &'a [Frame],
+    tree: &'a BoxTree,
+}
+
+/// The corrections for the present positions.
+#[derive(Debug, Clone)]
+pub(crate) struct CloseCorrection {
+    /// Distance in spacings below which a node is close.
+    reach: f64,
+    symmetry: Symmetry,
+    /// Boxes around the curves.
+    boxes: Vec<Frame>,
+    tree: BoxTree,
+    /// Shares of so many curves with so many nodes in all.
+    shares: Vec<Share>,
+    curves: usize,
+    nodes: usize,
+    sources: Vec<Source>,
+    fine: Vec<Complex64>,
+    coarse: Vec<Complex64>,
+}
+
+impl CloseCorrection {
+    pub(crate) fn new(tolerance: f64, symmetry: Symmetry) -> Self {
+        let (boxes, tree, all, sources) = Default::default();
+        let [fine, coarse] = Default::default();
+        let reach = reach(tolerance);
+        Self { reach, symmetry, boxes, tree, shares: all, curves: 1, nodes: 0, sources, fine, coarse }
+    }
+
+    /// Finds the nodes that are close to a curve and prepares the fine nodes of the curves that have some.
+    pub(crate) fn find(&mut self, curves: &mut [Curve], plans: &mut Plans, images: &Images, stored: StoredLayers) {
+        self.nodes = curves.iter().map(Curve::len).sum();
+        self.curves = shares::curves(curves.len(), self.nodes);
+        let Self { reach, symmetry, boxes, tree, shares: all, curves: len, nodes, sources, .. } = self;
+        let (reach, len, nodes) = (*reach, *len, *nodes);
+        sources.resize_with(curves.len().max(sources.len()), Source::default);
+        all.resize_with(curves.len().div_ceil(len), Share::default);
+        boxes.clear();
+        boxes.extend(curves.iter().map(bounding_box));
+        tree.build_by_place(boxes);
+        let one_sided = *symmetry == Symmetry::ToRoundOff;
+        let search = Search { reach, one_sided, images, stored, boxes, tree };
+        let (search, given) = (&search, &*curves);
+        shares::each_of(nodes, all.iter_mut().enumerate(), |(index, share)| {
+            share.close.clear();
+            for source in *index * len..given.len().min((*index + 1) * len) {
+                share.find(given, source, search);
+            }
+        });
+        let pieces = all.iter().zip(curves.chunks_mut(len)).zip(sources.chunks_mut(len)).zip(plans.pieces());
+        shares::each_of(nodes, pieces.enumerate(), |(index, (((share, curves), sources), plans))| {
+            sources.iter_mut().for_each(|source| source.used = false);
+            for close in &share.close {
+                let source = close.source - *index * len;
+                if !sources[source].used {
+                    let curve = &mut curves[source];
+                    curve.refine(&mut plans[curve.plan].transforms);
+                    sources[source].load(curve);
+                }
+            }
+        });
+    }
+
+    /// Adds the corrections of the single layer, or stores them for [`CloseCorrection::add_stored`] on stored curves.
+    /// With `stress`, stores those of the double layer.
+    pub(crate) fn add_forces(
+        &mut self,
+        curves: &[Curve],
+        plans: &mut Plans,
+        stored: StoredLayers,
+        stress: bool,
+        out: &mut [Vectors],
+    ) {
+        let Self { reach, shares: all, nodes, sources, .. } = self;
+        let given = (stored, *reach, stress);
+        shares::each_of(*nodes, all.iter_mut().zip(plans.pieces()), |(share, plans)| {
+            share.find_flow(curves, plans, sources, given);
+        });
+        self.add_flow(out, |close| close.force_row.is_none());
+    }
+
+    /// Adds the flow of some of the close nodes.
+    fn add_flow(&self, out: &mut [Vectors], which: impl Fn(&CloseNode) -> bool) {
+        for close in self.shares.iter().flat_map(|share| &share.close).filter(|close| which(close)) {
+            out[close.target].x[close.node] += close.flow.re;
+            out[close.target].y[close.node] += close.flow.im;
         }
     }
 
     /// A node on the wrong side, if the last single layer has come across one.
     pub(crate) fn crossing(&self) -> Option<Crossing> {
-        self.crossing
+        self.shares.iter().rev().find_map(|share| share.crossing)
     }
 
     /// True for a curve whose forces at the fine nodes the corrections read.
@@ -219,40 +319,27 @@ impl CloseCorrection {
     pub(crate) fn add_dipoles(
         &mut self,
         curves: &[Curve],
-        plans: &mut [Plan],
+        plans: &mut Plans,
         density: Density<'_>,
         out: &mut [Vectors],
     ) {
-        if self.close.iter().all(|close| close.stress_row.is_none()) {
+        let Self { shares: all, curves: len, nodes, sources, .. } = self;
+        if all.iter().flat_map(|share| &share.close).all(|close| close.stress_row.is_none()) {
             return;
         }
-        for (index, (source, curve)) in self.sources.iter_mut().zip(curves).enumerate() {
-            if source.used && density.contrast(index) != 0.0 {
-                let (x, y) = density.of(index);
-                self.fine.resize(REFINEMENT * x.len(), Complex64::default());
-                plans[curve.plan].transforms.at_fine(density.values_of(index), &mut self.fine);
-                let [fine, nodes] = &mut source.values;
-                fine.fill(&self.fine);
-                nodes.copy([x, y]);
-            }
-        }
-        for close in &self.close {
-            let Some(row) = close.stress_row else { continue };
-            let contrast = density.contrasts[close.source];
-            if contrast == 0.0 {
-                continue;
-            }
-            let sum = row.product(&self.rows, &self.sources[close.source].values) * contrast;
-            out[close.target].x[close.node] += sum.re;
-            out[close.target].y[close.node] += sum.im;
-        }
+        let len = *len;
+        let pieces = all.iter_mut().zip(curves.chunks(len).zip(sources.chunks_mut(len))).zip(plans.pieces());
+        shares::each_of(*nodes, pieces.enumerate(), |(index, ((share, (curves, sources)), plans))| {
+            share.find_stress_flow(plans, (curves, sources), *index * len, density);
+        });
+        self.add_flow(out, |close| close.stress_row.is_some());
     }
 
     /// Adds the stored corrections of the single layer for the forces at the nodes. Where the operator is symmetric to
     /// round-off the source gets the transpose.
     pub(crate) fn add_stored(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
         let symmetric = self.symmetry == Symmetry::ToRoundOff;
-        let Self { close, sources, rows, .. } = self;
+        let Self { shares: all, sources, .. } = self;
         for (source, curve) in sources.iter_mut().zip(curves).filter(|(source, _)| source.used) {
             source.load_forces(curve);
             if symmetric {
@@ -262,7 +349,7 @@ impl CloseCorrection {
                 source.modes.resize(curve.len(), Complex64::default());
             }
         }
-        for close in close {
+        for (close, rows) in all.iter().flat_map(|share| share.close.iter().map(|close| (close, &share.rows))) {
             let Some(row) = close.force_row else { continue };
             let (target, source) = (&curves[close.target], &mut sources[close.source]);
             // A pair of images of the same curve is found from both ends.

@@ -13,7 +13,8 @@ use crate::{
         Flow, Vectors,
         walls::{Uncorrected, WallModes, WallPoints},
     },
-    plan::Plan,
+    plan::Plans,
+    shares,
     transforms::REFINEMENT,
 };
 use motile_base::{Drive, ImposedFlow, Vec2};
@@ -41,7 +42,8 @@ pub(crate) struct Walls {
     source_owners: Vec<[usize; 2]>,
     /// True for curves with a gap to a wall so narrow that sources are taken from their fine nodes.
     refined: Vec<bool>,
-    /// Smallest distance of a node from a wall (length).
+    /// Smallest distance of a node of each curve from a wall, and of all of them (length).
+    gaps: Vec<f64>,
     gap: f64,
     /// Points off the curves.
     points: WallPoints,
@@ -64,6 +66,7 @@ impl Walls {
             sources: points.clone(),
             source_owners: Vec::new(),
             refined: Vec::new(),
+            gaps: Vec::new(),
             gap: 0.0,
             flow: Vec::new(),
             points,
@@ -84,12 +87,12 @@ impl Walls {
     ///
     /// # Errors
     /// A node beyond a wall.
-    pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut [Plan]) -> Result<(), LayerError> {
+    pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut Plans) -> Result<(), LayerError> {
         self.nodes.clear();
         self.owners.clear();
         self.refined.clear();
-        self.gap = f64::INFINITY;
-        for (number, curve) in curves.iter_mut().enumerate() {
+        self.gaps.clear();
+        for (number, curve) in curves.iter().enumerate() {
             let mut least = f64::INFINITY;
             for (node, z) in curve.nodes.position.iter().enumerate() {
                 let z = z + curve.centre;
@@ -104,15 +107,22 @@ impl Walls {
                 self.nodes.push(z.re, y);
             }
             // The image of a node behind the wall is two gaps away from the node.
-            let refined = 2.0 * least < reach(self.tolerance) * curve.spacing();
-            self.refined.push(refined);
-            if refined {
-                curve.refine(&mut plans[curve.plan].transforms);
-                let fine = curve.fine.position.iter().map(|z| self.half - (z.im + curve.centre.im).abs());
-                least = fine.fold(least, f64::min).max(LEAST_GAP * curve.spacing());
-            }
-            self.gap = self.gap.min(least);
+            self.refined.push(2.0 * least < reach(self.tolerance) * curve.spacing());
+            self.gaps.push(least);
         }
+        let (half, nodes) = (self.half, self.owners.len());
+        let len = shares::curves(curves.len(), nodes);
+        let near = self.refined.chunks(len).zip(self.gaps.chunks_mut(len));
+        let pieces = curves.chunks_mut(len).zip(plans.pieces()).zip(near);
+        shares::each_of(nodes, pieces, |((curves, plans), (refined, gaps))| {
+            let all = curves.iter_mut().zip(*refined).zip(&mut **gaps);
+            for ((curve, _), gap) in all.filter(|((_, refined), _)| **refined) {
+                curve.refine(&mut plans[curve.plan].transforms);
+                let fine = curve.fine.position.iter().map(|z| half - (z.im + curve.centre.im).abs());
+                *gap = fine.fold(*gap, f64::min).max(LEAST_GAP * curve.spacing());
+            }
+        });
+        self.gap = self.gaps.iter().copied().fold(f64::INFINITY, f64::min);
         self.nodes.prepare();
         self.load_sources(curves, |refined, number| refined[number]);
         Ok(())
