@@ -89,41 +89,6 @@ fn drops_deform_alike_wherever_they_are() {
     }
 }
 
-/// Two drops in a shear, of a surface so tight that they stay round, approach each other more slowly than the fluid
-/// would carry them: the first reflection. A drop of radius 1 and ratio L adds the streamfunction
-/// `-(1/4) [(1 + 2 L) - L/r^2]/(1 + L) sin 2t` to an extension at a rate of 1/2, t the angle from its axis, by vanishing
-/// normal velocities, and equal tangential velocities and stresses, on both sides of the circle. The same coefficient is
-/// that of the viscosity of dilute emulsions in two dimensions, twice the fraction for rigid discs (Brady, Int. J.
-/// Multiphase Flow 10, 113, 1984).
-#[test]
-fn pairs_of_drops_in_a_shear_move_by_reflections() {
-    for ratio in [0.1, 1.0, 10.0] {
-        let exact = 2.0 * (1.0 + 2.0 * ratio) / (1.0 + ratio);
-        // The part by which they approach more slowly, times the square of the distance of their centres.
-        let found = [5.0, 10.0].map(|distance: f64| {
-            let mut setup = fourth_order(SHEAR, 32, 0.004);
-            let (sin, cos) = 60.0_f64.to_radians().sin_cos();
-            setup.droplets = [-0.5, 0.5]
-                .map(|part| DropletSetup {
-                    centre: [part * distance * cos, part * distance * sin],
-                    ..drop_of(ratio, 0.004)
-                })
-                .to_vec();
-            let Built { mut scene, droplets, .. } = setup.build().unwrap();
-            scene.run(0.4).go().unwrap();
-            let [one, other] = [0, 1].map(|droplet| scene.observe(droplets[droplet]).unwrap());
-            let (apart, velocity) = (other.centroid - one.centroid, other.velocity - one.velocity);
-            let alone = apart.x * apart.y;
-            (1.0 - apart.dot(velocity) / alone) * apart.length_squared()
-        });
-        let [near, far] = found.map(|found| found / exact - 1.0);
-        println!("{ratio}: {near:e} {far:e}");
-        assert!(far.abs() < 0.1 && (3.0..5.0).contains(&(near / far)), "{ratio}: {near:e} {far:e}");
-        let limit = (4.0 * far - near) / 3.0;
-        assert!(limit.abs() < 5e-3, "{ratio}: {limit:e}");
-    }
-}
-
 /// The area that long steps lose is restored, that of the smooth curve, and the deformation is none the worse.
 #[test]
 fn restored_areas_are_those_of_the_smooth_curve() {
