@@ -110,7 +110,8 @@ impl TubeShape {
         }
     }
 
-    /// Refuses lengths that are not positive and finite, and walls that touch the axis.
+    /// Refuses lengths that are not positive and finite, walls that touch the axis, and tubes shorter than their shape with
+    /// two radii at both ends.
     fn check(self, end: f64, length: f64) -> Result<(), InputError> {
         match self {
             Self::Straight => Ok(()),
@@ -118,13 +119,13 @@ impl TubeShape {
                 positive("the radius of the throat", throat)?;
                 positive("the length of the throat", throat_length)?;
                 positive("the length of the ramps", ramp)?;
-                let most = length - 4.0 * end;
-                within("the length of throat and ramps in the tube", throat_length + 2.0 * ramp, 0.0, most).map(drop)
+                let least = 4.0 * end + throat_length + 2.0 * ramp;
+                within("the length of a tube with throat and ramps", length, least, f64::INFINITY).map(drop)
             }
             Self::Sinusoidal { amplitude, period } => {
                 positive("the period of the wall", period)?;
                 within("the amplitude of the wall over the radius", amplitude / end, -0.95, 0.95)?;
-                within("the period of the wall in the tube", period, 0.0, length - 4.0 * end).map(drop)
+                within("the length of a tube with one period", length, 4.0 * end + period, f64::INFINITY).map(drop)
             }
         }
     }

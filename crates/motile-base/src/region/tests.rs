@@ -44,3 +44,16 @@ fn bad_numbers_are_refused_by_name() {
     }
     assert!(Region::Plane.check().is_ok() && channel(1.0, 1.0, Drive::ZeroGradient).check().is_ok());
 }
+
+/// Tubes that are shorter than their shape are told the length that they want.
+#[test]
+fn short_tubes_are_told_their_least_length() {
+    let tube = |shape, length| Region::Tube { radius: 1.5, shape, drive: Drive::ZeroFlux, length: Some(length) };
+    let wavy = TubeShape::Sinusoidal { amplitude: 0.3, period: 6.0 };
+    let narrow = TubeShape::Constriction { throat: 0.9, throat_length: 2.0, ramp: 1.0 };
+    for (shape, least) in [(wavy, 12.0), (narrow, 10.0)] {
+        let error = tube(shape, least - 0.5).check().unwrap_err().to_string();
+        assert!(error.contains(&format!("from {least}")) && error.contains("length of a tube"), "{error}");
+        assert!(tube(shape, least).check().is_ok());
+    }
+}
