@@ -52,8 +52,9 @@
 //! * Curves that are close to each other are summed node by node, in a channel with a row of images in closed form. The
 //!   flow of curves farther away and of the images of a box is smooth: its Taylor series, computed from values on a
 //!   circle, is summed by moments. Walls are a Fourier series along the channel, analytic across it.
-//! * From a thousand nodes on, closed curves in a box or channel are summed by a split Green's function: its near part
-//!   over nodes, its smooth part by a grid and Fourier transforms (Ewald). These are the same sums to the tolerance, in
+//! * From 250 nodes on in a box or channel, 4,000 in the plane, and more where viscosities differ, closed curves are
+//!   summed by a split Green's function: its near part over nodes, its smooth part by a grid and Fourier transforms
+//!   (Ewald). These are the same sums to the tolerance, in
 //!   time and memory that grow like the number of nodes, and with the feature `rayon` on several threads, to the same
 //!   bits.
 //! * A viscosity contrast needs the double layer and GMRES ([`gmres`]); its iterations depend neither on the nodes nor,
