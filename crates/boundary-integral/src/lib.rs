@@ -39,9 +39,9 @@
 //! ```
 //!
 //! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours;
-//! each pair of interfaces farther apart costs some microseconds. From some hundred nodes on (thousands where viscosities
-//! differ, and in the plane) it grows like their number, so that the method suits thousands of droplets; beside curved
-//! walls it suits some tens. Feature `rayon`: several threads for many nodes, to the same bits.
+//! each pair of interfaces farther apart costs some microseconds. From some hundred nodes on, thousands where
+//! viscosities differ or in the plane, it grows like their number, so that the method suits thousands of droplets;
+//! beside curved walls it suits some tens. Feature `rayon`: several threads for many nodes, to the same bits.
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
