@@ -145,7 +145,8 @@ impl Solid {
 
     /// A solid without an elasticity of its own, for one that flows: all its stress is that of Maxwell elements
     /// ([`Solid::with_maxwell`]), on its triangles, and relaxes entirely. As it creeps its triangles are sheared; where
-    /// one has lost 98 % of its area the run ends in [`SolidError::Inverted`], at the time that the scene's error tells.
+    /// one has lost 98 % of its area the run ends in [`SolidError::Inverted`], at the time that the scene's error
+    /// tells.
     #[must_use]
     pub fn fluid_like(mesh: TriangleMesh) -> Self {
         let law = NoElasticity { points: mesh.points().len(), triangles: mesh.triangles().len() };

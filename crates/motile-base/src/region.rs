@@ -110,8 +110,8 @@ impl TubeShape {
         }
     }
 
-    /// Refuses lengths that are not positive and finite, walls that touch the axis, and tubes shorter than their shape with
-    /// two radii at both ends.
+    /// Refuses lengths that are not positive and finite, walls that touch the axis, and tubes shorter than their shape
+    /// with two radii at both ends.
     fn check(self, end: f64, length: f64) -> Result<(), InputError> {
         match self {
             Self::Straight => Ok(()),

@@ -3,8 +3,8 @@
 use crate::mesh::TriangleMesh;
 
 /// Patches of triangles of which each has the change of area of all of its patch, which keeps nearly incompressible
-/// material from locking (de Souza Neto, Pires and Owen, Int. J. Numer. Meth. Engng 62 (2005) 353): pairs of neighbours,
-/// which leave one condition for the two coordinates of a point, with the triangles that are left over.
+/// material from locking (de Souza Neto, Pires and Owen, Int. J. Numer. Meth. Engng 62 (2005) 353): pairs of
+/// neighbours, which leave one condition for the two coordinates of a point, with the triangles that are left over.
 #[derive(Debug, Clone)]
 pub(super) struct Patches {
     /// Triangles patch by patch, and the end of each patch among them.

@@ -208,7 +208,7 @@ impl Share {
     }
 }
 
-/// What the search for close nodes needs to know of all curves.
+/// Knowledge of all curves that the search for close nodes needs.
 struct Search<'a> {
     /// Distance in spacings below which a node is close.
     reach: f64,

@@ -6,9 +6,11 @@ fn the_boundary_of_each_point_is_found_and_runs_are_kept() {
     let making = Making { quick: false, threads: 1, quiet: true, out };
     // A droplet of tension and no particles goes nowhere: its place is where it starts.
     let text = "about = \"a\"\n[bisect]\nentries = [\"droplets.0.centre.0\"]\nbetween = [0.5, 1.5]\nwithin = 0.02\n\
-                outcome = \"furthest_x > viscosity / 100\"\n[plan]\ntime = 0.02\n[plan.grid]\nviscosity = [80.0, 110.0, 400.0]\n\
+                outcome = \"furthest_x > viscosity / 100\"\n[plan]\ntime = 0.02\n\
+                [plan.grid]\nviscosity = [80.0, 110.0, 400.0]\n\
                 [plan.scene.region.channel]\nlength = 6.0\nwidth = 4.0\ndrive = \"zero-gradient\"\n\
-                [plan.scene.method.integral]\nnodes = 32\ncells = 128\n[[plan.scene.droplets]]\nparticles.activity = -0.1\n\
+                [plan.scene.method.integral]\nnodes = 32\ncells = 128\n\
+                [[plan.scene.droplets]]\nparticles.activity = -0.1\n\
                 centre = [0.0, 0.0]\n";
     let source: Source = toml::from_str(text).expect("a source");
     let data = source.rows("bisected", &making).expect("data");
