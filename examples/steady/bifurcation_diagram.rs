@@ -121,7 +121,7 @@ fn draw(flags: &Flags) -> Result<()> {
             diagram.branch += 1;
             match settings.switch(&point, true, |point, special| diagram.update_host(point, special)) {
                 Err(error @ SteadyError::Unsupported { .. }) => {
-                    diagram.tell(format!("branch 1 does not begin: {error}"))
+                    diagram.tell(format!("branch 1 does not begin: {error}"));
                 }
                 branch => diagram.end(&branch?)?,
             }
