@@ -150,8 +150,8 @@ fn skins(quick: bool) -> Table {
     let wanted = if quick { &RESOLUTIONS[..1] } else { &RESOLUTIONS[..] };
     let mut table = Table::new(
         &format!(
-            "The same with E = 1e3, forces on triangles, and a skin of stretching modulus 300 and bending modulus 1, at \
-             t = 30, with spacings of grid and mesh of {wanted:?}"
+            "The same with E = 1e3, forces on triangles, and a skin of stretching modulus 300 and bending modulus 1, \
+             at t = 30, with spacings of grid and mesh of {wanted:?}"
         ),
         &["activity", "speeds", "difference", "seconds"],
     );
