@@ -61,6 +61,7 @@ impl<E: EnergyDensity> Hyperelastic<E> {
         (triangle < self.elements.len()).then(|| self.raw_material(triangle))
     }
 
+    #[inline]
     fn raw_material(&self, triangle: usize) -> &E {
         &self.materials[if self.materials.len() == 1 { 0 } else { triangle }]
     }
@@ -75,7 +76,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         same_length("the positions", self.points, positions.len())?;
         same_length("the forces", self.points, forces.len())?;
         if let Some(patches) = &self.patches {
-            return patches.iter().try_for_each(|patch| self.add_shared_forces(patch, positions, forces));
+            return self.add_patched_forces(patches, positions, forces);
         }
         for (triangle, element) in self.elements.iter().enumerate() {
             let gradient = element.deformation(triangle, positions)?;
@@ -137,6 +138,12 @@ impl<E: EnergyDensity> Hyperelastic<E> {
         let own = element.deformation(triangle, positions)?;
         let scaled = DeformationGradient::checked(own.matrix() * (shared / own.jacobian()).sqrt());
         Ok((own, scaled.ok_or_else(|| element.inverted(triangle, positions))?))
+    }
+
+    /// Adds the forces of all patches; apart from the path of single triangles, which it would slow.
+    #[inline(never)]
+    fn add_patched_forces(&self, patches: &Patches, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
+        patches.iter().try_for_each(|patch| self.add_shared_forces(patch, positions, forces))
     }
 
     /// Adds the forces of the triangles of a patch. With P the stress of the scaled gradient A' = s A and w = P : A'/2,
