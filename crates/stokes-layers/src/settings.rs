@@ -53,8 +53,9 @@ pub enum Symmetry {
     /// Symmetric to the accuracy to which the nodes resolve the forces: each direction is corrected by itself, so that
     /// velocities are spectrally accurate at every node.
     ToResolution,
-    /// Symmetric to round-off: corrections are computed at the nodes of the curve whose nodes are closer together (of
-    /// two with the same spacing the first one), and the other curve gets the transpose. Accurate for integrals over
-    /// smooth fields at the nodes, such as power.
+    /// Symmetric to round-off: corrections are computed at the nodes of the curve whose nodes are closer together, and
+    /// the other curve gets the transpose; of two with the same spacing each gets the mean of both, so that the mirror
+    /// image of a flow is that of its mirror image. Accurate for integrals over smooth fields at the nodes, such as
+    /// power.
     ToRoundOff,
 }

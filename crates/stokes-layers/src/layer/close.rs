@@ -111,7 +111,7 @@ impl Share {
         near.sort_unstable();
         for &target in &*near {
             let other = &curves[target];
-            if !search.stored.couples(target, source) || search.one_sided && !finer(curves, target, source) {
+            if !search.stored.couples(target, source) || search.one_sided && part(curves, target, source) == 0.0 {
                 continue;
             }
             let apart = search.images.wrap(other.centre - curve.centre);
@@ -352,8 +352,7 @@ impl CloseCorrection {
         for (close, rows) in all.iter().flat_map(|share| share.close.iter().map(|close| (close, &share.rows))) {
             let Some(row) = close.force_row else { continue };
             let (target, source) = (&curves[close.target], &mut sources[close.source]);
-            // A pair of images of the same curve is found from both ends.
-            let share = if symmetric && close.target == close.source { 0.5 } else { 1.0 };
+            let share = if symmetric { part(curves, close.target, close.source) } else { 1.0 };
             let modal = CloseWeights::modal(close.polar, &curves[close.source].force);
             let sum = row.product(rows, &source.values) + modal;
             out[close.target].x[close.node] += share * sum.re;
@@ -398,8 +397,13 @@ pub(crate) fn bounding_box(curve: &Curve) -> Frame {
     Frame::around([centre - half, centre + half])
 }
 
-/// True for the curve of a pair whose nodes are closer together and resolve best the film between the two; of curves
-/// with the same spacing for the first one.
-fn finer(curves: &[Curve], one: usize, other: usize) -> bool {
-    curves[one].spacing().total_cmp(&curves[other].spacing()).then(one.cmp(&other)).is_le()
+/// Relative difference of spacings up to which they are the same, as those of a curve and its mirror image.
+const SAME_SPACING: f64 = 1e-9;
+
+/// Part of the corrections between two curves that is computed at the nodes of `target` where the operator is symmetric
+/// to round-off: all of it if its nodes are closer together, as they resolve best the film between the two; half of it
+/// if both have the same spacing, so that neither is the first and mirror images stay such.
+fn part(curves: &[Curve], target: usize, source: usize) -> f64 {
+    let [here, there] = [target, source].map(|curve| curves[curve].spacing());
+    if (here - there).abs() <= SAME_SPACING * here { 0.5 } else { f64::from(u8::from(here < there)) }
 }

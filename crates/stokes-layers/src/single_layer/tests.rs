@@ -133,6 +133,39 @@ fn the_operator_is_symmetric() {
     }
 }
 
+/// Two lines a film apart that are mirror images of each other, with few nodes and forces that these do not resolve.
+#[test]
+fn mirror_images_move_as_such() {
+    let nodes = 20;
+    let below: Vec<Vec2> = wave(-0.35, 1.0, nodes).into_iter().map(|x| Vec2::new(x.x, x.y.min(-0.2))).collect();
+    // What lies to the left of a line lies to the right of its image, so that the image is passed the other way.
+    let image = |k: usize| (nodes - k) % nodes;
+    let above: Vec<Vec2> = (0..nodes)
+        .map(|k| below[image(k)] - Vec2::new(if k == 0 { 0.0 } else { LENGTH }, 0.0))
+        .map(|x| Vec2::new(x.x, -x.y))
+        .collect();
+    let rough = |k: usize| [((k * k) as f64).sin(), ((3 * k * k) as f64).cos()];
+    let mut forces = vec![0.0; 4 * nodes];
+    for k in 0..nodes {
+        let [x, y] = rough(k);
+        (forces[k], forces[nodes + k]) = (x, y);
+        (forces[2 * nodes + image(k)], forces[3 * nodes + image(k)]) = (x, -y);
+    }
+    for region in regions() {
+        let mut layer = SingleLayer::new(region, 1e-6, Symmetry::ToRoundOff).unwrap();
+        let given = [(&below, 1.0), (&above, -1.0)];
+        let given = given.map(|(positions, sign)| (positions, Vec2::new(sign * LENGTH, 0.0)));
+        layer.load(given.into_iter().map(|(positions, period)| LayerCurve { positions, period, nodes })).unwrap();
+        let mut flow = vec![0.0; 4 * nodes];
+        layer.apply(&forces, &mut flow).unwrap();
+        let size = flow.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+        for k in 0..nodes {
+            let [x, y] = [flow[k] - flow[2 * nodes + image(k)], flow[nodes + k] + flow[3 * nodes + image(k)]];
+            assert!(x.hypot(y) < 1e-12 * size, "{region:?} {k}: {x:e} {y:e} of {size}");
+        }
+    }
+}
+
 /// A tall ellipse and its own images above and below, 0.05 apart; symmetry to round-off costs accuracy of the film.
 #[test]
 fn a_curve_close_to_its_own_image_moves_as_with_fine_nodes() {
