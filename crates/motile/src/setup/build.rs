@@ -232,7 +232,7 @@ impl Setup {
         Ok(match &self.method {
             Method::Integral(method) => self.integrals(method)?,
             Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => Box::new(ImmersedLayers::new(
-                self.solver(*spacing)?,
+                self.solver(if self.spreads() { 0.5 * spacing } else { *spacing })?,
                 *kernel,
                 *nodes,
                 self.tolerance.unwrap_or(LAYER_TOLERANCE),
@@ -246,6 +246,11 @@ impl Setup {
                 }
             }
         })
+    }
+
+    /// True if the forces of a solid are spread over its triangles.
+    pub(super) fn spreads(&self) -> bool {
+        self.solids.iter().any(|solid| solid.spread_over_triangles)
     }
 
     /// A solver on a grid; boxed, so that methods are compiled once, not once for each kind.

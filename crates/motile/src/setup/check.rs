@@ -237,6 +237,9 @@ impl Setup {
         IntegralMethod { nodes, cells }.check("method.layers")?;
         checked.positive("spacing", spacing)?;
         self.cells(spacing, self.region.lengths())?;
+        if self.spreads() {
+            self.cells(0.5 * spacing, self.region.lengths())?;
+        }
         if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = kernel {
             let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4";
             checked.refuse("kernel", &format!("{kernel:?}"), remedy)?;

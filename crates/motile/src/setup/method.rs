@@ -136,7 +136,8 @@ pub struct LayersMethod {
     /// Cells of the concentration along an interface, which are its markers; at least as many as nodes.
     pub cells: usize,
     /// Grid spacing h (length); the lengths of the region are whole numbers of it. The grid sees the inner points of
-    /// solids and other points with forces on them.
+    /// solids and other points with forces on them; its spacing is h/2 beside solids whose forces are spread over
+    /// triangles.
     pub spacing: f64,
     /// Regularised delta function: a composite B-spline, beside which solids keep their volume.
     pub kernel: AnyKernel,

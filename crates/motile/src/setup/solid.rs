@@ -55,14 +55,15 @@ pub struct SolidSetup {
     /// that.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
-    /// Second point in the middle of each side of its surface: more accurate beside thin films, but the surface folds
-    /// where it is compressed by a third along itself, springs first; `None` for all but springs among layers, and for
-    /// none on a grid.
+    /// Second point in the middle of each side of its surface, three where its forces are spread over triangles: more
+    /// accurate beside thin films, but the surface folds where it is compressed by a third along itself, springs first;
+    /// `None` for all but springs among layers, and for none on a grid.
     #[serde(default)]
     pub finer_surface: Option<bool>,
     /// Forces of inner points spread over the triangles about them ([`Solid::spread_over_triangles`]): soft walls are
-    /// then as incompressible as the fluid, whatever their bulk modulus, at two to three times the time. Not for scenes
-    /// that are kept mirror symmetric.
+    /// then as incompressible as the fluid, whatever their bulk modulus, at two to four times the time. Among layers the
+    /// grid then has half the spacing. Not for stiff walls (docs/living-walls.md), nor for scenes that are kept mirror
+    /// symmetric.
     #[serde(default)]
     pub spread_over_triangles: bool,
     /// Leave for triangles of springs to be inverted ([`Solid::allow_inversion`]).
@@ -329,7 +330,9 @@ impl SolidSetup {
         let springs = matches!(self.material, Material::Springs { .. });
         let layers = setup.method.kind() == MethodKind::Layers;
         let finer = self.finer_surface.unwrap_or(layers && !springs);
-        let mesh = if finer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
+        let times = if self.spread_over_triangles { 2 } else { 1 };
+        let mesh =
+            (0..if finer { times } else { 0 }).try_fold(mesh, |mesh, _| mesh.with_finer_boundary(|s| !fixed(s)))?;
         let share = mesh.area() / mesh.points().len() as f64;
         let mut solid = self.at_rest(mesh)?.named(&self.name);
         if let Some(SkinSetup { stretching, bending }) = self.skin {

@@ -264,10 +264,16 @@ fn layers_that_make_no_scene_are_refused() {
     for (start, setup) in cases {
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
     }
-    // Points on a finer surface are as far apart as the grid's, those below it twice as far.
-    for (finer_surface, times) in [(None, 1), (Some(true), 2)] {
-        let wall = SolidSetup { finer_surface, ..wall.clone() };
-        let Built { mut scene, solids, .. } = solid(wall).build().unwrap();
+    // Points on a finer surface are as far apart as the grid's, those below it twice as far; with forces on triangles
+    // half as far on the surface, as the grid's.
+    for (finer_surface, spread_over_triangles, times) in
+        [(None, false, 1), (Some(true), false, 2), (None, true, 1), (Some(true), true, 4)]
+    {
+        let wall = SolidSetup { finer_surface, spread_over_triangles, ..wall.clone() };
+        let setup = solid(wall);
+        let spacing = setup.flow().unwrap().fluid_view().spacing;
+        assert_eq!(spacing, Some(if spread_over_triangles { 0.05 } else { 0.1 }));
+        let Built { mut scene, solids, .. } = setup.build().unwrap();
         scene.step(1e-3).unwrap();
         let mesh = scene.body(solids[0]).unwrap().mesh();
         let [lower, upper] = [0, 1].map(|k| mesh.boundary_loops()[k].points.len());
