@@ -40,6 +40,12 @@ pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     /// `gradient`, where it is defined; `None` for a triangle beyond the last.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2>;
 
+    /// First Piola-Kirchhoff stresses (force per reference length) in all triangles with these deformation gradients,
+    /// those of [`ElasticForces::stress`] unless triangles act on each other; `None` where one is not defined.
+    fn stresses(&self, gradients: &[Mat2]) -> Option<Vec<Mat2>> {
+        gradients.iter().enumerate().map(|(triangle, gradient)| self.stress(triangle, gradient)).collect()
+    }
+
     /// Largest shear modulus and largest bulk modulus of small strains (force per length), which bound the time step.
     fn stiffest(&self) -> Moduli;
 }

@@ -89,10 +89,11 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         same_length("the positions", self.points, positions.len())?;
         let mut energy = 0.0;
         if let Some(patches) = &self.patches {
+            let gradient = |triangle: usize| self.elements[triangle].deformation(triangle, positions);
             for patch in patches.iter() {
-                let [shared, _] = self.shared(patch, positions)?;
+                let [shared, _] = self.shared(patch, gradient)?;
                 for &triangle in patch {
-                    let (_, scaled) = self.scaled(triangle, shared, positions)?;
+                    let scaled = scaled(&gradient(triangle)?, shared)?;
                     energy += self.raw_material(triangle).energy(&scaled) * self.elements[triangle].area;
                 }
             }
@@ -109,6 +110,23 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         Some(self.material(triangle)?.stress(&DeformationGradient::checked(*gradient)?))
     }
 
+    /// Triangles that share their change of area have one pressure, that of the patch.
+    fn stresses(&self, gradients: &[Mat2]) -> Option<Vec<Mat2>> {
+        let own =
+            gradients.iter().map(|gradient| DeformationGradient::checked(*gradient)).collect::<Option<Vec<_>>>()?;
+        let mut stresses: Vec<Mat2> = own
+            .iter()
+            .enumerate()
+            .map(|(triangle, own)| Some(self.material(triangle)?.stress(own)))
+            .collect::<Option<_>>()?;
+        for patch in self.patches.iter().flat_map(Patches::iter) {
+            patch.iter().for_each(|triangle| stresses[*triangle] = Mat2::ZERO);
+            self.shared_stresses(patch, |triangle| Ok(own[triangle]), |triangle, stress| stresses[triangle] += stress)
+                .ok()?;
+        }
+        Some(stresses)
+    }
+
     fn stiffest(&self) -> Moduli {
         let first = self.materials[0].moduli();
         self.materials.iter().fold(first, |stiffest, material| stiffest.larger(&material.moduli()))
@@ -116,56 +134,65 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
 }
 
 impl<E: EnergyDensity> Hyperelastic<E> {
-    /// Ratio J' of the deformed to the reference area of a patch (no dimension), and the latter (length squared).
-    fn shared(&self, patch: &[usize], positions: &[Vec2]) -> Result<[f64; 2], SolidError> {
+    /// Ratio J' of the deformed to the reference area of a patch (no dimension), and the latter (length squared), from
+    /// the deformation gradients of its triangles.
+    fn shared(
+        &self,
+        patch: &[usize],
+        gradient: impl Fn(usize) -> Result<DeformationGradient, SolidError>,
+    ) -> Result<[f64; 2], SolidError> {
         let (mut deformed, mut reference) = (0.0, 0.0);
         for &triangle in patch {
-            let element = &self.elements[triangle];
-            deformed += element.deformation(triangle, positions)?.jacobian() * element.area;
-            reference += element.area;
+            let area = self.elements[triangle].area;
+            deformed += gradient(triangle)?.jacobian() * area;
+            reference += area;
         }
         Ok([deformed / reference, reference])
-    }
-
-    /// Deformation gradient A of a triangle, and the same with the change of area of its patch, `A sqrt(J'/J)`.
-    fn scaled(
-        &self,
-        triangle: usize,
-        shared: f64,
-        positions: &[Vec2],
-    ) -> Result<(DeformationGradient, DeformationGradient), SolidError> {
-        let element = &self.elements[triangle];
-        let own = element.deformation(triangle, positions)?;
-        let scaled = DeformationGradient::checked(own.matrix() * (shared / own.jacobian()).sqrt());
-        Ok((own, scaled.ok_or_else(|| element.inverted(triangle, positions))?))
     }
 
     /// Adds the forces of all patches; apart from the path of single triangles, which it would slow.
     #[inline(never)]
     fn add_patched_forces(&self, patches: &Patches, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
-        patches.iter().try_for_each(|patch| self.add_shared_forces(patch, positions, forces))
+        let gradient = |triangle: usize| self.elements[triangle].deformation(triangle, positions);
+        patches.iter().try_for_each(|patch| {
+            self.shared_stresses(patch, gradient, |triangle, stress| {
+                self.elements[triangle].add_forces(&stress, forces);
+            })
+        })
     }
 
-    /// Adds the forces of the triangles of a patch. With P the stress of the scaled gradient A' = s A and w = P : A'/2,
-    /// the derivative of the energy of a triangle by A is `s P - w cof(A)/J`, and that by the area of the patch is the
-    /// sum of w over the triangles, times their reference areas, over J' and the reference area of the patch.
-    fn add_shared_forces(&self, patch: &[usize], positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
-        let [shared, area] = self.shared(patch, positions)?;
+    /// Gives the stresses (force per reference length) of the triangles of a patch to `add`, two of each, which add up.
+    /// With P the stress of the scaled gradient A' = s A and w = P : A'/2, the derivative of the energy of a triangle by
+    /// A is `s P - w cof(A)/J`, and that by the area of the patch is the sum of w over the triangles, times their
+    /// reference areas, over J' and the reference area of the patch.
+    #[inline]
+    fn shared_stresses(
+        &self,
+        patch: &[usize],
+        gradient: impl Fn(usize) -> Result<DeformationGradient, SolidError>,
+        mut add: impl FnMut(usize, Mat2),
+    ) -> Result<(), SolidError> {
+        let [shared, area] = self.shared(patch, &gradient)?;
         let mut pressure = 0.0;
         for &triangle in patch {
-            let (own, scaled) = self.scaled(triangle, shared, positions)?;
+            let own = gradient(triangle)?;
+            let scaled = scaled(&own, shared)?;
             let stress = self.raw_material(triangle).stress(&scaled);
             let work = 0.5 * (stress * scaled.matrix().transpose()).trace();
             pressure += work * self.elements[triangle].area / (shared * area);
-            let alone = stress * (shared / own.jacobian()).sqrt() - own.cofactor() * (work / own.jacobian());
-            self.elements[triangle].add_forces(&alone, forces);
+            add(triangle, stress * (shared / own.jacobian()).sqrt() - own.cofactor() * (work / own.jacobian()));
         }
         for &triangle in patch {
-            let own = self.elements[triangle].deformation(triangle, positions)?;
-            self.elements[triangle].add_forces(&(own.cofactor() * pressure), forces);
+            add(triangle, gradient(triangle)?.cofactor() * pressure);
         }
         Ok(())
     }
+}
+
+/// Deformation gradient with another change of area J', `A sqrt(J'/J)`.
+#[inline]
+fn scaled(own: &DeformationGradient, shared: f64) -> Result<DeformationGradient, SolidError> {
+    DeformationGradient::new(own.matrix() * (shared / own.jacobian()).sqrt())
 }
 
 /// A triangle, prepared for its deformation gradient `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).

@@ -182,9 +182,13 @@ impl Solid {
         if (0..self.mesh.triangles().len()).all(upright) {
             return Ok(());
         }
+        Err(self.most_inverted())
+    }
+
+    fn most_inverted(&self) -> SolidError {
         let (jacobian, triangle) = self.smallest_jacobian();
         let place = self.mesh.raw_corners(triangle, &self.positions).iter().sum::<Vec2>() / 3.0;
-        Err(SolidError::Inverted { triangle, place, jacobian })
+        SolidError::Inverted { triangle, place, jacobian }
     }
 
     /// Cauchy stress `P A^T / J` of each triangle (force per deformed length), inner stresses included
@@ -194,15 +198,12 @@ impl Solid {
     /// An inverted triangle.
     pub fn stresses(&self) -> Result<Vec<Mat2>, SolidError> {
         self.check_inversion()?;
-        let stress = |triangle: usize, jacobian: f64| {
-            let gradient = self.raw_gradient(triangle);
-            let inverted = |place: Vec2| SolidError::Inverted { triangle, place, jacobian };
-            let stress = self.law.stress(triangle, &gradient);
-            let stress = stress.ok_or_else(|| inverted(self.mesh.centroid(triangle)))?;
-            Ok(stress * gradient.transpose() / jacobian)
-        };
-        let elastic = self.jacobians().enumerate().map(|(triangle, jacobian)| stress(triangle, jacobian));
-        let mut stresses = elastic.collect::<Result<Vec<Mat2>, SolidError>>()?;
+        let gradients: Vec<Mat2> =
+            (0..self.mesh.triangles().len()).map(|triangle| self.raw_gradient(triangle)).collect();
+        let mut stresses = self.law.stresses(&gradients).ok_or_else(|| self.most_inverted())?;
+        for ((stress, gradient), jacobian) in stresses.iter_mut().zip(&gradients).zip(self.jacobians()) {
+            *stress = *stress * gradient.transpose() / jacobian;
+        }
         if let Some(inner) = self.internal_stresses()? {
             stresses.iter_mut().zip(inner).for_each(|(stress, inner)| *stress += inner);
         }
