@@ -1,6 +1,6 @@
 //! Crossings of a closed polygon with itself.
 
-use crate::{InputError, Vec2, all_points_finite, at_least};
+use crate::{InputError, Vec2, all_points_finite, at_least, finite};
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
 /// they are about equally spaced.
@@ -101,17 +101,20 @@ impl CrossingFinder {
     /// is zero.
     ///
     /// # Errors
-    /// Those of [`CrossingFinder::first_crossing`].
+    /// Those of [`CrossingFinder::first_crossing`]; an advance that is not finite.
     pub fn first_crossing_over(&mut self, points: &[Vec2], advance: f64) -> Result<Option<(usize, usize)>, InputError> {
-        let count = points.len();
-        let step = |k: usize| if k + 1 < count { points[k + 1].x } else { points[0].x + advance } - points[k].x;
-        if advance != 0.0 && (0..count).all(|k| step(k) * advance > 0.0) {
-            return Ok(None);
-        }
-        if advance == 0.0 || count < 3 {
+        finite("the advance of the polygon", advance)?;
+        if advance == 0.0 {
             return self.first_crossing(points);
         }
+        at_least("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
+        let count = points.len();
+        let step = |k: usize| if k + 1 < count { points[k + 1].x } else { points[0].x + advance } - points[k].x;
+        // The sign alone: a product of small numbers would be zero.
+        if (0..count).all(|k| step(k) * advance.signum() > 0.0) {
+            return Ok(None);
+        }
         // Two periods, closed from the highest point by a way above all of them.
         let top = (0..count).max_by(|&a, &b| points[a].y.total_cmp(&points[b].y)).unwrap_or(0);
         let along = |periods: usize| Vec2::new(advance * periods as f64, 0.0);

@@ -106,3 +106,20 @@ fn lines_cross_their_next_images() {
     let circle: Vec<Vec2> = (0..20).map(|k| Vec2::from_angle(0.1 * std::f64::consts::PI * f64::from(k))).collect();
     assert_eq!(finder.first_crossing_over(&circle, 0.0).unwrap(), None);
 }
+
+#[test]
+fn lines_that_are_none_are_refused() {
+    let mut finder = CrossingFinder::default();
+    let line = points(&[[0.0, 0.0], [1.0, 0.5], [2.0, 0.0]]);
+    let at = |y: f64| points(&[[0.0, 0.0], [1.0, y], [2.0, 0.0]]);
+    assert_eq!(finder.first_crossing_over(&line, 3.0).unwrap(), None);
+    // Though x goes on and on.
+    assert!(finder.first_crossing_over(&at(f64::NAN), 3.0).is_err());
+    assert!(finder.first_crossing_over(&at(f64::INFINITY), 3.0).is_err());
+    for advance in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(matches!(finder.first_crossing_over(&line, advance), Err(InputError::NotFinite { .. })), "{advance}");
+    }
+    for count in 0..3 {
+        assert!(finder.first_crossing_over(&line[..count], 3.0).is_err(), "{count}");
+    }
+}
