@@ -41,7 +41,7 @@ pub enum Region {
         drive: Drive,
         /// Length of the tube (length): between closed ends where it is not straight, 16 radii without; of a straight
         /// one, which goes on beyond, that over which the pressure falls by the prescribed gradient times it, as in a
-        /// tube with a droplet in every such length, infinite without.
+        /// tube with a droplet in every such length, a radius or more from the next one; infinite without.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         length: Option<f64>,
     },
@@ -132,6 +132,10 @@ impl TubeShape {
 }
 
 impl Region {
+    /// Least distance of bodies in neighbouring lengths of a straight tube that a pressure is given for, over its
+    /// radius: the flows that they cause on one another, which are not counted, fall by `exp(-4.47)` over it.
+    pub const LENGTHS_APART: f64 = 1.0;
+
     /// Refuses lengths that are not positive and finite, and a drive that is not finite.
     ///
     /// # Errors

@@ -318,4 +318,12 @@ fn what_has_no_meaning_in_three_dimensions_is_refused() {
     refused(&|setup| setup.region = shaped(TubeShape::Sinusoidal { amplitude: 1.5, period: 4.0 }), "amplitude");
     refused(&|setup| setup.region = tube(TubeShape::Straight, Drive::Flux(f64::NAN), None), "flux");
     assert!(scene(shaped(throat(0.8)), [48, 192]).build().is_err(), "a droplet in the throat");
+    // Droplets of neighbouring lengths a radius of 1.5 apart.
+    let lengths = |drive, length| scene(tube(TubeShape::Straight, drive, Some(length)), [48, 192]).build();
+    for length in [1.0, 2.0, 2.2, 3.4] {
+        let error = lengths(Drive::ZeroGradient, length).unwrap_err().to_string();
+        assert!(error.contains("region.tube.length") && error.contains("at least 3.5"), "{error}");
+        assert!(lengths(Drive::Gradient(1.0), length).is_err() && lengths(Drive::ZeroFlux, length).is_ok());
+    }
+    assert!(lengths(Drive::ZeroGradient, 3.51).is_ok());
 }

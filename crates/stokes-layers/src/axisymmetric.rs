@@ -9,12 +9,14 @@ mod panels;
 mod ring;
 mod truncation;
 
-use std::{collections::HashMap, f64::consts::PI};
+use std::{collections::HashMap, f64::consts::PI, ops::Range};
 
 use motile_base::{Drive, FlowSample, Region, Vec2, positive, same_length, within};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use crate::{Inside, Interface, LayerError, Settings, Solution, error::finite_vectors, interface_flow::MOST_CONTRAST};
+use crate::{
+    Inside, Interface, LayerError, Settings, Solution, error::finite_vectors, interface_flow::MOST_CONTRAST, shares,
+};
 pub use calculus::MeridianCalculus;
 pub use container::tube;
 use container::{Tube, Walls};
@@ -22,6 +24,7 @@ pub use disturbance::Disturbances;
 use fine::Levels;
 use meridian::{Grid, Half, Meridian, Pair};
 use panels::{Panels, Spot};
+use ring::Wanted;
 
 /// Distance over the size of a surface within which a point is taken for one on its outside.
 const CLOSEST: f64 = 1e-9;
@@ -44,6 +47,11 @@ impl Sides {
     /// Factor of the unknown at its own surface.
     fn mean(&self) -> f64 {
         self.inside.map_or(0.5, |inside| 0.5 * (inside + self.outside))
+    }
+
+    /// Layers that the surface has.
+    fn wanted(&self) -> Wanted {
+        if self.contrast() == 0.0 { Wanted::Single } else { Wanted::Both }
     }
 
     /// Factor of the double layer of the unknown.
@@ -114,7 +122,11 @@ pub struct AxisymmetricFlow {
     /// 8 pi times viscosity times velocity of the single layers at the nodes, x then r, surface after surface.
     right: DVector<f64>,
     matrix: DMatrix<f64>,
-    rows: [Vec<f64>; 2],
+    /// Its rows, and the right-hand side, node by node.
+    rows: Vec<f64>,
+    sums: Vec<Vec2>,
+    /// Working memory of the shares of the nodes.
+    shares: Vec<Panels>,
 }
 
 impl AxisymmetricFlow {
@@ -143,7 +155,9 @@ impl AxisymmetricFlow {
             solution: Vec::new(),
             right: DVector::zeros(0),
             matrix: DMatrix::zeros(0, 0),
-            rows: [vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]],
+            rows: Vec::new(),
+            sums: Vec::new(),
+            shares: Vec::new(),
         })
     }
 
@@ -168,9 +182,8 @@ impl AxisymmetricFlow {
         within("the number of nodes of a container", nodes as f64, 16.0, MOST_NODES)?;
         let grid = Grid::new(nodes / 2);
         let mut meridian = Meridian::new(&grid);
-        self.panels.reserve(grid.largest());
         load(&mut self.halves, &grid, &mut meridian, points, &[], 0)?;
-        self.walls = Some(Box::new(Walls::new(grid, meridian, &mut self.panels)?));
+        self.walls = Some(Box::new(Walls::new(grid, meridian)?));
         Ok(())
     }
 
@@ -331,20 +344,12 @@ impl AxisymmetricFlow {
         if self.right.len() != count {
             self.right = DVector::zeros(count);
         }
-        self.right.fill(0.0);
         let with_matrix = self.has_contrast();
         let size = if with_matrix { count } else { 0 };
         if self.matrix.nrows() != size {
             self.matrix = DMatrix::zeros(size, size);
         }
-        self.matrix.fill(0.0);
-        for target in 0..self.len() {
-            for j in 0..self.grid.nodes {
-                for source in 0..self.len() {
-                    self.add_pair(target, j, source);
-                }
-            }
-        }
+        self.add_pairs();
         self.add_walls();
         let factors = with_matrix.then(|| {
             for surface in 0..self.len() {
@@ -391,39 +396,48 @@ impl AxisymmetricFlow {
         Ok(())
     }
 
-    /// Adds the layers of one surface at a node of another to the right-hand side and the matrix.
-    fn add_pair(&mut self, target: usize, j: usize, source: usize) {
-        let Self { grid, panels, surfaces, sides, right, matrix, rows, .. } = self;
-        let (n, contrast) = (grid.nodes, sides[source].contrast());
-        let place = surfaces[target].nodes[j].place;
-        let spot = if target == source {
-            Spot { place, foot: grid.parameters[j], offset: Vec2::ZERO, gap: 0.0 }
-        } else {
-            surfaces[source].spot(grid, place, panels)
-        };
-        let meridian = &surfaces[source];
-        rows.iter_mut().for_each(|row| row.fill(0.0));
-        let mut sum = Vec2::ZERO;
-        panels.each((grid, meridian), &spot, false, |source| {
-            let [[xx, xr], [rx, rr]] = source.ring.single();
-            let force = source.weight * meridian.force_at(&source);
-            sum += Vec2::new(xx * force.x + xr * force.y, rx * force.x + rr * force.y);
-            if contrast != 0.0 {
-                let factor = -contrast * source.weight * source.point.place.y;
-                let kernel = source.ring.double(source.point.normal());
-                for (row, [x, r]) in rows.iter_mut().zip(kernel) {
-                    add_waves(row, [factor * x, factor * r], &source.waves.cos[..n], &source.waves.sin[1..=n]);
+    /// Fills the right-hand side and the matrix with the layers of all surfaces at all nodes, in shares of the nodes.
+    fn add_pairs(&mut self) {
+        let width = self.matrix.ncols();
+        let Self { grid, panels, shares, surfaces, sides, right, matrix, rows, sums, .. } = self;
+        let (n, all) = (grid.nodes, grid.nodes * surfaces.len());
+        sums.resize(all, Vec2::ZERO);
+        sums.fill(Vec2::ZERO);
+        rows.resize(2 * width * all, 0.0);
+        rows.fill(0.0);
+        let length = all.div_ceil(shares::MOST).max(1);
+        shares.resize_with(all.div_ceil(length), || panels.clone());
+        let mut rest = &mut rows[..];
+        let parts = shares.iter_mut().zip(sums.chunks_mut(length)).enumerate();
+        let mut parts: Vec<_> = parts
+            .map(|(share, (panels, sums))| {
+                let (own, others) = std::mem::take(&mut rest).split_at_mut(2 * width * sums.len());
+                rest = others;
+                (share * length, panels, sums, own)
+            })
+            .collect();
+        shares::each(&mut parts, |(first, panels, sums, rows)| {
+            for (i, sum) in sums.iter_mut().enumerate() {
+                let (target, j) = ((*first + i) / n, (*first + i) % n);
+                let rows = &mut rows[2 * width * i..2 * width * (i + 1)];
+                for (source, (meridian, sides)) in surfaces.iter().zip(sides.iter()).enumerate() {
+                    let place = surfaces[target].nodes[j].place;
+                    let spot = if target == source {
+                        Spot { place, foot: grid.parameters[j], offset: Vec2::ZERO, gap: 0.0 }
+                    } else {
+                        meridian.spot(grid, place, panels)
+                    };
+                    let own = 2 * n * source..2 * n * (source + 1);
+                    add_pair((grid, meridian), sides, &spot, panels, sum, (rows, own));
                 }
             }
         });
-        let row = 2 * n * target + j;
-        right[row] += sum.x;
-        right[row + n] += sum.y;
-        if contrast != 0.0 {
-            for (row, values) in [row, row + n].into_iter().zip(rows.iter()) {
-                for (k, value) in values.iter().enumerate() {
-                    matrix[(row, 2 * n * source + k)] += value;
-                }
+        for (k, sum) in sums.iter().enumerate() {
+            let row = 2 * n * (k / n) + k % n;
+            (right[row], right[row + n]) = (sum.x, sum.y);
+            for column in 0..width {
+                matrix[(row, column)] = rows[2 * width * k + column];
+                matrix[(row + n, column)] = rows[2 * width * k + width + column];
             }
         }
     }
@@ -548,7 +562,7 @@ impl AxisymmetricFlow {
             let nodes = fine.get_mut(surface).and_then(|levels| levels.at(&spot, (grid, meridian), Some(solution)));
             if let Some(nodes) = nodes {
                 for node in nodes {
-                    let ring = node.ring(&spot);
+                    let ring = node.ring(&spot, Wanted::Gradients);
                     add(node.weight, ring.single_flow(node.force));
                     if contrast != 0.0 {
                         let factor = contrast * node.weight * node.point.place.y;
@@ -557,7 +571,7 @@ impl AxisymmetricFlow {
                 }
                 continue;
             }
-            panels.each((grid, meridian), &spot, true, |source| {
+            panels.each((grid, meridian), &spot, Wanted::Gradients, |source| {
                 add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
                 if contrast != 0.0 {
                     let density = Vec2::new(
@@ -570,12 +584,14 @@ impl AxisymmetricFlow {
             });
         }
         if let Some(walls) = walls {
-            let Walls { grid, meridian, shift, .. } = &**walls;
+            let Walls { grid, meridian, panels, shift, .. } = &mut **walls;
             let spot = meridian.spot(grid, place - *shift, panels);
             if let Some(nodes) = fine.last_mut().and_then(|levels| levels.at(&spot, (grid, meridian), None)) {
-                nodes.iter().for_each(|node| add(node.weight, node.ring(&spot).single_flow(node.force)));
+                nodes
+                    .iter()
+                    .for_each(|node| add(node.weight, node.ring(&spot, Wanted::Gradients).single_flow(node.force)));
             } else {
-                panels.each((grid, meridian), &spot, true, |source| {
+                panels.each((grid, meridian), &spot, Wanted::Gradients, |source| {
                     add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
                 });
             }
@@ -602,6 +618,33 @@ impl AxisymmetricFlow {
         }
         sample
     }
+}
+
+/// Adds the layers of a surface at a spot to the right-hand side, and to some columns of two rows of the matrix, those
+/// of the components along and from the axis.
+fn add_pair(
+    (grid, meridian): (&Grid, &Meridian),
+    sides: &Sides,
+    spot: &Spot,
+    panels: &mut Panels,
+    sum: &mut Vec2,
+    (rows, columns): (&mut [f64], Range<usize>),
+) {
+    let (n, contrast) = (grid.nodes, sides.contrast());
+    let width = rows.len() / 2;
+    panels.each((grid, meridian), spot, sides.wanted(), |source| {
+        let [[xx, xr], [rx, rr]] = source.ring.single();
+        let force = source.weight * meridian.force_at(&source);
+        *sum += Vec2::new(xx * force.x + xr * force.y, rx * force.x + rr * force.y);
+        if contrast != 0.0 {
+            let factor = -contrast * source.weight * source.point.place.y;
+            let kernel = source.ring.double(source.point.normal());
+            for (row, [x, r]) in rows.chunks_exact_mut(width).zip(kernel) {
+                let waves = source.waves;
+                add_waves(&mut row[columns.clone()], [factor * x, factor * r], &waves.cos[..n], &waves.sin[1..=n]);
+            }
+        }
+    });
 }
 
 /// Adds multiples of waves of cosines and sines to a row of a matrix.

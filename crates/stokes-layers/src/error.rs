@@ -137,6 +137,17 @@ pub enum LayerError {
         /// Number of interfaces.
         found: usize,
     },
+    /// Surfaces that leave too little room in a length of a straight tube that a pressure is given for.
+    #[error(
+        "a length of {length} of the tube has a pressure of its own, and the surfaces in it and the next ones are less \
+         than a radius apart: give at least {least:.4}, or a flux in place of a pressure"
+    )]
+    ShortTube {
+        /// The length (length).
+        length: f64,
+        /// What these surfaces need (length).
+        least: f64,
+    },
     /// Surfaces with singular equations.
     #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
     SingularSurfaces,

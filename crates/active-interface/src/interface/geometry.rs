@@ -43,9 +43,9 @@ impl Rings {
     /// Factors of the trapezoidal rule's weights for so many markers that integrate sines from 0 to pi exactly.
     pub(crate) fn quadrature(count: usize) -> Vec<f64> {
         let half = count / 2;
+        let waves: Vec<f64> = (0..count).map(|k| (std::f64::consts::PI * k as f64 / half as f64).sin()).collect();
         let factor = |k: usize| -> f64 {
-            let t = std::f64::consts::PI * k.min(count - k) as f64 / half as f64;
-            let sines = (1..half).step_by(2).map(|m| (m as f64 * t).sin() / m as f64);
+            let sines = (1..half).step_by(2).map(|m| waves[m * k.min(count - k) % count] / m as f64);
             4.0 / std::f64::consts::PI * sines.sum::<f64>()
         };
         (0..count).map(factor).collect()

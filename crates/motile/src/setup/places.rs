@@ -1,12 +1,12 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
-use motile_base::{Region, Vec2, told_apart};
+use motile_base::{Region, TubeShape, Vec2, told_apart};
 use motile_scene::{
     Hydrodynamics,
     gap::{Overlap, Surfaces},
 };
 
-use super::{AnyFlow, DropletSetup, DropletShape, Particles, Setup, body::Planned};
+use super::{AnyFlow, DropletSetup, DropletShape, Particles, Setup, body::Planned, checked::Checked};
 use crate::SetupError;
 
 /// Part of a period that a body may fill: beyond it, but for round-off, it touches its own image.
@@ -24,6 +24,7 @@ impl Setup {
             self.fits(number, corners)?;
             self.check_walls(&key, corners, flow)?;
         }
+        self.check_length(bodies.iter().flat_map(|body| &body.corners))?;
         let surfaces = Surfaces::of(bodies.iter().map(|Planned { boundary, kind, .. }| (boundary.clone(), *kind)));
         if let Some((body, other, viscosities)) = surfaces.conflict(view.domain.periods, view.viscosity) {
             let [key, other] = [body, other].map(|body| self.key(body));
@@ -39,6 +40,22 @@ impl Setup {
                 Err(SetupError::Overlap { key, other, x, y, depth, allowed })
             }
         }
+    }
+
+    /// Refuses a straight tube whose pressure is given over a length in which the bodies leave no room to the next ones.
+    fn check_length<'a>(&self, corners: impl Iterator<Item = &'a Vec2>) -> Result<(), SetupError> {
+        let Region::Tube { radius, shape: TubeShape::Straight, drive, length: Some(length) } = self.region else {
+            return Ok(());
+        };
+        let (low, high) =
+            corners.fold((f64::INFINITY, -f64::INFINITY), |(low, high), at| (at.x.min(low), at.x.max(high)));
+        let least = high - low + Region::LENGTHS_APART * radius;
+        let holds = drive.flux().is_some() || least <= length;
+        let remedy = format!(
+            "bodies in neighbouring lengths, whose flows on one another are not counted, are a radius of the tube apart \
+             or more: give at least {least:.4}, or a flux in place of a pressure"
+        );
+        Checked { place: "" }.require(holds, "region.tube.length", length, &remedy)
     }
 
     /// Where a body stands in the description, in the order of its lists, with its name if it has one of its own.

@@ -2,13 +2,15 @@
 
 use std::f64::consts::PI;
 
-use motile_base::{Drive, TubeShape, Vec2, positive, within};
+use motile_base::{Drive, Region, TubeShape, Vec2, positive, within};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::{
     AxisymmetricFlow, add_waves,
+    fine::Levels,
     meridian::{Grid, Meridian, dot},
     panels::{Panels, Spot},
+    ring::{Ring, Wanted},
 };
 use crate::{LayerError, interface_flow::factors::DenseFactors};
 
@@ -41,6 +43,7 @@ impl Tube {
 pub(super) struct Walls {
     pub(super) grid: Grid,
     pub(super) meridian: Meridian,
+    pub(super) panels: Panels,
     pub(super) factors: DenseFactors,
     /// Place of the container's middle (length).
     pub(super) shift: Vec2,
@@ -80,13 +83,15 @@ pub(super) fn nodes_of(shape: TubeShape, radius: f64, half_length: f64) -> [usiz
 }
 
 impl Walls {
-    pub(super) fn new(grid: Grid, meridian: Meridian, panels: &mut Panels) -> Result<Self, LayerError> {
+    pub(super) fn new(grid: Grid, mut meridian: Meridian) -> Result<Self, LayerError> {
         let n = grid.nodes;
+        let mut panels = Panels::new(n);
+        meridian.fix(&grid);
         let mut matrix = DMatrix::zeros(2 * n, 2 * n);
         for j in 0..n {
             let place = meridian.nodes[j].place;
             let spot = Spot { place, foot: grid.parameters[j], offset: Vec2::ZERO, gap: 0.0 };
-            add_rows(&mut matrix, j, n, (&grid, &meridian), &spot, panels);
+            add_rows(&mut matrix, j, n, (&grid, &meridian), &spot, &mut panels);
         }
         let (mut x, mut r) = (vec![0.0; n], vec![0.0; n]);
         for (j, point) in meridian.nodes.iter().enumerate() {
@@ -114,7 +119,25 @@ impl Walls {
         let from_forces = DVector::zeros(2 * n);
         let shift = Vec2::ZERO;
         let onto_surfaces = empty.clone();
-        Ok(Self { grid, meridian, factors, shift, onto_surfaces, from_forces, from_unknowns: empty, open: None })
+        Ok(Self {
+            grid,
+            meridian,
+            panels,
+            factors,
+            shift,
+            onto_surfaces,
+            from_forces,
+            from_unknowns: empty,
+            open: None,
+        })
+    }
+
+    /// Takes over forces by their coefficients.
+    fn settle(&mut self, forces: &DVector<f64>) {
+        let (x, r) = forces.as_slice().split_at(self.grid.nodes);
+        self.meridian.force.sin[1..=x.len()].copy_from_slice(x);
+        self.meridian.force.cos[..r.len()].copy_from_slice(r);
+        self.meridian.update_forces(&self.grid);
     }
 
     /// Opens the ends of a tube whose ends have this radius (length): the forces of a flow that is Poiseuille's there.
@@ -142,7 +165,7 @@ fn add_rows(
 ) {
     let waves = source.0.nodes;
     let mut rows = [vec![0.0; 2 * waves], vec![0.0; 2 * waves]];
-    panels.each(source, spot, false, |source| {
+    panels.each(source, spot, Wanted::Single, |source| {
         for (row, [x, r]) in rows.iter_mut().zip(source.ring.single()) {
             let factors = [source.weight * x, source.weight * r];
             add_waves(row, factors, &source.waves.sin[1..=waves], &source.waves.cos[..waves]);
@@ -169,6 +192,10 @@ impl AxisymmetricFlow {
             }
             if let Some((curve, at)) = nodes().find(|(_, at)| at.y >= radius) {
                 return Err(LayerError::CrossesWall { curve, x: at.x, y: at.y, wall: 0 });
+            }
+            let (length, least) = (self.drive.1, ends[1] - ends[0] + Region::LENGTHS_APART * radius);
+            if self.drive.0.flux().is_none() && least > length {
+                return Err(LayerError::ShortTube { length, least });
             }
             let needed = 0.5 * (ends[1] - ends[0]) + BEYOND * radius;
             let [wide, tight] = SPACINGS;
@@ -216,59 +243,89 @@ impl AxisymmetricFlow {
         self.make_tube(radius, half_length, positive("the distance of the nodes of a tube", spacing)?)
     }
 
-    /// Eliminates the forces on the container from the equation of the surfaces.
+    /// Eliminates the forces on the container from the equation of the surfaces. Its rows by coefficients are made
+    /// where there is a matrix or a flux through a shaped tube; otherwise sums over the points of the wall do.
     pub(super) fn add_walls(&mut self) {
         let with_matrix = self.has_contrast();
-        let Self { grid, panels, surfaces, sides, walls, right, matrix, .. } = self;
+        let Self { grid, panels, surfaces, sides, walls, drive, right, matrix, .. } = self;
         let Some(walls) = walls else { return };
+        let by_rows = with_matrix || drive.0 != Drive::ZeroFlux && walls.open.is_some();
         let (n, wall_nodes, count) = (grid.nodes, walls.grid.nodes, surfaces.len());
-        let mut onto = DMatrix::zeros(2 * n * count, 2 * wall_nodes);
-        for (surface, meridian) in surfaces.iter().enumerate() {
-            let mut rows = onto.rows_mut(2 * n * surface, 2 * n).into_owned();
-            for (j, node) in meridian.nodes.iter().enumerate() {
-                let spot = walls.meridian.spot(&walls.grid, node.place - walls.shift, panels);
-                add_rows(&mut rows, j, n, (&walls.grid, &walls.meridian), &spot, panels);
-            }
-            onto.rows_mut(2 * n * surface, 2 * n).copy_from(&rows);
-        }
         let mut forces = DVector::zeros(2 * wall_nodes);
         let mut unknowns = DMatrix::zeros(2 * wall_nodes, if with_matrix { 2 * n * count } else { 0 });
+        let mut fine: Vec<Levels> = surfaces.iter().map(|_| Levels::default()).collect();
         for (j, node) in walls.meridian.nodes.iter().enumerate() {
             for (surface, meridian) in surfaces.iter().enumerate() {
                 let contrast = sides[surface].contrast();
                 let spot = meridian.spot(grid, node.place + walls.shift, panels);
-                let mut rows = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
+                let mut rows = [(); 2].map(|()| vec![0.0; if contrast == 0.0 { 0 } else { 2 * n }]);
                 let mut sum = Vec2::ZERO;
-                panels.each((grid, meridian), &spot, false, |source| {
-                    let [[xx, xr], [rx, rr]] = source.ring.single();
-                    let force = source.weight * meridian.force_at(&source);
+                let mut add = |weight: f64, ring: &Ring, force: Vec2| {
+                    let [[xx, xr], [rx, rr]] = ring.single();
+                    let force = weight * force;
                     sum += Vec2::new(xx * force.x + xr * force.y, rx * force.x + rr * force.y);
-                    if contrast != 0.0 {
-                        let factor = contrast * source.weight * source.point.place.y;
-                        for (row, [x, r]) in rows.iter_mut().zip(source.ring.double(source.point.normal())) {
-                            let waves = source.waves;
-                            add_waves(row, [factor * x, factor * r], &waves.cos[..n], &waves.sin[1..=n]);
+                };
+                let close = if contrast == 0.0 { fine[surface].at(&spot, (grid, meridian), None) } else { None };
+                if let Some(nodes) = close {
+                    nodes.iter().for_each(|node| add(node.weight, &node.ring(&spot, Wanted::Single), node.force));
+                } else {
+                    panels.each((grid, meridian), &spot, sides[surface].wanted(), |source| {
+                        add(source.weight, &source.ring, meridian.force_at(&source));
+                        if contrast != 0.0 {
+                            let factor = contrast * source.weight * source.point.place.y;
+                            for (row, [x, r]) in rows.iter_mut().zip(source.ring.double(source.point.normal())) {
+                                let waves = source.waves;
+                                add_waves(row, [factor * x, factor * r], &waves.cos[..n], &waves.sin[1..=n]);
+                            }
                         }
-                    }
-                });
+                    });
+                }
                 forces[j] -= sum.x;
                 forces[wall_nodes + j] -= sum.y;
-                if contrast != 0.0 {
-                    for (row, values) in [j, wall_nodes + j].into_iter().zip(&rows) {
-                        for (k, value) in values.iter().enumerate() {
-                            unknowns[(row, 2 * n * surface + k)] -= value;
-                        }
+                for (row, values) in [j, wall_nodes + j].into_iter().zip(&rows) {
+                    for (k, value) in values.iter().enumerate() {
+                        unknowns[(row, 2 * n * surface + k)] -= value;
                     }
                 }
             }
         }
         walls.factors.solve(&mut forces);
-        right.gemv(1.0, &onto, &forces, 1.0);
         if with_matrix {
             walls.factors.solve(&mut unknowns);
-            matrix.gemm(-1.0, &onto, &unknowns, 1.0);
         }
-        (walls.onto_surfaces, walls.from_forces, walls.from_unknowns) = (onto, forces, unknowns);
+        (walls.from_forces, walls.from_unknowns) = (forces, unknowns);
+        let mut onto = DMatrix::zeros(if by_rows { 2 * n * count } else { 0 }, 2 * wall_nodes);
+        if !by_rows {
+            let forces = walls.from_forces.clone();
+            walls.settle(&forces);
+        }
+        for (surface, meridian) in surfaces.iter().enumerate() {
+            let mut rows = DMatrix::zeros(if by_rows { 2 * n } else { 0 }, 2 * wall_nodes);
+            for (j, node) in meridian.nodes.iter().enumerate() {
+                let Walls { grid: wall, meridian: sides, panels, shift, .. } = &mut **walls;
+                let spot = sides.spot(wall, node.place - *shift, panels);
+                if by_rows {
+                    add_rows(&mut rows, j, n, (wall, sides), &spot, panels);
+                    continue;
+                }
+                panels.each((wall, sides), &spot, Wanted::Single, |source| {
+                    let [[xx, xr], [rx, rr]] = source.ring.single();
+                    let force = source.weight * sides.force_at(&source);
+                    right[2 * n * surface + j] += xx * force.x + xr * force.y;
+                    right[2 * n * surface + n + j] += rx * force.x + rr * force.y;
+                });
+            }
+            if by_rows {
+                onto.rows_mut(2 * n * surface, 2 * n).copy_from(&rows);
+            }
+        }
+        if by_rows {
+            right.gemv(1.0, &onto, &walls.from_forces, 1.0);
+        }
+        if with_matrix {
+            matrix.gemm(-1.0, &onto, &walls.from_unknowns, 1.0);
+        }
+        walls.onto_surfaces = onto;
     }
 
     /// 8 pi times viscosity times velocity at the nodes of the surfaces of a flux of 1 through the tube, where it is
@@ -352,10 +409,7 @@ impl AxisymmetricFlow {
                 }
             }
         }
-        let (x, r) = forces.as_slice().split_at(walls.grid.nodes);
-        walls.meridian.force.sin[1..=x.len()].copy_from_slice(x);
-        walls.meridian.force.cos[..r.len()].copy_from_slice(r);
-        walls.meridian.update_forces(&walls.grid);
+        walls.settle(&forces);
     }
 }
 

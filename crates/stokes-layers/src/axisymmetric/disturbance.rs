@@ -7,9 +7,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     AxisymmetricFlow,
-    container::{Tube, poiseuille},
+    container::{Tube, Walls, poiseuille},
     meridian::{Grid, Half, Meridian, Pair, Waves},
     panels::{Panels, Source, Spot},
+    ring::Wanted,
 };
 use crate::{LayerError, interface_flow::factors::DenseFactors};
 
@@ -193,7 +194,7 @@ impl Rows {
         let gauss = panels.gauss.clone();
         let even = even(order);
         let [mut difference, mut slope] = [vec![0.0; n], vec![0.0; n]];
-        panels.each((grid, meridian), spot, false, |source| {
+        panels.each((grid, meridian), spot, Wanted::Both, |source| {
             let force = meridian.force_at(&source);
             let double = double.map(|(contrast, solution)| {
                 let velocity = Vec2::new(
@@ -424,10 +425,11 @@ impl AxisymmetricFlow {
         let mean = 8.0 * PI * sides.mean();
         let mut left = mean * &values - &layers.velocities;
         if let Some(walls) = walls {
-            let (wall, shift, count) = ((&walls.grid, &walls.meridian), walls.shift, walls.grid.nodes);
+            let Walls { grid: wall, meridian: sides, panels: beside, factors: kept, shift, .. } = &mut **walls;
+            let (wall, shift, count) = ((&*wall, &*sides), *shift, wall.nodes);
             let onto = Layers::new(components, [n, count, n], |j, rows| {
-                let spot = wall.1.spot(wall.0, meridian.nodes[j].place - shift, panels);
-                rows.add(order, wall, None, &spot, Displaced::Target(&grid.waves[j], n), panels);
+                let spot = wall.1.spot(wall.0, meridian.nodes[j].place - shift, beside);
+                rows.add(order, wall, None, &spot, Displaced::Target(&grid.waves[j], n), beside);
             });
             let mut from = Layers::new(components, [count, n, n], |j, rows| {
                 let spot = meridian.spot(grid, wall.1.nodes[j].place + shift, panels);
@@ -437,13 +439,13 @@ impl AxisymmetricFlow {
                 let own = Layers::new(components, [count, count, 0], |j, rows| {
                     let place = wall.1.nodes[j].place;
                     let spot = Spot { place, foot: wall.0.parameters[j], offset: Vec2::ZERO, gap: 0.0 };
-                    rows.add(order, wall, None, &spot, Displaced::Nothing, panels);
+                    rows.add(order, wall, None, &spot, Displaced::Nothing, beside);
                 });
                 DenseFactors::new(own.forces)
             });
             let Layers { forces, velocities, shape } = &mut from;
             for matrix in [forces, velocities, shape] {
-                let factors = factors.as_ref().unwrap_or(&walls.factors);
+                let factors = factors.as_ref().unwrap_or(kept);
                 if !factors.is_regular() {
                     return Err(LayerError::SingularWalls);
                 }

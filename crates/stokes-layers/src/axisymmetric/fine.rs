@@ -7,7 +7,7 @@ use motile_base::Vec2;
 use super::{
     meridian::{Grid, Meridian, Pair, Point, Waves, dot},
     panels::{FAR, Spot},
-    ring::Ring,
+    ring::{Ring, Wanted},
 };
 
 /// Powers of two by which nodes are multiplied: targets are then as close as .7 spacings of the nodes.
@@ -27,8 +27,8 @@ pub(super) struct FineNode {
 
 impl FineNode {
     /// The ring of the node, as the target sees it.
-    pub(super) fn ring(&self, spot: &Spot) -> Ring {
-        Ring::new(self.point.place - spot.place, spot.place.y, self.point.place.y, true)
+    pub(super) fn ring(&self, spot: &Spot, wanted: Wanted) -> Ring {
+        Ring::new(self.point.place - spot.place, spot.place.y, self.point.place.y, wanted)
     }
 }
 

@@ -6,7 +6,7 @@ use motile_base::Vec2;
 use nalgebra::DMatrix;
 
 use super::{
-    panels::{LONGEST, Panels, Source, Spot},
+    panels::{FixedPanels, LONGEST, Panels, Source, Spot},
     truncation::Truncation,
 };
 use crate::LayerError;
@@ -251,7 +251,10 @@ pub(super) struct Meridian {
     pub(super) force: Pair,
     /// Places and forces at the nodes.
     pub(super) nodes: Vec<Point>,
-    forces: Vec<Vec2>,
+    pub(super) forces: Vec<Vec2>,
+    /// Panels of a surface that keeps its shape, and the forces there.
+    pub(super) fixed: Option<FixedPanels>,
+    pub(super) fixed_forces: Vec<Vec2>,
     /// Largest distance of two nodes (length).
     pub(super) spacing: f64,
     /// Points that the surface was given by, on the closed curve of meridian and mirror image.
@@ -263,7 +266,16 @@ impl Meridian {
         let pair = || Pair::new(grid.largest() + 1);
         let nodes = vec![Point::default(); grid.nodes];
         let forces = vec![Vec2::ZERO; grid.nodes];
-        Self { shape: pair(), slope: pair(), force: pair(), nodes, forces, spacing: 0.0, points: 0 }
+        let [shape, slope, force] = [pair(), pair(), pair()];
+        let (fixed, fixed_forces) = (None, Vec::new());
+        Self { shape, slope, force, nodes, forces, fixed, fixed_forces, spacing: 0.0, points: 0 }
+    }
+
+    /// Keeps the points of panels for a shape that stays as it is.
+    pub(super) fn fix(&mut self, grid: &Grid) {
+        let fixed = FixedPanels::new(grid.nodes, |waves| self.at(waves));
+        self.fixed_forces = vec![Vec2::ZERO; fixed.points.len()];
+        self.fixed = Some(fixed);
     }
 
     /// Takes over a shape whose coefficients have been set.
@@ -316,6 +328,8 @@ impl Meridian {
         for (j, waves) in grid.waves.iter().enumerate() {
             self.forces[j] = self.force_of(waves);
         }
+        let fixed = self.fixed.iter().flat_map(|fixed| &fixed.points);
+        self.fixed_forces = fixed.map(|point| self.force_of(&point.waves)).collect();
     }
 
     pub(super) fn force_of(&self, waves: &Waves) -> Vec2 {
@@ -324,17 +338,19 @@ impl Meridian {
 
     /// Force per parameter and azimuth at a point of a quadrature.
     pub(super) fn force_at(&self, source: &Source<'_>) -> Vec2 {
-        source.node.map_or_else(|| self.force_of(source.waves), |j| self.forces[j])
+        source.force.unwrap_or_else(|| self.force_of(source.waves))
     }
 
     /// The spot of a place in the meridian plane (length): its nearest point of the surface and the way there.
     pub(super) fn spot(&self, grid: &Grid, place: Vec2, panels: &mut Panels) -> Spot {
-        let nearest = (0..grid.nodes)
-            .min_by(|a, b| {
-                let distance = |j: &usize| self.nodes[*j].place.distance(place);
-                distance(a).total_cmp(&distance(b))
-            })
-            .unwrap_or(0);
+        let mut nearest = (0, f64::INFINITY);
+        for (j, node) in self.nodes.iter().enumerate() {
+            let square = (node.place - place).length_squared();
+            if square < nearest.1 {
+                nearest = (j, square);
+            }
+        }
+        let nearest = nearest.0;
         let mut foot = grid.parameters[nearest];
         let mut best = self.nodes[nearest].place - place;
         if best.length() < LONGEST * self.spacing {

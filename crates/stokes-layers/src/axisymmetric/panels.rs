@@ -1,12 +1,12 @@
 //! Quadrature along a meridian for a target on it, close to it, or far away.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
 use motile_base::Vec2;
 
 use super::{
     meridian::{Grid, Meridian, Point, Waves},
-    ring::Ring,
+    ring::{Ring, Wanted},
 };
 
 /// Gauss-Legendre points of a panel, and of the first panel beside a target on the curve.
@@ -22,6 +22,8 @@ const POWER: i32 = 5;
 pub(super) const FAR: f64 = 5.5;
 /// Length of the panels next to the foot of a target over its distance from the curve.
 const NEXT: f64 = 1.5;
+/// Least distance of a target from panels that are not made for it, over their length.
+const APART: f64 = 0.7;
 
 /// Way from a foot to a pole that is round-off: the radius of a ring there may be zero or less.
 const SLIVER: f64 = 1e-14;
@@ -40,13 +42,54 @@ pub(super) struct Spot {
 /// target sees it.
 pub(super) struct Source<'a> {
     pub(super) weight: f64,
+    /// Place and, for double layers, the tangent.
     pub(super) point: Point,
     pub(super) ring: Ring,
     pub(super) waves: &'a Waves,
-    /// Number of the node, for a node.
-    pub(super) node: Option<usize>,
+    /// Force per parameter and azimuth (force), where it is known.
+    pub(super) force: Option<Vec2>,
     /// Waves of the middle between the foot and the point, and of half of the way, for a point near the foot.
     pub(super) halves: Option<[&'a Waves; 2]>,
+}
+
+/// A point of the panels of a surface that keeps its shape.
+#[derive(Debug, Clone)]
+pub(super) struct Fixed {
+    weight: f64,
+    point: Point,
+    pub(super) waves: Waves,
+}
+
+/// Panels of a surface that keeps its shape, as a wall does, for targets far away from them: their points are those of
+/// all targets.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FixedPanels {
+    /// Number of panels, of equal length in the parameter.
+    count: usize,
+    pub(super) points: Vec<Fixed>,
+}
+
+impl FixedPanels {
+    /// Panels of the longest kind, and points on them.
+    pub(super) fn new(nodes: usize, at: impl Fn(&Waves) -> Point) -> Self {
+        let count = (nodes as f64 / LONGEST).ceil() as usize;
+        let length = PI / count as f64;
+        let gauss = gauss(POINTS);
+        let panels = (0..count).flat_map(|panel| gauss.iter().map(move |(u, weight)| (panel as f64 + u, weight)));
+        let point = |(place, weight): (f64, &f64)| {
+            let mut waves = Waves::new(nodes + 1);
+            waves.fill(length * place);
+            Fixed { weight: length * weight, point: at(&waves), waves }
+        };
+        Self { count, points: panels.map(point).collect() }
+    }
+
+    /// The panels that are too close to a foot: others are at least a part [`APART`] of their length away.
+    fn near(&self, foot: f64) -> Range<usize> {
+        let place = foot / PI * self.count as f64;
+        let [first, last] = [place - APART, place + APART].map(|end| end.max(0.0) as usize);
+        first.min(self.count)..(last + 1).min(self.count)
+    }
 }
 
 /// Panels and working memory.
@@ -55,6 +98,7 @@ pub(super) struct Panels {
     pub(super) gauss: Vec<(f64, f64)>,
     first: Vec<(f64, f64)>,
     pub(super) waves: Waves,
+    foot: Waves,
     middle: Waves,
     half: Waves,
     nodes: Vec<(f64, f64)>,
@@ -93,23 +137,18 @@ impl Panels {
             gauss: gauss(POINTS),
             first: gauss(FIRST_POINTS),
             waves: empty.clone(),
+            foot: empty.clone(),
             middle: empty.clone(),
             half: empty,
             nodes: Vec::new(),
         }
     }
 
-    /// Makes room for so many waves.
-    pub(super) fn reserve(&mut self, waves: usize) {
-        if self.waves.cos.len() < waves + 1 {
-            *self = Self::new(waves);
-        }
-    }
-
-    /// Offsets from the foot and weights of all points on both sides of it; the first point of the result is nearest.
-    fn place(&mut self, foot: f64, spacing: f64, gap: Option<f64>) {
+    /// Offsets from the foot and weights of all points between two parameters on both sides of it; the first point of
+    /// the result is nearest.
+    fn place(&mut self, foot: f64, [from, to]: [f64; 2], spacing: f64, gap: Option<f64>) {
         self.nodes.clear();
-        for (side, way) in [(-1.0, foot), (1.0, PI - foot)] {
+        for (side, way) in [(-1.0, foot - from), (1.0, to - foot)] {
             let (mut start, mut length) = (0.0, FIRST * spacing);
             if let Some(gap) = gap {
                 length = NEXT * gap;
@@ -140,14 +179,15 @@ impl Panels {
         &mut self,
         (grid, source): (&Grid, &Meridian),
         spot: &Spot,
-        with_gradient: bool,
+        wanted: Wanted,
         mut visit: impl FnMut(Source<'_>),
     ) {
         let target = spot.place.y;
         if spot.gap > FAR * source.spacing {
             for (j, ((point, weight), waves)) in source.nodes.iter().zip(&grid.weights).zip(&grid.waves).enumerate() {
-                let ring = Ring::new(point.place - spot.place, target, point.place.y, with_gradient);
-                visit(Source { weight: *weight, point: *point, ring, waves, node: Some(j), halves: None });
+                let ring = Ring::new(point.place - spot.place, target, point.place.y, wanted);
+                let force = Some(source.forces[j]);
+                visit(Source { weight: *weight, point: *point, ring, waves, force, halves: None });
             }
             return;
         }
@@ -156,26 +196,41 @@ impl Panels {
             self.waves.fill(spot.foot);
             spot.gap / source.at(&self.waves).tangent.length()
         });
-        self.place(spot.foot, spacing, gap);
+        let mut ends = [0.0, PI];
+        if let Some(fixed) = &source.fixed {
+            let near = fixed.near(spot.foot);
+            ends = [near.start, near.end].map(|end| PI * end as f64 / fixed.count as f64);
+            let near = near.start * POINTS..near.end * POINTS;
+            let far = fixed.points.iter().zip(&source.fixed_forces).enumerate().filter(|(k, _)| !near.contains(k));
+            for (_, (Fixed { weight, point, waves }, force)) in far {
+                let ring = Ring::new(point.place - spot.place, target, point.place.y, wanted);
+                visit(Source { weight: *weight, point: *point, ring, waves, force: Some(*force), halves: None });
+            }
+        }
+        self.place(spot.foot, ends, spacing, gap);
         let nodes = std::mem::take(&mut self.nodes);
+        self.foot.fill(spot.foot);
         let (foot_sin, foot_cos) = spot.foot.sin_cos();
         for &(offset, weight) in &nodes {
             let (s, c) = (0.5 * offset).sin_cos();
             let near = offset.abs() < LONGEST * spacing;
-            let middle = (foot_sin * c + foot_cos * s, foot_cos * c - foot_sin * s);
             if near {
                 self.half.fill_from((s, c));
-                self.middle.fill_from(middle);
+                self.middle.combine(&self.foot, &self.half);
                 self.waves.combine(&self.middle, &self.half);
             } else {
-                self.waves.fill_from((middle.0 * c + middle.1 * s, middle.1 * c - middle.0 * s));
+                let (s, c) = (2.0 * s * c, 1.0 - 2.0 * s * s);
+                self.waves.fill_from((foot_sin * c + foot_cos * s, foot_cos * c - foot_sin * s));
             }
-            let point = source.at(&self.waves);
-            let d =
-                if near { source.difference(&self.middle, &self.half) + spot.offset } else { point.place - spot.place };
-            let ring = Ring::new(d, target, point.place.y, with_gradient);
+            let way = near.then(|| source.difference(&self.middle, &self.half) + spot.offset);
+            // Only a double layer has a normal.
+            let point = match way {
+                Some(d) if wanted == Wanted::Single => Point { place: spot.place + d, tangent: Vec2::ZERO },
+                _ => source.at(&self.waves),
+            };
+            let ring = Ring::new(way.unwrap_or(point.place - spot.place), target, point.place.y, wanted);
             let halves = near.then_some([&self.middle, &self.half]);
-            visit(Source { weight, point, ring, waves: &self.waves, node: None, halves });
+            visit(Source { weight, point, ring, waves: &self.waves, force: None, halves });
         }
         self.nodes = nodes;
     }

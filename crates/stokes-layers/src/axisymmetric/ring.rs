@@ -12,6 +12,17 @@ const NEAR_AXIS: f64 = 0.18;
 /// Points of these sums in a turn, exact to round-off below that bound.
 const POINTS: usize = 16;
 
+/// Layers that a ring is wanted for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// The single layer.
+    Single,
+    /// Both.
+    Both,
+    /// Both with their gradients.
+    Gradients,
+}
+
 /// Azimuthal integrals of a ring of source points and a target in the meridian plane, whose coordinates are the
 /// distance x along the axis and r from it.
 ///
@@ -53,16 +64,20 @@ pub(super) fn elliptic(complement: f64) -> (f64, f64) {
 }
 
 impl Ring {
-    /// The ring of a source at the difference `d` from a target (length), with the moments of the orders 1 to 5, or to
-    /// 7 `with_gradient`.
-    pub(super) fn new(d: Vec2, target: f64, source: f64, with_gradient: bool) -> Self {
+    /// The ring of a source at the difference `d` from a target (length), with the moments of the orders 1 and 3, to 5
+    /// for double layers, to 7 for gradients.
+    pub(super) fn new(d: Vec2, target: f64, source: f64, wanted: Wanted) -> Self {
         let distance = d.length_squared();
         let product = 2.0 * target * source;
         let mean = distance + product;
         let moments = if product < NEAR_AXIS * mean {
-            summed(distance, product, with_gradient)
+            match wanted {
+                Wanted::Single => summed::<2>(distance, product),
+                Wanted::Both => summed::<3>(distance, product),
+                Wanted::Gradients => summed::<4>(distance, product),
+            }
         } else {
-            elliptic_moments(distance, product, with_gradient)
+            elliptic_moments(distance, product, wanted)
         };
         Self { d, target, source, moments }
     }
@@ -172,7 +187,7 @@ fn times<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B
 }
 
 /// Moments by elliptic integrals, `distance` the square of the vector d and `product` 2 r r0.
-fn elliptic_moments(distance: f64, product: f64, with_gradient: bool) -> [[f64; 5]; 4] {
+fn elliptic_moments(distance: f64, product: f64, wanted: Wanted) -> [[f64; 5]; 4] {
     let (mean, largest) = (distance + product, distance + 2.0 * product);
     let root = largest.sqrt();
     let complement = distance / largest;
@@ -186,6 +201,9 @@ fn elliptic_moments(distance: f64, product: f64, with_gradient: bool) -> [[f64; 
     t[0] = 4.0 * e / (root * distance);
     t[1] = 4.0 * difference / root * inverse;
     t[2] = (v[1] - distance * t[1]) * inverse;
+    if wanted == Wanted::Single {
+        return moments;
+    }
     // distance times the moment 0 of order 5, from the recurrence in the order.
     let scaled = (2.0 * mean * t[0] - 0.5 * first) / (1.5 * largest);
     s[0] = scaled / distance;
@@ -193,7 +211,7 @@ fn elliptic_moments(distance: f64, product: f64, with_gradient: bool) -> [[f64; 
     for n in 2..4 {
         s[n] = (t[n - 1] - distance * s[n - 1]) * inverse;
     }
-    if with_gradient {
+    if wanted == Wanted::Gradients {
         let scaled = (4.0 * mean * s[0] - 1.5 * t[0]) / (2.5 * largest);
         u[0] = scaled / distance;
         u[1] = (s[0] - scaled) * inverse;
@@ -204,8 +222,8 @@ fn elliptic_moments(distance: f64, product: f64, with_gradient: bool) -> [[f64; 
     moments
 }
 
-/// Moments by the trapezoidal rule.
-fn summed(distance: f64, product: f64, with_gradient: bool) -> [[f64; 5]; 4] {
+/// Moments of so many orders by the trapezoidal rule.
+fn summed<const ORDERS: usize>(distance: f64, product: f64) -> [[f64; 5]; 4] {
     /// w at the points of half a turn.
     const W: [f64; POINTS / 2 + 1] = [
         0.0,
@@ -219,12 +237,11 @@ fn summed(distance: f64, product: f64, with_gradient: bool) -> [[f64; 5]; 4] {
         2.0,
     ];
     let mut moments = [[0.0; 5]; 4];
-    let orders = if with_gradient { 4 } else { 3 };
     for (j, w) in W.into_iter().enumerate() {
         let square = 1.0 / (distance + product * w);
         let weight = if j == 0 || j == POINTS / 2 { 1.0 } else { 2.0 };
         let mut value = weight * TAU / POINTS as f64 * square.sqrt();
-        for moments in &mut moments[..orders] {
+        for moments in &mut moments[..ORDERS] {
             let mut power = value;
             for moment in moments {
                 *moment += power;
