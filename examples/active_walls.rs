@@ -23,7 +23,7 @@ use motile_examples::{DropletFlags, MethodFlags, activity, pair, positive};
 use motile_output::Look;
 use motile_output::run::{OutputFlags, SceneRun};
 
-/// What is between the walls.
+/// Body between the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Between {
     /// Fluid alone.
@@ -62,7 +62,7 @@ struct Flags {
     /// Seed of the perturbation of the particles on the walls
     #[arg(long, default_value_t = 1)]
     wall_seed: u64,
-    /// What is between the walls
+    /// Body between the walls
     #[arg(long, value_enum, default_value_t = Between::None)]
     droplet: Between,
     /// The droplet, and the viscosities

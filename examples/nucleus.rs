@@ -21,7 +21,7 @@ use motile_examples::{AnyRegionFlags, Preset, SceneFlags, not_negative, pair, po
 const RADIUS: f64 = 1.0;
 const LEAST_RADIUS: f64 = 0.02;
 
-/// What is inside the droplet.
+/// Body inside the droplet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Core {
     /// An elastic disc, neo-Hookean; needs a grid.
@@ -37,7 +37,7 @@ enum Core {
 /// The core.
 #[derive(Debug, Clone, PartialEq, Args)]
 struct CoreFlags {
-    /// What is inside the droplet
+    /// Body inside the droplet
     #[arg(long, value_enum, default_value_t = Core::Rigid)]
     core: Core,
     /// Radius of the core (R0)

@@ -65,7 +65,7 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
     }
 }
 
-/// What is wrong with a command line, in one sentence.
+/// Fault of a command line, in one sentence.
 pub(crate) fn sentence(error: &clap::Error, command: &clap::Command) -> String {
     let context = |kind: ContextKind| match error.get(kind) {
         Some(ContextValue::String(text)) => text.clone(),

@@ -189,7 +189,7 @@ pub struct AlongFlags {
     /// Initial distance of the droplet from the centre line (R0)
     #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
     pub lateral_offset: f64,
-    /// What drives the flow
+    /// Drive of the flow
     #[arg(long, default_value = "zero-gradient", value_parser = one_of(&DRIVES))]
     pub drive: Drive,
     /// Net flux along the channel (R0^2 per time)
@@ -204,7 +204,7 @@ pub struct AlongFlags {
 }
 
 impl AlongFlags {
-    /// What drives the flow.
+    /// Drive of the flow.
     #[must_use]
     pub fn driven(&self) -> Drive {
         self.flux.map(Drive::Flux).or(self.gradient.map(Drive::Gradient)).unwrap_or(self.drive)
@@ -240,7 +240,7 @@ impl RegionFlags for ChannelFlags {
     }
 }
 
-/// What a run of a droplet is told: the droplet, the region `R`, the method, the output.
+/// Flags of a run of a droplet: the droplet, the region `R`, the method, the output.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct SceneFlags<R: Args> {
     /// The droplet

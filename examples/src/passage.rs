@@ -1,4 +1,4 @@
-//! What becomes of a droplet that meets a constriction.
+//! Fate of a droplet that meets a constriction.
 
 use motile::active_interface::{ActiveDroplet, polygon_moments};
 use motile::motile_scene::{Hydrodynamics, Observer, System};
@@ -12,15 +12,15 @@ const BACK: f64 = 1.0;
 /// A droplet is stuck that has stayed within this distance (R0) for this time, four times R0^2/D.
 const REST: (f64, f64) = (0.02, 40.0);
 
-/// What became of a droplet, as it stands in `summary.json`.
+/// Fate of a droplet, as it stands in `summary.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Its centroid is beyond the far end of the constriction.
     Passed,
-    /// It has come back by its radius from where it was furthest.
+    /// The droplet has come back by its radius from where it was furthest.
     TurnedBack,
-    /// It has stayed in its place.
+    /// The droplet has stayed in its place.
     Stuck,
     /// None of this, yet.
     Undecided,

@@ -130,7 +130,7 @@ fn draw(flags: &Flags) -> Result<()> {
     diagram.finish()
 }
 
-/// What is written of a diagram.
+/// Files of a diagram.
 struct Diagram<'a> {
     flags: &'a Flags,
     branch: usize,

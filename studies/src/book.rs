@@ -82,7 +82,7 @@ impl Making {
     }
 }
 
-/// What is kept of a figure that was made, in `docs/book/figures`.
+/// Record of a figure that was made, in `docs/book/figures`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
     commit: String,
@@ -174,7 +174,7 @@ fn read(number: &str) -> Result<Figure> {
     read().with_context(|| path.display().to_string())
 }
 
-/// What names stand for in all figures.
+/// Meaning of names in all figures.
 fn definitions() -> Result<Definitions> {
     let path = directory().join("definitions.toml");
     let read = || -> Result<Definitions> { Ok(toml::from_str(&fs::read_to_string(&path)?)?) };

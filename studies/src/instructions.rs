@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 0.05;
 /// Time step of scenes: steps alike.
 const DT: f64 = 1e-4;
 
-/// What is counted: valgrind looks for this name.
+/// Function that is counted: valgrind looks for this name.
 #[inline(never)]
 fn counted(work: &mut dyn FnMut() -> Result<()>) -> Result<()> {
     black_box(work())
@@ -115,7 +115,7 @@ fn in_flow(flow: FlowSetup) -> Setup {
 /// Something to count.
 type Work = fn() -> Result<()>;
 
-/// What is counted, by name.
+/// Counted work by name.
 const WORKS: [(&str, Work); 14] = [
     ("periodic Stokes solve, 120 x 120", || solve(PeriodicStokes::new(Grid::periodic(120, 120, 0.05)?, 1.0)?)),
     ("channel Stokes solve, 120 x 60", || solve(ChannelStokes::new(Grid::channel(120, 60, 0.05)?, 1.0)?)),

@@ -1,4 +1,4 @@
-//! What prints the tables and figures of motile's documents.
+//! Program that prints the tables and figures of motile's documents.
 //!
 //! `cargo run --release -p studies -- NAME` runs one of them; `--help` lists the names, `NAME --help` its flags.
 //!

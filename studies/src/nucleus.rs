@@ -20,7 +20,7 @@ use steady_states::{Parameter, Profile, SteadyState};
 
 use crate::tables;
 
-/// Whether droplets with a nucleus swim in circles.
+/// Circles of droplets with a nucleus.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// Time to which they swim before Newton's method takes over

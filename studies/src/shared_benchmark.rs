@@ -47,7 +47,7 @@ const END: f64 = 2.0;
 const REPETITIONS: usize = 5;
 const LONG: f64 = 0.1;
 
-/// What a run found: aspect ratio less that of the reference, relative change of the area, seconds.
+/// Result of a run: aspect ratio less that of the reference, relative change of the area, seconds.
 type Found = [f64; 3];
 /// Code, settings, and what runs them.
 type Run = (&'static str, String, Box<dyn Fn() -> Result<Found>>);
@@ -124,7 +124,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     Ok(())
 }
 
-/// What a run finds, and its processor time (seconds), which is too coarse a clock for a single short run.
+/// Result of a run, and its processor time (seconds), which is too coarse a clock for a single short run.
 fn timed<T>(run: impl Fn() -> Result<T>) -> Result<(T, f64)> {
     let clock = || processor_time().context("no clock of the processor's time");
     let start = clock()?;

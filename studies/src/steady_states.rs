@@ -29,7 +29,7 @@ pub(crate) struct Flags {
     keep: tables::Keep,
 }
 
-/// What the tables depend on besides what every run does.
+/// Sources that the tables depend on besides those of every run.
 const INPUTS: [&str; 3] = ["tests/src/validation", "crates/steady-states/src", "studies/src/steady_states"];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -31,7 +31,7 @@ use clap::Args;
 use motile_output::run::say;
 use motile_tests::validation::Table;
 
-/// What every run of a droplet depends on.
+/// Sources that every run of a droplet depends on.
 const RUNS: [&str; 8] = [
     "crates/motile-base",
     "crates/stokes-grid",
@@ -42,11 +42,11 @@ const RUNS: [&str; 8] = [
     "crates/active-interface",
     "crates/motile/src/setup",
 ];
-/// What files state before their table.
+/// Head of files before their table.
 const COMMIT: &str = "# commit: ";
 const INPUTS: &str = "# depends on: ";
 const COMMAND: &str = "# ";
-/// What stands in pages.
+/// Tables that stand in pages.
 const BEGIN: &str = "<!-- table ";
 const END: &str = "<!-- end of table -->";
 const SCENE: &str = "<!-- scene ";
@@ -121,7 +121,7 @@ pub(crate) fn write(name: &str, command: &str, inputs: &[&str], found: &[Table])
     Ok(())
 }
 
-/// Whether the files have the tables that were made now.
+/// True if the files have the tables that were made now.
 ///
 /// # Errors
 /// A file whose title, columns or rows are others.

@@ -1,4 +1,4 @@
-//! What several threads bring, and that they change no result.
+//! Gain of several threads, which change no result.
 //!
 //! `cargo run --release -p studies --features rayon -- threads` times steps of a droplet in a box of 1024 x 1024 cells
 //! and between elastic walls of 50,000 points, on one thread and on more by turns, and compares the states bit by bit.

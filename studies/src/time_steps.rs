@@ -1,4 +1,4 @@
-//! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
+//! Cost of time steps: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
 //! against the predicted ones between walls and of swimmers, the order between halvings of the step, and adaptive
 //! against fixed steps for a swimmer that starts, errors of the default steps in scenes of all kinds.
 //!
@@ -46,7 +46,7 @@ enum Study {
     Default,
 }
 
-/// What time steps cost.
+/// Cost of time steps.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// Which table; without it all
@@ -102,7 +102,7 @@ fn channel(integrator: impl Integrator, activity: f64) -> Result<(Channel, Handl
     Ok((scene.advanced_by(integrator), droplets[0]))
 }
 
-/// What a run came to and what it cost.
+/// Result of a run and its cost.
 struct Cost {
     markers: Vec<Vec2>,
     steps: usize,
@@ -171,7 +171,7 @@ fn stiff_walls(until: f64) -> Result<Table> {
 /// Steps of the reference between stiff walls, as part of the midpoint rule's limit.
 const REFERENCE: f64 = 0.125;
 
-/// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
+/// True if `steps` steps of `dt` from a slightly rough start stay bounded.
 fn is_stable(integrator: impl Integrator, dt: f64, steps: usize) -> Result<bool> {
     let (mut scene, droplet) = channel(integrator, 0.0)?;
     let start = scene.body(droplet)?.markers().to_vec();

@@ -52,7 +52,7 @@ pub(crate) struct Flags {
 
 type Tables = Result<Vec<Table>, StudyError>;
 
-/// What runs a study, with or without the finest grids.
+/// Function that runs a study, with or without the finest grids.
 type Run = fn(bool) -> Tables;
 
 /// All studies.

@@ -1,4 +1,4 @@
-//! Whether runs warn of their errors: scenes at default settings against resolved ones.
+//! Warnings of runs about their errors: scenes at default settings against resolved ones.
 //!
 //! `cargo run --release -p studies -- warnings` prints a table, which `--write` keeps as
 //! `docs/tables/warnings.csv`.
@@ -14,7 +14,7 @@ use motile_tests::validation::Table;
 
 use crate::tables;
 
-/// Whether runs warn of their errors.
+/// Warnings of runs about their errors.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// Time to which the scenes are run

@@ -123,5 +123,5 @@ fn machine() -> String {
     }
 }
 
-/// What the tables depend on beside runs of droplets.
+/// Sources that the tables depend on beside runs of droplets.
 const CODE: [&str; 3] = ["tests/src/validation", "crates/elastic-solids", "studies/src/work_precision"];

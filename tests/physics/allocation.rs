@@ -27,13 +27,13 @@ fn elastic() -> Setup {
     Setup { region: open_channel(6.0, 5.4), solids, ..by_layers(0.1) }
 }
 
-/// The same scene with gels inside the droplets.
+/// Scene with gels inside the droplets.
 fn filled(mut setup: Setup) -> Setup {
     setup.droplets.iter_mut().for_each(|droplet| droplet.gel = Some(GelSetup::default()));
     setup
 }
 
-/// The same scene with droplets of another viscosity.
+/// Scene with droplets of another viscosity.
 fn viscous(mut setup: Setup) -> Setup {
     setup.droplets.iter_mut().for_each(|droplet| droplet.viscosity = Some(1000.0));
     setup

@@ -95,7 +95,7 @@ fn force_moments_are_those_of_the_table() {
     }
 }
 
-/// What Cowley's way is kept for: it is of first order, and its errors grow with the ratio.
+/// Cowley's way and its limits: it is of first order, and its errors grow with the ratio.
 #[test]
 fn a_smeared_viscosity_is_first_order() {
     for region in [SQUARE, open_channel(8.0, 5.0)] {
@@ -115,7 +115,7 @@ fn a_smeared_viscosity_is_first_order() {
     }
 }
 
-/// What the contrast adds to the mean pressure gradient that keeps the flux at zero; with a force on a point, however
+/// Part of the mean pressure gradient at zero flux that comes from the contrast; with a force on a point, however
 /// small, it comes from the grid.
 #[test]
 fn the_mean_pressure_gradient_is_that_of_the_contrast() {

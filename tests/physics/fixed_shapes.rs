@@ -19,7 +19,7 @@ fn second_order_with_the_correction() {
     }
 }
 
-/// What the correction is for: without it the tangential velocity is wrong by a tenth at h = 0.05.
+/// Reason for the correction: without it the tangential velocity is wrong by a tenth at h = 0.05.
 #[test]
 fn first_order_without_it() {
     for case in [Case::Circle, Case::EllipseGradient] {

@@ -220,7 +220,7 @@ fn capsules_of_either_measure() {
     }
 }
 
-/// What is implicit is refused by the method of fourth order.
+/// Implicit parts are refused by the method of fourth order.
 #[test]
 fn particles_by_the_runge_kutta_method() {
     let setup = Setup { integrator: IntegratorKind::RungeKutta, ..Setup::default() };
@@ -468,7 +468,7 @@ fn drops_migrate_in_a_poiseuille_flow() {
     }
 }
 
-/// What a region or a method does not have is refused before any work, with a remedy.
+/// Flows that a region or a method does not have are refused before any work, with a remedy.
 #[test]
 fn flows_that_are_not_there() {
     let (channel, square) =

@@ -30,7 +30,7 @@ fn a_sheared_layer_relaxes_as_kelvin_voigt() {
     }
 }
 
-/// What is left is the time step's.
+/// The rest is the time step's.
 #[test]
 fn a_layer_on_the_surface_leaves_no_error_of_the_grid() {
     for (material, unstructured) in

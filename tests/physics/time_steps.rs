@@ -37,7 +37,7 @@ fn swimmer(integrator: impl Integrator, dt: f64, stabilised: bool) -> Vec<f64> {
     filtered(integrator, dt, stabilised, [false; 2])
 }
 
-/// The same with or without the filter, before and in the last step.
+/// Steps with or without the filter, before and in the last step.
 fn filtered(integrator: impl Integrator, dt: f64, stabilised: bool, [before, last]: [bool; 2]) -> Vec<f64> {
     let filtered = |filter| Motion::Equidistributed { filter, relaxation: 50.0 };
     let droplets = vec![DropletSetup { motion: filtered(before), ..DropletSetup::default() }];
@@ -186,7 +186,7 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
     }
 }
 
-/// What decays sets no bound here, and the first thing that happens is over in a thousandth of such a step.
+/// Modes that decay set no bound here, and the first thing that happens is over in a thousandth of such a step.
 #[test]
 fn steps_of_a_fraction_of_a_long_limit_are_accurate() {
     let setup = Setup { droplets: vec![DropletSetup::active(-4.0)], ..without_grid(24, 96) };

@@ -23,7 +23,7 @@ fn steady_swimmer_with_viscosity_contrast() {
     assert!(errors.speed.abs() < 1e-3 && errors.beta.abs() < 5e-3, "{errors:?}");
 }
 
-/// The same droplet on a grid and without one: the difference shrinks at the grid's order.
+/// A droplet on a grid and without one: the difference shrinks at the grid's order.
 #[test]
 fn both_methods_agree() {
     let aspect_ratio = |method: Method| {

@@ -1,4 +1,4 @@
-//! What a scene computes: only what it needs.
+//! Scenes compute only what they need.
 
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::ib_core::{BSpline, ImmersedBoundary};

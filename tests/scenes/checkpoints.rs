@@ -99,7 +99,7 @@ fn channel(width: f64, drive: Drive) -> Region {
     Region::Channel { length: 6.0, width, drive }
 }
 
-/// The same with droplets of this viscosity, on a grid a smeared one.
+/// Setup with droplets of this viscosity, on a grid a smeared one.
 fn filled(viscosity: f64, setup: &Setup) -> Setup {
     let method = match setup.method {
         Method::Grid(grid) => Method::Grid(GridMethod { corrected: false, ..grid }),
@@ -347,7 +347,7 @@ fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
     }
 }
 
-/// What differs is named with both values, whatever it is.
+/// Differences are named with both values, whatever they are.
 #[test]
 fn a_checkpoint_of_other_physics_is_refused_by_name() {
     let good = filled(20.0, &coarse());

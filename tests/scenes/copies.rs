@@ -1,4 +1,4 @@
-//! What can be copied, and that copies go on by themselves.
+//! Copies of scenes go on by themselves.
 
 use motile::Recommendation;
 use motile::active_interface::trajectory::TrajectoryRecorder;

@@ -49,7 +49,7 @@ fn coarse() -> Setup {
     Setup { method: Method::Grid(GridMethod::uncorrected(0.25)), ..Setup::default() }
 }
 
-/// Whether a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it
+/// True if a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it
 /// would take long is only checked.
 fn builds(setup: &Setup) -> bool {
     if let Method::Grid(GridMethod { spacing, marker_spacing, .. }) = setup.method {
@@ -64,7 +64,7 @@ fn builds(setup: &Setup) -> bool {
     true
 }
 
-/// Whether scenes with such a droplet can be built by both methods.
+/// True if scenes with such a droplet can be built by both methods.
 fn droplet_builds(change: impl Fn(&mut DropletSetup)) -> bool {
     let mut droplet = DropletSetup::default();
     change(&mut droplet);

@@ -1,4 +1,4 @@
-//! What the tests and studies of motile share: comparisons with exact and independently computed values
+//! Library of the tests and studies of motile: comparisons with exact and independently computed values
 //! ([`validation`]), scenes that are hard to compute
 //! ([`hard_cases`]), and descriptions in other units ([`units`]).
 //!

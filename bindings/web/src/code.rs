@@ -1,4 +1,4 @@
-//! The same run by the command line, from Python and in Rust.
+//! One run by the command line, from Python and in Rust.
 
 use std::fmt::Write as _;
 
@@ -30,7 +30,7 @@ impl Way {
         Ok(found.ok_or_else(|| Refusal::plain(format!("there is no way {name} to run a scene")))?.1)
     }
 
-    /// What runs a scene up to a time (time).
+    /// Text that runs a scene up to a time (time).
     ///
     /// # Errors
     /// A description that has no text.

@@ -1,4 +1,4 @@
-//! What is drawn of a state, as flat lists of numbers.
+//! Drawing of a state, as flat lists of numbers.
 
 use motile::motile_base::Vec2;
 use motile_output::{OutputError, Samples, Snapshot, streamlines};

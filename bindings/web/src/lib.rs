@@ -86,7 +86,7 @@ impl Engine {
         Ok(self.live.speed(droplet).map_err(thrown)?.unwrap_or(f64::NAN))
     }
 
-    /// What does not change from step to step, as JSON: corner, periods and walls of the region, whether it is of
+    /// Data that do not change from step to step, as JSON: corner, periods and walls of the region, whether it is of
     /// revolution, mean concentrations, knobs with their labels, ranges and values, the error of the settings, and
     /// whether there is a map of speeds.
     #[must_use]
@@ -163,7 +163,7 @@ impl Engine {
         self.live.records()
     }
 
-    /// What is plotted of the records from one on ([`Live::series`]).
+    /// Series that are plotted of the records from one on ([`Live::series`]).
     #[must_use]
     pub fn series(&self, from: usize) -> Vec<f64> {
         self.live.series(from)
@@ -191,7 +191,7 @@ impl Engine {
         concise::concise(self.live.described()).map_err(thrown)
     }
 
-    /// The same run up to a time (time) elsewhere: `command`, `python` or `rust`.
+    /// Text that runs the scene up to a time (time) elsewhere: `command`, `python` or `rust`.
     ///
     /// # Errors
     /// Another way.

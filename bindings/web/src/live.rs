@@ -28,7 +28,7 @@ const PLOTTED: [&str; 3] = ["speed", "aspect_ratio_moments", "stresslet_xx"];
 pub struct Live {
     /// Description, with suspensions as such.
     described: Setup,
-    /// The same with all droplets at their places.
+    /// Description with all droplets at their places.
     placed: Setup,
     built: Built,
     meters: Vec<DropletMeter>,
@@ -140,7 +140,7 @@ impl Live {
         self.rows.len() / self.record_size()
     }
 
-    /// What is plotted of the records from one on: time, then speed (length per time), aspect ratio and stresslet xx
+    /// Series of the records from one on: time, then speed (length per time), aspect ratio and stresslet xx
     /// (force times length) of each droplet.
     #[must_use]
     pub fn series(&self, from: usize) -> Vec<f64> {

@@ -7,7 +7,7 @@ pub struct Preset {
     pub name: &'static str,
     /// Title.
     pub title: &'static str,
-    /// What it shows, in a sentence.
+    /// Sentence about what it shows.
     pub about: &'static str,
     /// Text of its scene file.
     pub scene: &'static str,

@@ -27,7 +27,7 @@ fn what_is_wrong_with_a_pair_is_told() {
     assert_eq!(pair("1e8").unwrap_err(), "must be two numbers with a comma between them");
 }
 
-/// What is announced is what a description takes.
+/// Ranges that are announced are those that a description takes.
 #[test]
 fn ranges_of_counts() {
     use motile::setup::{Method, Setup};

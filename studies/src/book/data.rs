@@ -1,4 +1,4 @@
-//! What the figures of the book are made from: runs of a plan, steady states of a plan, tables of `docs/tables`.
+//! Data of the figures of the book: runs of a plan, steady states of a plan, tables of `docs/tables`.
 
 use std::path::{Path, PathBuf};
 
@@ -41,12 +41,12 @@ const LONGEST: usize = 40;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Source {
-    /// What it is, in words.
+    /// Description in words.
     about: String,
     /// A plan as those of [`motile_output::sweep`], its scene in it.
     #[serde(default)]
     plan: Option<Table>,
-    /// What is other with `--quick`.
+    /// Changes with `--quick`.
     #[serde(default)]
     quick: Table,
     /// Steady states of the plan's points rather than runs.
@@ -123,7 +123,7 @@ pub(super) struct Data {
 pub(super) const POINTS: &str = "points";
 
 impl Data {
-    /// Whether a name is that of points which are kept with a figure.
+    /// True for the name of points that are kept with a figure.
     pub(super) fn is_of_points(name: &str) -> bool {
         name == POINTS || name.starts_with("points-")
     }
@@ -156,7 +156,7 @@ impl Data {
 }
 
 impl Source {
-    /// What it is, to which time its runs go and at which resolution.
+    /// Description, time to which its runs go and their resolution.
     pub(super) fn told(&self) -> String {
         let Some(plan) = &self.plan else { return self.about.clone() };
         let number = |path: &[&str]| {

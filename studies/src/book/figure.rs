@@ -14,7 +14,7 @@ use super::{ENVIRONMENT, chapter_of};
 /// Longest list `name_*`.
 const MOST_POINTS: usize = 20_000;
 
-/// What the converged results say to a statement of the thesis.
+/// Verdict of the converged results on a statement of the thesis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(super) enum Verdict {
     #[serde(rename = "confirmed")]
@@ -44,7 +44,7 @@ impl Verdict {
         }
     }
 
-    /// Whether it says something of the statement, so that a number has to be able to speak against it.
+    /// True if it says something of the statement, so that a number has to be able to speak against it.
     pub(super) fn decides(self) -> bool {
         !matches!(self, Self::CannotTell | Self::NoClaim)
     }
@@ -173,7 +173,7 @@ struct Check {
     points: Points,
     /// Where the number is for the verdict to stand, stated before it is found.
     within: Option<[f64; 2]>,
-    /// What the number would be if the contrary of the verdict were so: outside of the range.
+    /// The number if the contrary of the verdict were so: outside of the range.
     opposite: Option<f64>,
 }
 
@@ -202,7 +202,7 @@ pub(super) struct Judged {
     pub(super) text: Option<String>,
     within: Option<[f64; 2]>,
     opposite: Option<f64>,
-    /// Whether the verdict can stand.
+    /// True if the verdict can stand.
     pub(super) stands: bool,
 }
 
@@ -214,7 +214,7 @@ impl Judged {
         format!(" [stands in {} to {}{opposite}]", shown(low), shown(high))
     }
 
-    /// Whether it is a number that the contrary of a statement would make another.
+    /// True for a number that the contrary of a statement would make another.
     fn decides(&self) -> bool {
         self.opposite.is_some()
     }
@@ -253,7 +253,7 @@ impl Figure {
         names.filter(|name| name.starts_with("points-"))
     }
 
-    /// What was kept of checks of runs, and checks that need none found anew: of points that are kept, of tables, of
+    /// Kept results of checks of runs, and checks that need none found anew: of points that are kept, of tables, of
     /// lists of numbers.
     pub(super) fn found(&self, common: &Definitions, kept: &[Checked]) -> Result<Vec<Checked>> {
         let definitions = self.definitions(common)?;

@@ -122,7 +122,7 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
     Ok(pages)
 }
 
-/// What the data of a chapter's figures are, once for all of them.
+/// Description of the data of a chapter's figures, once for all of them.
 fn told<'a>(numbers: impl Iterator<Item = &'a String>) -> Result<String> {
     let mut names: Vec<String> = Vec::new();
     for number in numbers {

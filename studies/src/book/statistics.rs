@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// What is found of the points of a check.
+/// Results of the points of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Measure {
@@ -193,7 +193,7 @@ fn spreads(points: &[(f64, f64)]) -> impl Iterator<Item = f64> + Clone + '_ {
     })
 }
 
-/// Whether two abscissas are one.
+/// True if two abscissas are one.
 pub(super) fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
 }

@@ -1,4 +1,4 @@
-//! What a droplet does over its dimensionless numbers.
+//! Regimes of a droplet over its dimensionless numbers.
 
 use std::fs;
 

@@ -72,7 +72,7 @@ pub(super) fn swimmers() -> Result<Vec<Table>> {
     Ok(vec![table, beside_runs()?])
 }
 
-/// What an error of the speed of 1e-4 takes by a state of 48 nodes, from nothing and from its neighbour at an activity
+/// Cost of an error of the speed of 1e-4 by a state of 48 nodes, from nothing and from its neighbour at an activity
 /// of -2.05, and by a run of 72 nodes and 288 cells, by turns.
 fn beside_runs() -> Result<Table> {
     let header = [

@@ -14,7 +14,7 @@ use crate::step_cost::watched::Stopwatches;
 
 /// A scene to be measured.
 pub(crate) struct Case<H> {
-    /// What it is.
+    /// Description.
     pub(crate) kind: &'static str,
     pub(crate) scene: Scene<H>,
     pub(crate) watches: Stopwatches,
@@ -22,7 +22,7 @@ pub(crate) struct Case<H> {
     pub(crate) grid: Grid,
     pub(crate) kernel: AnyKernel,
     pub(crate) dt: f64,
-    /// Whether the grid is only a measure.
+    /// True if the grid is only a measure.
     pub(crate) without_grid: bool,
     /// Unknowns along the interface, without a grid.
     pub(crate) nodes: usize,

@@ -28,14 +28,14 @@ impl Stopwatch {
     }
 }
 
-/// What the parts of a step took.
+/// Times of the parts of a step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stopwatches {
     /// Geometry, tension and forces of bodies.
     pub(crate) forces: Stopwatch,
     /// Rates of bodies and the implicit parts.
     pub(crate) transport: Stopwatch,
-    /// What bodies do before and after a step.
+    /// Work of bodies before and after a step.
     pub(crate) upkeep: Stopwatch,
     /// Everything between forces and velocities.
     pub(crate) flow: Stopwatch,

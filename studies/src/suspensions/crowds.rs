@@ -1,4 +1,4 @@
-//! What many droplets do together, over activity, fraction and ratio of viscosities.
+//! Behaviour of many droplets together, over activity, fraction and ratio of viscosities.
 
 use anyhow::Result;
 use motile::active_interface::suspension::rotational_diffusion;

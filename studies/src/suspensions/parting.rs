@@ -12,7 +12,7 @@ const COUNT: usize = 100;
 const FRACTION: f64 = 0.3;
 const ACTIVITY: f64 = -2.0;
 const NODES: usize = 64;
-/// What is compared with [`NODES`] nodes at the usual tolerance, all with the same repulsion.
+/// Settings that are compared with [`NODES`] nodes at the usual tolerance, all with the same repulsion.
 const OTHERS: [(&str, usize, f64); 2] = [("96 nodes", 96, 1e-6), ("tolerance 1e-9", NODES, 1e-9)];
 const TIMES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 

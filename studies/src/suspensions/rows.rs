@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use motile_output::run::say;
 
-/// What parts the name of a row from its values, and these from one another.
+/// Separator of the name of a row from its values, and of these from one another.
 const TAB: char = '\t';
 
 /// Rows by their names.

@@ -140,7 +140,7 @@ fn methods(quick: bool) -> Vec<(&'static str, String, Setup)> {
     all
 }
 
-/// The same scene with a droplet in a channel of width 5 and period 12, off the centre line.
+/// Scene with a droplet in a channel of width 5 and period 12, off the centre line.
 fn off_centre(base: Setup, activity: f64, offset: f64) -> Setup {
     let droplet = DropletSetup { centre: [0.0, offset], ..DropletSetup::active(activity) };
     Setup { region: open_channel(12.0, 5.0), droplets: vec![droplet], ..base }

@@ -17,7 +17,7 @@ fn square(side: f64) -> Region {
     Region::Box { lengths: [side; 2] }
 }
 
-/// The same scene with a droplet of an activity and a viscosity in fluid of viscosity 10.
+/// Scene with a droplet of an activity and a viscosity in fluid of viscosity 10.
 fn viscous(base: Setup, activity: f64, viscosity: f64) -> Setup {
     let droplet = DropletSetup { viscosity: Some(viscosity), ..DropletSetup::active(activity) };
     Setup { viscosity: 10.0, droplets: vec![droplet], ..base }

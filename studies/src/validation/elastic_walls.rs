@@ -19,7 +19,7 @@ struct Case {
     activity: f64,
     nodes: usize,
     time: f64,
-    /// Whether it is long enough for the finer grid to be left out.
+    /// True if it is long enough for the finer grid to be left out.
     coarse: bool,
 }
 

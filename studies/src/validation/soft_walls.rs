@@ -15,7 +15,7 @@ use crate::work_precision::cost::processor_time;
 struct Case {
     young: f64,
     activity: f64,
-    /// Whether forces on inner points are spread over the triangles.
+    /// True if forces on inner points are spread over the triangles.
     spread: bool,
     /// Length of the channel.
     length: f64,

@@ -1,4 +1,4 @@
-//! What a run costs.
+//! Cost of a run.
 
 use std::time::Instant;
 
@@ -14,12 +14,12 @@ const EVERY: usize = 8;
 /// Side of the transform that is the unit, in cells.
 pub(crate) const UNIT: usize = 120;
 
-/// What a run cost.
+/// Cost of a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cost {
     /// Seconds per unit of simulated time.
     pub(crate) seconds: f64,
-    /// The same in forward and inverse real FFTs of 120 x 120, measured by turns with the steps.
+    /// Cost in forward and inverse real FFTs of 120 x 120, measured by turns with the steps.
     pub(crate) pairs: f64,
     /// Median time of such a pair (seconds).
     pub(crate) pair: f64,

@@ -6,7 +6,7 @@ use crate::work_precision::lists::series;
 use crate::work_precision::settings::{Flow, Settings};
 use crate::work_precision::studies::Study;
 
-/// What came out.
+/// Results.
 #[derive(Debug, Clone)]
 pub(crate) struct Point {
     pub(crate) study: Study,
@@ -52,7 +52,7 @@ pub(crate) fn cheapest<'a>(points: &[&'a Point], target: f64) -> Option<&'a Poin
     points.iter().filter(holds).min_by(|a, b| a.pairs().total_cmp(&b.pairs())).copied()
 }
 
-/// What an error costs.
+/// Cost of an error.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Expense {
     /// Transforms per unit of simulated time.

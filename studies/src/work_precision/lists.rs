@@ -174,7 +174,7 @@ fn elastic() -> Vec<Settings> {
     list
 }
 
-/// What a series of refinements has in common.
+/// Common settings of a series of refinements.
 pub(crate) fn series(settings: &Settings) -> String {
     let flow = match settings.flow {
         Flow::Integrals { nodes, cells } => format!("cells {}", cells / nodes),

@@ -172,7 +172,7 @@ impl Settings {
         summary.put("ds", markers, "");
     }
 
-    /// Whether this is the preset as it is.
+    /// True for the preset as it is.
     pub(crate) fn is_preset(&self) -> Option<&'static str> {
         let mut plain = match self.preset {
             Preset::Default => Setup::default(),

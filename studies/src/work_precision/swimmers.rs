@@ -74,7 +74,7 @@ pub(crate) fn ratio_10(settings: &Settings) -> Result<(f64, Cost)> {
     against(&boxed(settings, -1.0, Some(10.0)), settings, reference.value("speed")?)
 }
 
-/// The same swimmer a hundred times as viscous.
+/// Swimmer a hundred times as viscous.
 pub(crate) fn ratio_100(settings: &Settings) -> Result<(f64, Cost)> {
     against(&boxed(settings, -1.0, Some(1.0)), settings, RATIO_100)
 }

@@ -66,7 +66,7 @@ impl fmt::Display for Way {
     }
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Debug)]
 pub struct Outcome {
     /// How it ended.
@@ -81,7 +81,7 @@ pub struct Outcome {
     pub rejected: usize,
     /// Evaluations of the flow.
     pub evaluations: usize,
-    /// What changed.
+    /// Changes.
     pub drift: Drift,
     /// Wall clock time (seconds).
     pub seconds: f64,
@@ -94,7 +94,7 @@ pub type Look<'a> = &'a mut dyn FnMut(&mut System<AnyFlow>);
 pub struct Trial {
     /// Number of the case.
     pub number: usize,
-    /// What is hard.
+    /// Difficulty.
     pub name: &'static str,
     /// How it is computed.
     pub way: Way,
@@ -123,7 +123,7 @@ impl Trial {
         (self.run)(self.way, extent, look)
     }
 
-    /// What is wrong with an outcome, if anything is.
+    /// Fault of an outcome, if there is one.
     #[must_use]
     pub fn complaint(&self, outcome: &Outcome) -> Option<String> {
         if !self.expected.contains(&outcome.ending) {
@@ -151,7 +151,7 @@ pub fn cases() -> Vec<Trial> {
     all
 }
 
-/// What makes [`Trial`]s of the same case.
+/// Maker of [`Trial`]s of one case.
 pub(crate) struct Recipe {
     number: usize,
     name: &'static str,
@@ -180,7 +180,7 @@ impl Recipe {
         Self { expected, ..self }
     }
 
-    /// The same with another bound on the area.
+    /// Trial with another bound on the area.
     pub(crate) fn area_within(self, area: f64) -> Self {
         Self { area, ..self }
     }

@@ -20,7 +20,7 @@ fn refused(times: f64, way: Way, look: Look<'_>) -> Result<Outcome, CaseError> {
     Ok(run(scene, 1000.0 * limit, StepSize::Fixed(times * limit), look))
 }
 
-/// The same steps taken by hand, where nothing refuses them.
+/// Steps taken by hand, where nothing refuses them.
 fn forced(times: f64, way: Way, look: Look<'_>) -> Result<Outcome, CaseError> {
     let (mut scene, limit) = scene(way)?;
     Ok(measured(&mut scene, look, |scene| (0..200).try_for_each(|_| scene.step(times * limit))))

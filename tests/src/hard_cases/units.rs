@@ -1,4 +1,4 @@
-//! The same scene in other units.
+//! Scenes in other units.
 
 use motile::active_interface::ActiveDroplet;
 use motile::motile_base::Region;

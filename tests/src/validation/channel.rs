@@ -25,7 +25,7 @@ pub(crate) fn solver(lengths: [f64; 2], h: f64, drive: Drive, viscosity: f64) ->
 /// that are at least 0.5 from the force; the velocities there are of order one.
 ///
 /// # Errors
-/// What a setup can fail with.
+/// Those of a setup.
 pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, StudyError> {
     let table = Reference::read(ReferenceFile::ChannelPointForces)?.select("conv", convention(drive));
     let column = |name: &str| table.column(name);
@@ -69,7 +69,7 @@ pub struct ShapeErrors {
 /// The errors of a shape with its centre at the height `height` (0, or 0.3 for the circle).
 ///
 /// # Errors
-/// What a setup can fail with.
+/// Those of a setup.
 pub fn fixed_shape<K: Kernel>(
     kernel: &K,
     corrected: bool,

@@ -48,13 +48,13 @@ impl Droplet {
         Self { axes: [1.3, 1.0 / 1.3], ..Self::circle(1, ratio) }
     }
 
-    /// The same moved.
+    /// Copy that is moved.
     #[must_use]
     pub fn at(self, x: f64, y: f64) -> Self {
         Self { centre: [x, y], ..self }
     }
 
-    /// The same with the phase of the tension.
+    /// Copy with the phase of the tension.
     #[must_use]
     pub fn turned(self, phase: f64) -> Self {
         Self { phase, ..self }
@@ -173,7 +173,7 @@ impl Exact {
     /// By boundary integrals with `nodes` nodes a droplet.
     ///
     /// # Errors
-    /// What the solver can fail with.
+    /// Those of the solver.
     pub fn new(region: Region, droplets: &[Droplet], nodes: usize) -> Result<Self, StudyError> {
         let mut markers = Markers::new();
         droplets.iter().for_each(|droplet| droplet.push_exact(nodes, &mut markers));
@@ -202,7 +202,7 @@ impl Exact {
         &self.velocities[droplet]
     }
 
-    /// Whether a droplet moves, so that the error of its velocity can be relative to that.
+    /// True if a droplet moves, so that the error of its velocity can be relative to that.
     #[must_use]
     pub fn moves(&self, droplet: usize) -> bool {
         let largest = self.velocities[droplet].iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -212,7 +212,7 @@ impl Exact {
     /// The errors of layers with `nodes` nodes, on twice as many markers, droplet by droplet.
     ///
     /// # Errors
-    /// What the solver can fail with.
+    /// Those of the solver.
     pub fn errors(&self, nodes: usize) -> Result<Vec<Errors>, StudyError> {
         let mut markers = Markers::new();
         self.droplets.iter().for_each(|droplet| droplet.push_exact(2 * nodes, &mut markers));

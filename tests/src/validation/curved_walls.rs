@@ -186,8 +186,8 @@ pub fn gradient(length: f64, amplitude: f64, nodes: usize) -> Result<f64, StudyE
     Ok(-flow.velocities(&mut markers)?.mean_pressure_gradient[0])
 }
 
-/// The same to the second power of the amplitude, from the boundary conditions expanded about the straight sides: with
-/// k = 2 pi/length, `3/2 (1 + amplitude^2 (3 k sinh(k)^2/(sinh(k) cosh(k) - k) - 3/2))`.
+/// Mean pressure gradient to the second power of the amplitude, from the boundary conditions expanded about the
+/// straight sides: with k = 2 pi/length, `3/2 (1 + amplitude^2 (3 k sinh(k)^2/(sinh(k) cosh(k) - k) - 3/2))`.
 #[must_use]
 pub fn small_amplitude(length: f64, amplitude: f64) -> f64 {
     let k = TAU / length;
@@ -195,7 +195,7 @@ pub fn small_amplitude(length: f64, amplitude: f64) -> f64 {
     1.5 * (1.0 + amplitude * amplitude * (3.0 * k * sinh * sinh / (sinh * cosh - k) - 1.5))
 }
 
-/// The same in the limit of a long channel: 3/2 times the mean of 1/h^3, h the half width.
+/// Mean pressure gradient in the limit of a long channel: 3/2 times the mean of 1/h^3, h the half width.
 #[must_use]
 pub fn lubrication(amplitude: f64) -> f64 {
     let square = amplitude * amplitude;

@@ -81,7 +81,7 @@ impl Suspension {
     /// Velocities at the nodes and the iterations that they took.
     ///
     /// # Errors
-    /// What the solver can fail with.
+    /// Those of the solver.
     pub fn velocities(&self, tolerance: f64) -> Result<(Vec<Vec2>, usize), StudyError> {
         let (mut solver, mut markers) = self.solver(Surroundings::Box, tolerance)?;
         let iterations = solver.velocities(&mut markers)?.iterations;
@@ -91,7 +91,7 @@ impl Suspension {
     /// Solver and markers, in other surroundings too.
     ///
     /// # Errors
-    /// What the solver can be refused for.
+    /// Those of solvers that such surroundings are refused for.
     pub fn solver(
         &self,
         surroundings: Surroundings,
@@ -126,7 +126,7 @@ pub fn few(ratio: f64) -> Suspension {
 /// in the box alone.
 ///
 /// # Errors
-/// What the solver can fail with.
+/// Those of the solver.
 pub fn error(alone: &Suspension, exact: &[Vec2], times: [usize; 2], tolerance: f64) -> Result<f64, StudyError> {
     let (found, _) = alone.repeated(times).velocities(tolerance)?;
     let largest = exact.iter().map(|v| v.length()).fold(0.0, f64::max);

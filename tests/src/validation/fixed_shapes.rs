@@ -17,7 +17,7 @@ pub enum Case {
     Circle,
     /// The ellipse (1.3 cos t, sin t / 1.3) with gamma = 1.
     EllipseUniform,
-    /// The same ellipse with gamma = 1 + 0.5 cos t.
+    /// Ellipse with gamma = 1 + 0.5 cos t.
     EllipseGradient,
 }
 
@@ -78,7 +78,7 @@ pub fn errors<K: Kernel>(kernel: &K, corrected: bool, h: f64, case: Case) -> Res
 /// The errors of any flow in a 6 x 6 box of viscosity 1, markers h/2 apart, and the markers.
 ///
 /// # Errors
-/// What an evaluation can fail with.
+/// Those of an evaluation.
 pub fn compare<H: Hydrodynamics>(flow: &mut H, h: f64, case: Case) -> Result<(Errors, Markers), StudyError> {
     let mut shape = Shape::new(case, 0.0, h)?;
     flow.velocities(&mut shape.markers)?;

@@ -15,7 +15,7 @@ use motile::setup::{AnyFlow, IntegralMethod, Method, Particles, Setup};
 use crate::validation::StudyError;
 use crate::validation::scene::flow;
 
-/// What is perturbed on a droplet of radius one.
+/// Perturbation of a droplet of radius one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// The concentration, `c0 (1 + epsilon cos k theta)`.
@@ -72,7 +72,7 @@ struct Watch {
 /// runs with opposite perturbations, so that what a grid and a box do to a round droplet does not count.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn rate_in_region(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
     measure(setup, mode, &Watch { epsilon: 1e-5, duration: 0.2, steps: 20.0 }, || Ok(setup.flow()?))
 }
@@ -80,7 +80,7 @@ pub fn rate_in_region(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
 /// The growth rate without a box: from boxes of 6, 12 and 24 radii, whose effect is a series in 1/L^2.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn rate(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
     let mut rates = [0.0; 3];
     for (rate, l) in rates.iter_mut().zip([6.0, 12.0, 24.0]) {
@@ -96,7 +96,7 @@ pub fn rate(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
 /// region: it is slow, so it is watched for longer.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn polarisation_rate(setup: &Setup) -> Result<f64, StudyError> {
     let watch = Watch { epsilon: 1e-3, duration: 1.0, steps: 20.0 };
     measure(setup, Mode::Concentration(1), &watch, || flow(setup.region, setup.method, setup.viscosity, 1e-8))
@@ -105,7 +105,7 @@ pub fn polarisation_rate(setup: &Setup) -> Result<f64, StudyError> {
 /// The growth rate in unbounded fluid, by boundary integrals with `nodes` nodes and `cells` cells.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
     let method = Method::Integral(IntegralMethod { nodes, cells });
     let watch = Watch { epsilon: 1e-5, duration: 0.1, steps: 100.0 };
@@ -113,10 +113,10 @@ pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> R
     measure(&setup, mode, &watch, || flow(Region::Plane, method, setup.viscosity, 1e-11))
 }
 
-/// The same for infinitely many cells, from `cells` and twice as many: the error of the cells is of second order.
+/// Rate for infinitely many cells, from `cells` and twice as many: the error of the cells is of second order.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn rate_in_plane_limit(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
     let coarse = rate_in_plane(setup, mode, nodes, cells)?;
     Ok((4.0 * rate_in_plane(setup, mode, nodes, 2 * cells)? - coarse) / 3.0)

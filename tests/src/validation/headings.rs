@@ -27,7 +27,7 @@ pub struct Deviation {
 }
 
 impl Course {
-    /// What this course has more than `other`, where it is most.
+    /// Largest excess of this course over `other`.
     #[must_use]
     pub fn beyond(&self, other: &Self) -> Deviation {
         let largest = |values: &mut dyn Iterator<Item = f64>| {
@@ -59,7 +59,7 @@ pub fn off_axis(method: Method, activity: f64, angle: f64) -> Setup {
 /// excluded.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn course(setup: &Setup, every: f64, end: f64) -> Result<Course, StudyError> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut course = Course { headings: Vec::new(), speeds: Vec::new() };

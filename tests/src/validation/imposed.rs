@@ -99,7 +99,7 @@ pub fn seen_at(setup: &Setup, times: &[f64]) -> Result<Vec<Seen>, StudyError> {
 }
 
 impl Seen {
-    /// What is seen by the names of the reference; angles are in radians.
+    /// Observables by the names of the reference; angles are in radians.
     #[must_use]
     pub fn by_name(&self) -> Vec<(&'static str, f64)> {
         let Self { deformation: seen, stresslet, strains } = self;

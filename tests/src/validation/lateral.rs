@@ -1,4 +1,4 @@
-//! What becomes of a lateral offset of a swimmer in a channel.
+//! Fate of a lateral offset of a swimmer in a channel.
 
 use motile::active_interface::trajectory::{LinearMode, extrema, fit_linear_mode};
 use motile::setup::{Built, Setup};
@@ -30,7 +30,7 @@ fn track(setup: &Setup, time: f64, every: f64) -> Result<Track, StudyError> {
 /// Growth rate and frequency of an offset, from the part of the record after `start`.
 ///
 /// # Errors
-/// What a run or the fit can fail with.
+/// Those of a run or the fit.
 pub fn mode(setup: &Setup, start: f64, time: f64) -> Result<LinearMode, StudyError> {
     let track = track(setup, time, 1.0)?;
     let first = track.times.partition_point(|&t| t < start);

@@ -21,7 +21,7 @@ pub struct Relaxation {
 /// Relaxes the ellipse (1.3 cos t, sin t / 1.3), gamma = eta = 1, in a 6 x 6 box to t = 2.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn run(h: f64, dt: f64) -> Result<Relaxation, StudyError> {
     let all = Reference::read(ReferenceFile::EllipseRelaxation)?;
     let reference = all.select("eta_in", "1").select("t", "2");

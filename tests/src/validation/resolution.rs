@@ -7,7 +7,7 @@ use crate::validation::StudyError;
 use crate::validation::scene::on_grid;
 use crate::validation::swimmers::speeds;
 
-/// What became of a uniform droplet with a small perturbation.
+/// Fate of a uniform droplet with a small perturbation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbed {
     /// When it was looked at last.
@@ -16,7 +16,7 @@ pub struct Perturbed {
     pub largest_early_speed: f64,
     /// Speed then.
     pub speed: f64,
-    /// Whether it swims: faster at the end than at any time in the first half, and not merely by round-off.
+    /// True if it swims: faster at the end than at any time in the first half, and not merely by round-off.
     pub swims: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Perturbed {
 /// threshold of activity at -0.4 (Cowley (2.20)).
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyError> {
     let start = Start::Perturbed { amplitude: 0.05, seed: 1 };
     let particles = Some(Particles { activity, start, ..Particles::default() });
@@ -43,14 +43,14 @@ pub struct MarkerSpacing {
     pub speed: f64,
     /// Cell Peclet number then.
     pub peclet: f64,
-    /// Whether the droplet warned of it.
+    /// True if the droplet warned of it.
     pub warned: bool,
 }
 
 /// Viscosity 10, activity -2, A = 10, h = 0.1, markers `ds` apart, to t = 3.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     let grid = GridMethod { marker_spacing: Some(ds), ..GridMethod::of_spacing(0.1) };
     let setup = Setup { viscosity: 10.0, method: Method::Grid(grid), ..Setup::default() };

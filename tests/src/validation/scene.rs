@@ -47,7 +47,7 @@ pub fn open_channel(length: f64, width: f64) -> Region {
 /// contrast take.
 ///
 /// # Errors
-/// What a setup can fail with.
+/// Those of a setup.
 pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
     match method {
         Method::Integral(IntegralMethod { nodes, .. }) => {

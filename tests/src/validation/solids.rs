@@ -137,7 +137,7 @@ pub fn moduli(sample: Sample, material: Material) -> Result<MeasuredModuli, Soli
 /// Turn of the seeds of unstructured walls (radians).
 const TURN: f64 = 0.2;
 
-/// What a solid is made of.
+/// Material of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Material {
     /// Springs.
@@ -149,9 +149,9 @@ pub enum Material {
 /// An elastic layer on the lower wall of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layer {
-    /// What it is made of.
+    /// Material.
     pub material: Material,
-    /// Whether its mesh is no lattice.
+    /// True if its mesh is no lattice.
     pub unstructured: bool,
     /// How its surface meets the fluid.
     pub surface: Surface,

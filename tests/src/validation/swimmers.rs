@@ -114,7 +114,7 @@ fn flux_through(setup: &Setup, scene: &mut Scene<AnyFlow>, x: f64) -> Result<f64
 /// `swimmer_transient_box6_activity_1.csv`, with the time at which it occurs.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn transient(setup: &Setup) -> Result<(f64, f64), StudyError> {
     let reference = Reference::read(ReferenceFile::Transient)?;
     let (times, expected) = (reference.column("t")?, reference.column("speed")?);
@@ -131,7 +131,7 @@ pub fn transient(setup: &Setup) -> Result<(f64, f64), StudyError> {
 /// Speeds of the first droplet of a scene at increasing times.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn speeds(setup: &Setup, times: &[f64]) -> Result<Vec<f64>, StudyError> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let speed = |&time: &f64| {
@@ -141,7 +141,7 @@ pub fn speeds(setup: &Setup, times: &[f64]) -> Result<Vec<f64>, StudyError> {
     times.iter().map(speed).collect()
 }
 
-/// What became of a swimmer in a long run.
+/// Fate of a swimmer in a long run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LongRun {
     /// Speed at the end.
@@ -182,7 +182,7 @@ impl LongRun {
 /// Runs a scene of one swimmer to `time` and watches it.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn long_run(setup: &Setup, time: f64) -> Result<LongRun, StudyError> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut records: Vec<(f64, Observables)> = Vec::new();

@@ -1,4 +1,4 @@
-//! What an evaluation costs, in transforms of the grid.
+//! Cost of an evaluation, in transforms of the grid.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -17,7 +17,7 @@ use crate::validation::scene::open_channel;
 pub struct Cost {
     /// Time (seconds), the least of all evaluations.
     pub seconds: f64,
-    /// The same in units of one forward and one inverse real transform of the grid.
+    /// Cost in units of one forward and one inverse real transform of the grid.
     pub pairs: f64,
     /// Solves on the grid an evaluation.
     pub solves: f64,
@@ -44,7 +44,7 @@ impl CostScene {
     /// Times evaluations of a round droplet that moves by 0.002 from one to the next, about what a time step does.
     ///
     /// # Errors
-    /// What an evaluation can fail with.
+    /// Those of an evaluation.
     pub fn cost(&self) -> Result<Cost, StudyError> {
         let region = if self.solid_points == 0 { Region::Box { lengths: [6.0; 2] } } else { open_channel(12.0, 6.0) };
         let mut flow = if self.smeared { smeared(region, self.h, 1e-4)? } else { layers(region, self.nodes)? };

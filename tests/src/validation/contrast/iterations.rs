@@ -12,7 +12,7 @@ use super::smeared;
 use crate::validation::StudyError;
 use crate::validation::scene::flow;
 
-/// What solves of a viscosity that varies took.
+/// Iterations of solves of a viscosity that varies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iterations {
     /// Mean over the solves.
@@ -49,7 +49,7 @@ pub fn cold_iterations(region: Region, h: f64, ratio: f64, tolerance: f64) -> Re
 /// `dt` once it has swum to t = 1.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn iterations_in_a_run(
     h: f64,
     ratio: f64,

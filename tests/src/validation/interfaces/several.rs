@@ -10,7 +10,7 @@ use motile::setup::{AnyFlow, Built, DropletSetup, Setup};
 
 use crate::validation::StudyError;
 
-/// What became of several swimmers.
+/// Fate of several swimmers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Several {
     /// Centroids at the end (length).
@@ -29,7 +29,7 @@ pub struct Several {
 /// `2 + offset` apart, to `time`. Each starts 2.5 from the middle.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn passing(base: &Setup, offset: f64, time: f64) -> Result<Several, StudyError> {
     let height = 1.0 + 0.5 * offset;
     run(base, Region::Plane, &[([-2.5, height], 0.0), ([2.5, -height], 0.5 * TAU)], time)
@@ -39,7 +39,7 @@ pub fn passing(base: &Setup, offset: f64, time: f64) -> Result<Several, StudyErr
 /// `time`.
 ///
 /// # Errors
-/// What a run can fail with.
+/// Those of a run.
 pub fn ten_in_a_box(base: &Setup, time: f64) -> Result<Several, StudyError> {
     let [side, _] = base.region.lengths();
     let places: Vec<_> = (0..10)
