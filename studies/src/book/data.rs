@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use motile::motile_base::{Region, Vec2};
+use motile::motile_scene::SceneError;
 use motile::setup::Setup;
 use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
@@ -275,6 +276,10 @@ impl Source {
         };
         let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
+        // What was stopped has not failed, and a figure without it would be another one.
+        let stopped = |failure: &&anyhow::Error| matches!(failure.downcast_ref(), Some(SceneError::Stopped { .. }));
+        let stopped = failures.iter().filter(stopped).count();
+        ensure!(stopped == 0, "data {name}: {stopped} runs were stopped; the same command goes on");
         failed.extend(failures.iter().map(explained));
         for failure in &failed {
             say(format_args!("{name}: left out: {failure}"));
