@@ -38,12 +38,13 @@ use motile_base::{Drive, ImposedFlow, Region};
 use walls::Walls;
 
 /// Nodes of several curves from which on fast sums cost less than sums over pairs and series (measured at ratios of
-/// viscosities of 1, and of 10 and 100, whose iterations read what pairs have stored); otherwise of one curve, and to a
-/// tolerance at which fast sums show round-off, in any region.
+/// viscosities of 1, and of 10 and 100, whose iterations read what pairs have stored); otherwise of one curve, in any
+/// region.
 const MANY_IN_BOX: [usize; 2] = [250, 1500];
 const MANY_IN_CHANNEL: [usize; 2] = [250, 2000];
 const MANY_IN_PLANE: [usize; 2] = [4000, 10_000];
-const MANY_ELSE: usize = 1000;
+const MANY_OF_ONE: usize = 1000;
+/// Tolerance below which fast sums show round-off: sums are then those over pairs, for any number of nodes.
 const ROUND_OFF: f64 = 1e-12;
 /// Least part of a circle around all curves in the plane that they fill where fast sums cost less (measured).
 const FILLED: f64 = 0.005;
@@ -194,7 +195,8 @@ impl Layers {
         let Self { region, stored, curves, starts, .. } = &*self;
         let given = &curves[..stored.first];
         let [equal, different] = match region {
-            _ if given.len() == 1 || self.multipoles.tolerance() < ROUND_OFF => [MANY_ELSE; 2],
+            _ if self.multipoles.tolerance() < ROUND_OFF => [usize::MAX; 2],
+            _ if given.len() == 1 => [MANY_OF_ONE; 2],
             Region::Box { .. } => MANY_IN_BOX,
             Region::Channel { .. } => MANY_IN_CHANNEL,
             _ => MANY_IN_PLANE,
@@ -262,8 +264,10 @@ impl Layers {
     /// later. With `double`, prepares for [`Layers::double_layer`].
     pub(crate) fn single_layer(&mut self, double: bool) {
         self.clear();
+        let short = self.sharpness < 1.0 && self.sums_fast();
         let Self { direct, multipoles, fast, walls, close, curves, plans, flow, stored, images, .. } = self;
         let stored = *stored;
+        close.resolve(short);
         if let Some(fast) = fast {
             close.find(curves, plans, images, stored);
             fast.place(curves);

@@ -20,15 +20,18 @@ fn angle(k: usize, count: usize) -> f64 {
     TAU * k as f64 / count as f64
 }
 
-/// Outlines on a lattice over a square about the middle, of different shapes, with their forces; films between some
-/// are 0.2 wide.
-fn droplets(side: f64) -> Vec<(Vec<Vec2>, Vec<Vec2>)> {
+/// Width of the films between some droplets.
+const FILM: f64 = 0.2;
+
+/// Outlines on a lattice over a square about the middle, of different shapes, with their forces; some films between
+/// them are so wide.
+fn droplets(side: f64, film: f64) -> Vec<(Vec<Vec2>, Vec<Vec2>)> {
     let cell = side / COUNT as f64;
     let mut calculus = PeriodicCalculus::new(NODES).unwrap();
     let outline = |number: usize| -> (Vec<Vec2>, Vec<Vec2>) {
         let place = |k: usize| (k as f64 + 0.5) * cell - 0.5 * side;
         let centre = Vec2::new(place(number % COUNT), place(number / COUNT));
-        let (along, across) = (0.5 * cell - 0.1, 0.4 * cell + 0.02 * (number % 4) as f64);
+        let (along, across) = (0.5 * (cell - film), 0.4 * cell + 0.02 * (number % 4) as f64);
         let at = |k: usize| angle(k, NODES);
         let positions: Vec<Vec2> =
             (0..NODES).map(|k| centre + Vec2::new(along * at(k).cos(), across * at(k).sin())).collect();
@@ -41,8 +44,18 @@ fn droplets(side: f64) -> Vec<(Vec<Vec2>, Vec<Vec2>)> {
 }
 
 /// A flow with the droplets, of which every fourth one is rigid where `rigid` says so, by fast sums or by others.
-fn solved(mut flow: InterfaceFlow, inside: f64, rigid: bool, fast: bool) -> InterfaceFlow {
-    let all = droplets(SIDE);
+fn solved(flow: InterfaceFlow, inside: f64, rigid: bool, fast: bool) -> InterfaceFlow {
+    solved_of(&droplets(SIDE, FILM), flow, inside, rigid, fast)
+}
+
+/// The like of some droplets.
+fn solved_of(
+    all: &[(Vec<Vec2>, Vec<Vec2>)],
+    mut flow: InterfaceFlow,
+    inside: f64,
+    rigid: bool,
+    fast: bool,
+) -> InterfaceFlow {
     let given = all.iter().enumerate().map(|(number, (positions, forces))| {
         if rigid && number % 4 == 0 {
             Interface::rigid(positions, forces, 1.0)
@@ -94,6 +107,29 @@ fn velocities_are_right_to_the_tolerance_at_any_ratio() {
                 assert!(error < tolerance, "{region:?} {inside} {rigid} {tolerance:e}: {error:e}");
             }
         }
+    }
+}
+
+#[test]
+fn sums_are_over_pairs_where_fast_ones_show_round_off() {
+    let all = droplets(SIDE, FILM);
+    let fast = |tolerance: f64| {
+        let mut flow = InterfaceFlow::new(BOX, 1.0, settings(tolerance)).unwrap();
+        flow.load(all.iter().map(|(outline, forces)| Interface::closed(outline, forces, [1.0, 1.0]))).unwrap();
+        flow.layers.sums_fast()
+    };
+    assert!(fast(1e-12) && !fast(0.9e-12));
+}
+
+#[test]
+fn velocities_around_films_that_nodes_do_not_resolve_are_right_to_the_tolerance() {
+    let all = droplets(SIDE, 0.02);
+    let new = |tolerance| InterfaceFlow::new(BOX, 1.0, settings(tolerance)).unwrap();
+    let expected = velocities(&mut solved_of(&all, new(1e-13), 10.0, false, false));
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let error = error(&velocities(&mut solved_of(&all, new(tolerance), 10.0, false, true)), &expected);
+        println!("films {tolerance:e}: {:.2}", error / tolerance);
+        assert!(error < tolerance, "{tolerance:e}: {error:e}");
     }
 }
 
@@ -208,7 +244,7 @@ fn a_raster_around_one_droplet_is_that_of_sums_over_pairs() {
 fn samples_are_those_of_sums_over_pairs() {
     // In the fluid, in droplets, in a film, at and beside a node, beside a wall and outside of the first image.
     let cell = SIDE / COUNT as f64;
-    let node = droplets(SIDE)[7].0[5];
+    let node = droplets(SIDE, FILM)[7].0[5];
     let points = [
         Vec2::new(0.3 - 0.5 * SIDE, 0.01 - 0.5 * SIDE),
         Vec2::new(0.0, 0.0),
