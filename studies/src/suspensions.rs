@@ -15,13 +15,26 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use motile::motile_base::Region;
 use motile::motile_scene::gap::Repulsion;
 use motile::setup::{Distribution, DropletSetup, IntegralMethod, Method, Setup, SuspensionSetup};
 use rows::Rows;
 
 use crate::tables;
+
+/// Tables of the study, in their order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Two droplets that meet.
+    Pairs,
+    /// Suspensions over activity, fraction and ratio of viscosities.
+    Crowds,
+    /// When trajectories part.
+    Parting,
+    /// The methods on sixteen droplets.
+    Methods,
+}
 
 /// Droplets that meet, in pairs and in suspensions.
 #[derive(Debug, Args)]
@@ -32,9 +45,9 @@ pub(crate) struct Flags {
     /// Time that suspensions are followed
     #[arg(long, default_value_t = 20.0)]
     time: f64,
-    /// Pairs alone
-    #[arg(long)]
-    pairs: bool,
+    /// One of the tables alone, which is not written
+    #[arg(long, value_enum, conflicts_with = "write")]
+    part: Option<Part>,
     /// Rows that have been found, which are not computed again; new ones are added
     #[arg(long)]
     rows: Option<PathBuf>,
@@ -81,9 +94,16 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut rows = Rows::open(flags.rows.as_deref())?;
-    let mut all = vec![pairs::table(&mut rows)?];
-    if !flags.pairs {
-        all.extend([crowds::table(flags, &mut rows)?, parting::table(&mut rows)?, methods::table(&mut rows)?]);
+    let mut all = Vec::new();
+    for part in Part::value_variants() {
+        if flags.part.is_none_or(|only| only == *part) {
+            all.push(match part {
+                Part::Pairs => pairs::table(&mut rows)?,
+                Part::Crowds => crowds::table(flags, &mut rows)?,
+                Part::Parting => parting::table(&mut rows)?,
+                Part::Methods => methods::table(&mut rows)?,
+            });
+        }
     }
     let inputs = ["crates/motile-output/src/suspension", "studies/src/suspensions.rs", "studies/src/suspensions"];
     flags.keep.tables("suspensions", "suspensions", &inputs, &all)

@@ -89,6 +89,52 @@ fn drops_deform_alike_wherever_they_are() {
     }
 }
 
+/// Two drops in a shear of a surface so tight that they stay round, and their way past each other: the first reflection.
+/// A drop of radius 1 and ratio L adds the streamfunction `-(1/4) [(1 + 2 L) - L/r^2]/(1 + L) sin 2t` to an extension
+/// at a rate of 1/2, t the angle from its axis, by vanishing normal velocities, and equal tangential velocities and
+/// stresses, on both sides of the circle. The same coefficient is that of the viscosity of dilute emulsions in two
+/// dimensions, twice the fraction for rigid discs (Brady, Int. J. Multiphase Flow 10, 113, 1984). What it leaves out
+/// falls with the third power of the distance, the reflection itself with the first.
+#[test]
+fn pairs_of_drops_in_a_shear_go_by_reflections() {
+    const TIME: f64 = 2.0;
+    let start = |distance: f64| distance * Vec2::from_angle(120.0_f64.to_radians());
+    let found = |ratio: f64, capillary: f64, distance: f64| {
+        let mut setup = Setup { step: StepSize::default(), ..fourth_order(SHEAR, 24, 1.0) };
+        setup.droplets = [-0.5, 0.5]
+            .map(|part| DropletSetup { centre: (part * start(distance)).to_array(), ..drop_of(ratio, capillary) })
+            .to_vec();
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        scene.run(TIME).go().unwrap();
+        let [one, other] = [0, 1].map(|droplet| scene.observe(droplets[droplet]).unwrap().centroid);
+        other - one
+    };
+    // The way of the one from the other where their distance grows more slowly by this over its square.
+    let reflected = |slower: f64, distance: f64| {
+        let velocity = |x: Vec2| Vec2::new(x.y, 0.0) - slower * x.x * x.y / x.length_squared().powi(2) * x;
+        let steps = 2000;
+        let dt = TIME / f64::from(steps);
+        (0..steps).fold(start(distance), |x, _| {
+            let middle = x + 0.5 * dt * velocity(x);
+            x + dt * velocity(middle)
+        })
+    };
+    for ratio in [0.1, 1.0, 10.0] {
+        let slower = 2.0 * (1.0 + 2.0 * ratio) / (1.0 + ratio);
+        let [near, far] = [6.0, 12.0].map(|distance| {
+            // Surfaces that are tight without bound.
+            let [loose, tight] = [0.02, 0.01].map(|capillary| found(ratio, capillary, distance));
+            let [alone, expected] = [0.0, slower].map(|slower| reflected(slower, distance));
+            println!("{} {}", loose.distance(expected), tight.distance(expected));
+            [(2.0 * tight - loose).distance(expected), expected.distance(alone)]
+        });
+        println!("{ratio}: {near:?} {far:?}");
+        let order = (near[0] / far[0]).log2();
+        assert!((2.5..3.5).contains(&order), "{ratio}: {near:?} {far:?}");
+        assert!(far[0] < 0.02 * far[1], "{ratio}: {near:?} {far:?}");
+    }
+}
+
 /// The area that long steps lose is restored, that of the smooth curve, and the deformation is none the worse.
 #[test]
 fn restored_areas_are_those_of_the_smooth_curve() {

@@ -1,47 +1,94 @@
-//! When the trajectories of a hundred droplets part that are computed with more nodes, or to a smaller tolerance.
+//! When the trajectories of a hundred droplets part that are computed with more nodes, to a smaller tolerance, or by
+//! sums over pairs.
 
 use anyhow::{Context, Result};
 use motile::active_interface::suspension::Member;
 use motile::motile_base::Vec2;
+use motile::motile_scene::{Every, Hydrodynamics, SceneError, System};
 use motile::setup::{Built, Setup};
 use motile_tests::validation::Table;
 
-use super::{Rows, integral, suspension};
+use super::{Rows, TOLERANCE, integral, suspension};
 
 const COUNT: usize = 100;
 const FRACTION: f64 = 0.3;
 const ACTIVITY: f64 = -2.0;
 const NODES: usize = 64;
-/// Settings that are compared with [`NODES`] nodes at the usual tolerance, all with the same repulsion.
-const OTHERS: [(&str, usize, f64); 2] = [("96 nodes", 96, 1e-6), ("tolerance 1e-9", NODES, 1e-9)];
-const TIMES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
+/// Runs with their nodes, tolerance and end (time), all with the same repulsion; the first is what the others are
+/// compared with. Sums are over pairs below a tolerance of 1e-12.
+const RUNS: [(&str, usize, f64, f64); 4] = [
+    ("itself", NODES, TOLERANCE, 80.0),
+    ("sums over pairs", NODES, 1e-13, 5.0),
+    ("96 nodes", 96, TOLERANCE, 80.0),
+    ("tolerance 1e-9", NODES, 1e-9, 80.0),
+];
+const TIMES: [f64; 7] = [1.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0];
 
 pub(super) fn table(rows: &mut Rows) -> Result<Table> {
     let at: Vec<String> = TIMES.iter().map(|time| format!("at {time}")).collect();
-    let columns: Vec<&str> = ["against", "steps"].into_iter().chain(at.iter().map(String::as_str)).collect();
+    let after = ["area change", "particle change", "least film"];
+    let columns: Vec<&str> =
+        ["against", "steps"].into_iter().chain(at.iter().map(String::as_str)).chain(after).collect();
     let mut table = Table::new("largest distance of a droplet from where it is with 64 nodes at 1e-6", &columns);
-    for (name, nodes, tolerance) in OTHERS {
+    let mut usual = None;
+    for (number, (name, nodes, tolerance, end)) in RUNS.into_iter().enumerate() {
         table.push(rows.row(&format!("parting {name}"), || {
-            let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, NODES)?;
-            let other = Setup { method: integral(nodes), tolerance: Some(tolerance), ..usual.clone() };
-            let [(usual, _), (other, steps)] = [way(&usual)?, way(&other)?];
-            let apart = usual.iter().zip(&other).map(|(a, b)| {
-                let largest = a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-                format!("{largest:.1e}")
+            if usual.is_none() {
+                let (_, nodes, tolerance, _) = RUNS[0];
+                usual = Some(Way::of(nodes, tolerance, end)?);
+            }
+            let usual = usual.as_ref().context("no run")?;
+            let other = if number > 0 { &Way::of(nodes, tolerance, end)? } else { usual };
+            let apart = (0..TIMES.len()).map(|time| match other.places.get(time) {
+                Some(there) if number > 0 => {
+                    let distances = usual.places[time].iter().zip(there).map(|(a, b)| a.distance(*b));
+                    format!("{:.1e}", distances.fold(0.0, f64::max))
+                }
+                _ => String::new(),
             });
-            Ok([name.to_owned(), steps.to_string()].into_iter().chain(apart).collect())
+            let changes = other.changes.map(|change| format!("{change:.0e}"));
+            let film = format!("{:.3}", other.film);
+            Ok([name.to_owned(), other.steps.to_string()]
+                .into_iter()
+                .chain(apart)
+                .chain(changes)
+                .chain([film])
+                .collect())
         })?);
     }
     Ok(table)
 }
 
-/// Centroids at all times, and the number of steps.
-fn way(setup: &Setup) -> Result<(Vec<Vec<Vec2>>, usize)> {
-    let Built { mut scene, .. } = setup.build()?;
-    let mut places = Vec::new();
-    for time in TIMES {
-        scene.run(time).go().with_context(|| format!("before {time}"))?;
-        places.push(Member::all(scene.system_mut())?.iter().map(|member| member.centroid).collect());
+/// Run of the droplets.
+struct Way {
+    /// Centroids at the times that it came to.
+    places: Vec<Vec<Vec2>>,
+    steps: usize,
+    /// Largest relative changes of area and of particle number of a droplet.
+    changes: [f64; 2],
+    /// Narrowest film (length).
+    film: f64,
+}
+
+impl Way {
+    fn of(nodes: usize, tolerance: f64, end: f64) -> Result<Self> {
+        let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, NODES)?;
+        let Built { mut scene, .. } = Setup { method: integral(nodes), tolerance: Some(tolerance), ..usual }.build()?;
+        let start = Member::all(scene.system_mut())?;
+        let (mut places, mut changes) = (Vec::new(), [0.0_f64; 2]);
+        for time in TIMES.into_iter().filter(|time| *time <= end) {
+            let mut look = |system: &mut System<Box<dyn Hydrodynamics>>| {
+                for (start, now) in start.iter().zip(Member::all(system)?) {
+                    let parts = [now.area / start.area, now.particles / start.particles];
+                    changes.iter_mut().zip(parts).for_each(|(change, part)| *change = change.max((part - 1.0).abs()));
+                }
+                Ok::<_, SceneError>(())
+            };
+            let run = scene.run(time).observe(Every::StepAfter(1.0), &mut look).go();
+            run.with_context(|| format!("before {time}"))?;
+            places.push(Member::all(scene.system_mut())?.iter().map(|member| member.centroid).collect());
+        }
+        let film = scene.system().minimum_gap().unwrap_or(f64::NAN);
+        Ok(Self { places, steps: scene.steps(), changes, film })
     }
-    Ok((places, scene.steps()))
 }
