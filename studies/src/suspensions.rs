@@ -1,8 +1,8 @@
 //! Droplets that meet: pairs over their resolution, suspensions over activity, fraction and ratio of viscosities, when
 //! trajectories part, and the methods on sixteen droplets.
 //!
-//! `cargo run --release -p studies -- suspensions` prints four tables, which `--write` keeps as
-//! `docs/tables/suspensions.csv`, `suspensions-2.csv` ... With `--rows FILE` each row is kept there once it is found,
+//! `cargo run --release -p studies -- suspensions` prints four tables, one of them with `--part`, which `--write` keeps
+//! as `docs/tables/suspensions.csv`, `suspensions-2.csv` ... With `--rows FILE` each row is kept there once it is found,
 //! and a study that was ended goes on behind it.
 
 mod crowds;
@@ -45,8 +45,8 @@ pub(crate) struct Flags {
     /// Time that suspensions are followed
     #[arg(long, default_value_t = 20.0)]
     time: f64,
-    /// One of the tables alone, which is not written
-    #[arg(long, value_enum, conflicts_with = "write")]
+    /// One of the tables alone
+    #[arg(long, value_enum)]
     part: Option<Part>,
     /// Rows that have been found, which are not computed again; new ones are added
     #[arg(long)]
@@ -94,17 +94,19 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut rows = Rows::open(flags.rows.as_deref())?;
-    let mut all = Vec::new();
-    for part in Part::value_variants() {
-        if flags.part.is_none_or(|only| only == *part) {
-            all.push(match part {
-                Part::Pairs => pairs::table(&mut rows)?,
-                Part::Crowds => crowds::table(flags, &mut rows)?,
-                Part::Parting => parting::table(&mut rows)?,
-                Part::Methods => methods::table(&mut rows)?,
-            });
-        }
-    }
     let inputs = ["crates/motile-output/src/suspension", "studies/src/suspensions.rs", "studies/src/suspensions"];
-    flags.keep.tables("suspensions", "suspensions", &inputs, &all)
+    for (number, part) in Part::value_variants().iter().enumerate() {
+        if flags.part.is_some_and(|only| only != *part) {
+            continue;
+        }
+        let (word, table) = match part {
+            Part::Pairs => ("pairs", pairs::table(&mut rows)?),
+            Part::Crowds => ("crowds", crowds::table(flags, &mut rows)?),
+            Part::Parting => ("parting", parting::table(&mut rows)?),
+            Part::Methods => ("methods", methods::table(&mut rows)?),
+        };
+        let name = if number > 0 { format!("suspensions-{}", number + 1) } else { "suspensions".to_owned() };
+        flags.keep.tables(&name, &format!("suspensions --part {word}"), &inputs, &[table])?;
+    }
+    Ok(())
 }

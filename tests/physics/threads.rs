@@ -3,9 +3,10 @@
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::motile_base::Region;
-use motile::motile_scene::{Scene, integrator::Dynamics as _};
+use motile::motile_scene::{Scene, gap::Repulsion, integrator::Dynamics as _};
 use motile::setup::{
-    ActiveSpringsSetup, AnyFlow, DropletSetup, GridMethod, Material, MaxwellSetup, Method, Setup, SolidSetup,
+    ActiveSpringsSetup, AnyFlow, Distribution, DropletSetup, GridMethod, IntegralMethod, Material, MaxwellSetup,
+    Method, Setup, SolidSetup, SuspensionSetup,
 };
 use motile_tests::validation::scene::{on_grid, open_channel};
 
@@ -30,6 +31,30 @@ fn a_large_box() {
     let (region, droplets) = (Region::Box { lengths: [4.5; 2] }, vec![DropletSetup::active(-3.0)]);
     let setup = Setup { region, droplets, ..on_grid(0.005) };
     let expected = bits(1, &setup);
+    assert_eq!(bits(2, &setup), expected);
+    assert_eq!(bits(3, &setup), expected);
+}
+
+#[test]
+fn many_droplets_in_contact() {
+    let suspension = SuspensionSetup {
+        count: Some(160),
+        activity: Some(Distribution::Between([-3.0, -2.0])),
+        gap: 0.01,
+        ..SuspensionSetup::default()
+    };
+    let side = (160.0 * suspension.mean_area() / 0.5).sqrt();
+    let setup = Setup {
+        region: Region::Box { lengths: [side; 2] },
+        method: Method::Integral(IntegralMethod { nodes: 32, cells: 256 }),
+        tolerance: Some(1e-5),
+        repulsion: Some(Repulsion::new(1000.0, 0.2).expect("a repulsion")),
+        droplets: Vec::new(),
+        suspension: vec![suspension],
+        ..Setup::default()
+    };
+    let expected = bits(1, &setup);
+    assert!(expected.len() > 160_000, "enough markers for several threads");
     assert_eq!(bits(2, &setup), expected);
     assert_eq!(bits(3, &setup), expected);
 }

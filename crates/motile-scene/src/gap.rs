@@ -17,7 +17,7 @@ pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use surface_curve::{SurfaceCurve, SurfacePoint};
 
-use crate::{Body, Domain, FluidView, MarkerKind, Markers};
+use crate::{Body, Domain, FluidView, MarkerKind, Markers, threads};
 use boundary::{shifts, smallest};
 use motile_base::{
     Vec2,
@@ -60,9 +60,27 @@ impl Gaps {
             self.narrowest = Some(gap);
         }
         let depth = -width;
-        if depth > allowed && self.crossed.is_none_or(|most| depth - allowed > most.depth - most.allowed) {
-            self.crossed = Some(Overlap { body, other, place, depth, allowed });
+        if depth > allowed {
+            self.cross(Overlap { body, other, place, depth, allowed });
         }
+    }
+
+    /// Takes one that has closed into account: of those that are as deep the first.
+    fn cross(&mut self, overlap: Overlap) {
+        if self.crossed.is_none_or(|most| overlap.depth - overlap.allowed > most.depth - most.allowed) {
+            self.crossed = Some(overlap);
+        }
+    }
+
+    /// These and those of later bodies.
+    fn and(mut self, later: Self) -> Self {
+        if let Some(gap) = later.narrowest {
+            self.add(gap, f64::INFINITY);
+        }
+        if let Some(overlap) = later.crossed {
+            self.cross(overlap);
+        }
+        self
     }
 }
 
@@ -127,20 +145,25 @@ impl Surfaces {
         kinds.clear();
         firsts.clear();
         corners.clear();
-        for (group, boundary) in markers.groups().iter().zip(boundaries) {
+        for group in markers.groups() {
             kinds.push(group.kind);
             firsts.push(corners.len());
-            boundary.clear();
             for curve in &group.surfaces {
                 let (first, count) = (corners.len(), curve.points.len());
-                curve.add_to(boundary, &markers.positions[group.range.clone()], period);
                 corners.extend(curve.points.iter().enumerate().map(|(k, (point, _))| Corner {
                     marker: point.marker().map(|marker| group.range.start + marker),
                     next: first + (k + 1) % count,
                 }));
             }
-            boundary.sort();
         }
+        threads::each(0, boundaries, markers.len(), &|body, boundary| {
+            let group = &markers.groups()[body];
+            boundary.clear();
+            for curve in &group.surfaces {
+                curve.add_to(boundary, &markers.positions[group.range.clone()], period);
+            }
+            boundary.sort();
+        });
         self.sort();
     }
 
@@ -210,23 +233,28 @@ impl Surfaces {
 
     /// The gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies, and from
     /// the corners of other bodies to interfaces; between others only where they have crossed.
-    pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool) -> Gaps {
-        let (mut gaps, scale, domain) = (Gaps::default(), self.contact_scale(view), &view.domain);
-        for (body, from) in self.boundaries.iter().enumerate() {
-            let Some(frame) = from.frame() else { continue };
+    pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool + Sync) -> Gaps {
+        let (scale, domain) = (self.contact_scale(view), &view.domain);
+        let of_body = |body: usize, gaps: &mut Gaps| {
+            let Some(frame) = self.boundaries[body].frame() else { return };
             self.each_near(&frame, domain.periods, reach, &mut |other| {
                 let (bodies, some) = ([body, other], self.kinds[body].is_curve() || self.kinds[other].is_curve());
                 if (body == other && !some) || !pairs(bodies) {
                     return;
                 }
                 let (allowed, before) = (self.allowed(scale, bodies), gaps.narrowest);
-                self.add_gaps(bodies, domain, [if some { reach } else { scale }, allowed], &mut gaps);
+                self.add_gaps(bodies, domain, [if some { reach } else { scale }, allowed], gaps);
                 if !some {
                     gaps.narrowest = before;
                 }
             });
-        }
-        gaps
+        };
+        let count = threads::pieces(self.corners.len());
+        let (mut found, len) = ([Gaps::default(); threads::PIECES], self.boundaries.len().div_ceil(count));
+        threads::each(0, &mut found[..count], self.corners.len(), &|number, gaps| {
+            (number * len..self.boundaries.len()).take(len).for_each(|body| of_body(body, gaps));
+        });
+        found.into_iter().reduce(Gaps::and).unwrap_or_default()
     }
 
     /// The pairs of bodies, at least one of them an interface, whose gap is below `reach` (length), each once, and the

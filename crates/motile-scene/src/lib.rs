@@ -38,6 +38,7 @@ pub mod points;
 mod saved_state;
 mod scene;
 pub mod step_report;
+mod threads;
 
 pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};

@@ -17,6 +17,7 @@ use crate::{
     layer::{Crossing, Layers},
     rigid_motion::RigidMotion,
     sample::{Place, Sampler},
+    shares,
 };
 use equation::Equation;
 use inside::InsideFlow;
@@ -458,6 +459,43 @@ impl InterfaceFlow {
         }
         self.layers.plan(interface).transforms.at_points(values, out)?;
         finite_vectors("the velocity", interface, out)
+    }
+
+    /// Writes the velocities of [`InterfaceFlow::velocities`] at the points of all interfaces, one after the other.
+    ///
+    /// # Errors
+    /// Those of [`InterfaceFlow::velocities`]; no solution for the present interfaces.
+    pub fn all_velocities(&mut self, out: &mut [Vec2]) -> Result<(), LayerError> {
+        let count = self.len();
+        let points = |curves: &[Curve]| curves.iter().map(|curve| curve.points).sum::<usize>();
+        same_length("the velocities of all interfaces", points(&self.layers.curves[..count]), out.len())?;
+        self.check_solved()?;
+        let mut rest = out;
+        if self.equation.sides.iter().any(|sides| sides.is_rigid()) {
+            return (0..count).try_for_each(|interface| {
+                let points = self.layers.curves[interface].points;
+                self.velocities(interface, rest.split_off_mut(..points).unwrap_or_default())
+            });
+        }
+        let (values, Layers { curves, plans, starts, .. }) = (&self.velocities, &mut self.layers);
+        let size = 2 * self.settings.nodes;
+        let len = shares::curves(curves.len(), starts[curves.len()]);
+        let mut results = std::array::from_fn::<_, { shares::MOST }, _>(|_| Ok(()));
+        let shares = curves[..count].chunks(len).zip(values.chunks(size * len)).zip(plans.pieces()).zip(&mut results);
+        let shares = shares.enumerate().map(|(share, (((curves, values), plans), result))| {
+            let out = rest.split_off_mut(..points(curves)).unwrap_or_default();
+            (share * len, curves, values, plans, out, result)
+        });
+        shares::each_of(starts[count], shares, |(first, curves, values, plans, out, result)| {
+            let mut out = std::mem::take(out);
+            **result =
+                (*first..).zip(&**curves).zip(values.chunks(size)).try_for_each(|((interface, curve), values)| {
+                    let out = out.split_off_mut(..curve.points).unwrap_or_default();
+                    plans[curve.plan].transforms.at_points(values, out)?;
+                    finite_vectors("the velocity", interface, out)
+                });
+        });
+        results.into_iter().collect()
     }
 
     /// Motion of a rigid body in the last solution; `None` if there is no rigid body of that number or no solution.

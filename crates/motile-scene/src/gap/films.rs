@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::boundary::{Boundary, Nearest, shifts};
 use super::{Repulsion, Surfaces};
-use crate::Domain;
+use crate::{Domain, threads};
 use motile_base::{Vec2, boxes::Periods};
 
 /// A corner of a surface close to a side of another one.
@@ -32,11 +32,18 @@ pub(crate) struct Films {
     pub(super) weights: Vec<f64>,
     /// True for bodies of revolution about the x axis.
     of_revolution: bool,
-    pub(super) contacts: Vec<Contact>,
-    /// Bodies close to the one that is looked at.
-    near: Vec<usize>,
+    /// Contacts of the corners of some bodies each, in the order of the bodies.
+    pieces: Vec<Piece>,
     /// Energy per length at the corners (force).
     energies: Vec<f64>,
+}
+
+/// Contacts of the corners of some bodies.
+#[derive(Debug, Clone, Default)]
+struct Piece {
+    contacts: Vec<Contact>,
+    /// Bodies close to the one that is looked at.
+    near: Vec<usize>,
 }
 
 /// Surroundings of the bodies: the region, its rigid walls of other shapes, and the interface that each body lies in.
@@ -59,23 +66,109 @@ impl Films {
             let size = side[0].distance(side[1]) * if self.of_revolution { half_circle(side).abs() } else { 1.0 };
             [corner, next].into_iter().for_each(|corner| self.weights[corner] += 0.5 * size);
         }
-        self.contacts.clear();
-        for (body, kind) in surfaces.kinds.iter().enumerate() {
-            let Some(frame) = surfaces.boundaries[body].frame() else { continue };
-            // Sums of forces are those of the order of the bodies.
-            let mut near = std::mem::take(&mut self.near);
-            near.clear();
-            surfaces.each_near(&frame, surroundings.domain.periods, reach, &mut |other| near.push(other));
-            near.sort_unstable();
-            for &other in &near {
-                if kind.is_curve() || surfaces.kinds[other].is_curve() {
-                    self.find_between(surfaces, [body, other], surroundings, reach);
+        let bodies = surfaces.kinds.len();
+        let count = threads::pieces(surfaces.corners.len());
+        self.pieces.resize_with(count, Piece::default);
+        let len = bodies.div_ceil(count);
+        threads::each(0, &mut self.pieces, surfaces.corners.len(), &|number, piece| {
+            piece.contacts.clear();
+            for body in (number * len..bodies).take(len) {
+                piece.find(surfaces, body, surroundings, reach);
+            }
+        });
+    }
+
+    /// All contacts.
+    pub(super) fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.pieces.iter().flat_map(|piece| &piece.contacts)
+    }
+
+    /// Adds the forces of a repulsion to `forces`, those of the markers (force).
+    pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
+        let Self { weights, pieces, energies, of_revolution } = self;
+        energies.clear();
+        energies.resize(weights.len(), 0.0);
+        let mut push = |corner: usize, force: Vec2| {
+            if let Some(marker) = surfaces.corners[corner].marker {
+                forces[marker] += force;
+            }
+        };
+        for contact in pieces.iter().flat_map(|piece| &piece.contacts) {
+            energies[contact.corner] += contact.share() * repulsion.energy(contact.gap);
+            let force = contact.share() * weights[contact.corner] * repulsion.pressure(contact.gap) * contact.normal;
+            push(contact.corner, force);
+            if let Some([start, end]) = contact.ends {
+                push(start, -(1.0 - contact.part) * force);
+                push(end, -contact.part * force);
+            }
+        }
+        // Sides that grow take energy: a tension.
+        for ((start, end), [from, to]) in surfaces.sides() {
+            let tension = 0.5 * (energies[start] + energies[end]);
+            if tension != 0.0 {
+                let mut force = tension * (to - from).try_normalize().unwrap_or_default();
+                if *of_revolution {
+                    let circle = half_circle([from, to]);
+                    force *= circle.abs();
+                    // Circles that grow take energy as well.
+                    let hoop = 0.5 * PI * tension * from.distance(to) * circle.signum();
+                    [start, end].into_iter().for_each(|corner| push(corner, Vec2::new(0.0, -hoop)));
                 }
+                push(start, force);
+                push(end, -force);
             }
-            self.near = near;
-            if kind.is_curve() {
-                self.find_walls(surfaces, body, surroundings, reach);
+        }
+    }
+
+    /// The energy of a repulsion (force times length).
+    #[cfg(test)]
+    pub(crate) fn energy(&self, repulsion: &Repulsion) -> f64 {
+        let each = |c: &Contact| c.share() * self.weights[c.corner] * repulsion.energy(c.gap);
+        self.contacts().map(each).sum()
+    }
+
+    /// The fastest relaxation of films under a repulsion (1/time), in fluid of that viscosity (stress times time): that
+    /// of the gap, and that of what it adds to the tension, which relaxes at `unit` (1/(force times time)) times it.
+    pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, unit: f64) -> f64 {
+        let rate = |contact: &Contact| {
+            let tension = contact.share() * repulsion.energy(contact.gap);
+            repulsion.rate(contact.gap, viscosity) + unit * tension
+        };
+        self.contacts().map(rate).fold(0.0, f64::max)
+    }
+
+    /// The time in which the film that closes fastest would be gone at the velocities of the markers (length per
+    /// time), and the body whose corner it is measured from; gaps below `least` (length) count as that.
+    pub(crate) fn closing(&self, surfaces: &Surfaces, velocities: &[Vec2], least: f64) -> Option<(f64, usize)> {
+        let velocity = |corner: usize| surfaces.corners[corner].marker.map_or(Vec2::ZERO, |marker| velocities[marker]);
+        let times = self.contacts().filter_map(|contact| {
+            let other =
+                contact.ends.map_or(Vec2::ZERO, |[start, end]| velocity(start).lerp(velocity(end), contact.part));
+            let rate = (velocity(contact.corner) - other).dot(contact.normal);
+            (rate < 0.0).then(|| (contact.gap.max(least) / -rate, contact.corner))
+        });
+        let (time, corner) = times.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((time, surfaces.firsts.partition_point(|&first| first <= corner).checked_sub(1)?))
+    }
+}
+
+impl Piece {
+    /// Adds the contacts of the corners of a body.
+    fn find(&mut self, surfaces: &Surfaces, body: usize, surroundings: Surroundings<'_>, reach: f64) {
+        let (kind, Some(frame)) = (&surfaces.kinds[body], surfaces.boundaries[body].frame()) else { return };
+        // Sums of forces are those of the order of the bodies.
+        let mut near = std::mem::take(&mut self.near);
+        near.clear();
+        surfaces.each_near(&frame, surroundings.domain.periods, reach, &mut |other| near.push(other));
+        near.sort_unstable();
+        for &other in &near {
+            if kind.is_curve() || surfaces.kinds[other].is_curve() {
+                self.find_between(surfaces, [body, other], surroundings, reach);
             }
+        }
+        self.near = near;
+        if kind.is_curve() {
+            self.find_walls(surfaces, body, surroundings, reach);
         }
     }
 
@@ -150,74 +243,6 @@ impl Films {
                 self.contacts.push(contact(corner, None, &found, walls.sides()[found.side], 1.0));
             }
         }
-    }
-
-    /// Adds the forces of a repulsion to `forces`, those of the markers (force).
-    pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
-        let Self { weights, contacts, energies, of_revolution, .. } = self;
-        energies.clear();
-        energies.resize(weights.len(), 0.0);
-        let mut push = |corner: usize, force: Vec2| {
-            if let Some(marker) = surfaces.corners[corner].marker {
-                forces[marker] += force;
-            }
-        };
-        for contact in contacts.iter() {
-            energies[contact.corner] += contact.share() * repulsion.energy(contact.gap);
-            let force = contact.share() * weights[contact.corner] * repulsion.pressure(contact.gap) * contact.normal;
-            push(contact.corner, force);
-            if let Some([start, end]) = contact.ends {
-                push(start, -(1.0 - contact.part) * force);
-                push(end, -contact.part * force);
-            }
-        }
-        // Sides that grow take energy: a tension.
-        for ((start, end), [from, to]) in surfaces.sides() {
-            let tension = 0.5 * (energies[start] + energies[end]);
-            if tension != 0.0 {
-                let mut force = tension * (to - from).try_normalize().unwrap_or_default();
-                if *of_revolution {
-                    let circle = half_circle([from, to]);
-                    force *= circle.abs();
-                    // Circles that grow take energy as well.
-                    let hoop = 0.5 * PI * tension * from.distance(to) * circle.signum();
-                    [start, end].into_iter().for_each(|corner| push(corner, Vec2::new(0.0, -hoop)));
-                }
-                push(start, force);
-                push(end, -force);
-            }
-        }
-    }
-
-    /// The energy of a repulsion (force times length).
-    #[cfg(test)]
-    pub(crate) fn energy(&self, repulsion: &Repulsion) -> f64 {
-        let each = |c: &Contact| c.share() * self.weights[c.corner] * repulsion.energy(c.gap);
-        self.contacts.iter().map(each).sum()
-    }
-
-    /// The fastest relaxation of films under a repulsion (1/time), in fluid of that viscosity (stress times time): that
-    /// of the gap, and that of what it adds to the tension, which relaxes at `unit` (1/(force times time)) times it.
-    pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, unit: f64) -> f64 {
-        let rate = |contact: &Contact| {
-            let tension = contact.share() * repulsion.energy(contact.gap);
-            repulsion.rate(contact.gap, viscosity) + unit * tension
-        };
-        self.contacts.iter().map(rate).fold(0.0, f64::max)
-    }
-
-    /// The time in which the film that closes fastest would be gone at the velocities of the markers (length per
-    /// time), and the body whose corner it is measured from; gaps below `least` (length) count as that.
-    pub(crate) fn closing(&self, surfaces: &Surfaces, velocities: &[Vec2], least: f64) -> Option<(f64, usize)> {
-        let velocity = |corner: usize| surfaces.corners[corner].marker.map_or(Vec2::ZERO, |marker| velocities[marker]);
-        let times = self.contacts.iter().filter_map(|contact| {
-            let other =
-                contact.ends.map_or(Vec2::ZERO, |[start, end]| velocity(start).lerp(velocity(end), contact.part));
-            let rate = (velocity(contact.corner) - other).dot(contact.normal);
-            (rate < 0.0).then(|| (contact.gap.max(least) / -rate, contact.corner))
-        });
-        let (time, corner) = times.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((time, surfaces.firsts.partition_point(|&first| first <= corner).checked_sub(1)?))
     }
 }
 

@@ -33,7 +33,7 @@ impl Films {
             .collect();
         let mut load = RepulsionLoad { virial: [[0.0; 2]; 2], largest_pressure: 0.0, mean_film: None, length: 0.0 };
         let [mut films, mut forces] = [0.0; 2];
-        for contact in self.contacts.iter().filter(|contact| contact.gap < repulsion.range()) {
+        for contact in self.contacts().filter(|contact| contact.gap < repulsion.range()) {
             let Contact { corner, ends, part, normal, gap } = *contact;
             let (length, pressure) = (self.weights[corner], repulsion.pressure(gap));
             let force = contact.share() * length * pressure;

@@ -1,7 +1,7 @@
 //! Bodies that lie in one another before anything is computed for them.
 
 use super::{Boundary, Surfaces};
-use crate::FluidView;
+use crate::{FluidView, threads};
 use motile_base::{
     Vec2,
     boxes::{Frame, Periods},
@@ -90,9 +90,8 @@ impl Surfaces {
 
     /// The innermost interface that each body lies in.
     pub(crate) fn surroundings(&self, periods: Periods, around: &mut Vec<Option<usize>>) {
-        around.clear();
-        around.extend(self.boundaries.iter().enumerate().map(|(inner, boundary)| {
-            let (frame, mut innermost) = (boundary.frame()?, None);
+        let of = |inner: usize| {
+            let (frame, mut innermost) = (self.boundaries[inner].frame()?, None);
             // A part of the inner one may have crossed: [`Boundary::lies_in`].
             self.each_near(&frame, periods, frame.size(), &mut |outer| {
                 if self.kinds[outer].advance().is_some() {
@@ -104,7 +103,9 @@ impl Surfaces {
                 }
             });
             innermost.map(|(_, outer)| outer).or_else(|| self.stratum(inner, periods))
-        }));
+        };
+        around.resize(self.boundaries.len(), None);
+        threads::each(0, around, self.corners.len(), &|inner, outer| *outer = of(inner));
     }
 
     /// The deepest place that two bodies have in common, and how deep it is in both (length); for what lies inside an

@@ -69,19 +69,23 @@ impl InterfaceGroups {
         let Solution { iterations, residual, pressure_gradient, .. } = flow.solve()?;
         work.iterations += iterations;
         work.most_iterations = work.most_iterations.max(iterations);
-        let mut interface = 0;
-        for MarkerGroup { range, kind, host, .. } in &markers.groups {
-            let velocities = &mut markers.velocities[range.clone()];
-            if kind.is_curve() {
-                flow.velocities(interface, velocities)?;
-                interface += 1;
-            } else if let Some(host) = *host {
-                let curve = markers.groups[..host].iter().filter(|group| group.kind.is_curve()).count();
-                flow.velocities_inside(curve, &markers.positions[range.clone()], velocities)?;
-            } else {
-                samples.resize(range.len(), FlowSample::default());
-                flow.sample(&markers.positions[range.clone()], samples)?;
-                velocities.iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
+        if flow.len() == markers.groups.len() {
+            flow.all_velocities(&mut markers.velocities)?;
+        } else {
+            let mut interface = 0;
+            for MarkerGroup { range, kind, host, .. } in &markers.groups {
+                let velocities = &mut markers.velocities[range.clone()];
+                if kind.is_curve() {
+                    flow.velocities(interface, velocities)?;
+                    interface += 1;
+                } else if let Some(host) = *host {
+                    let curve = markers.groups[..host].iter().filter(|group| group.kind.is_curve()).count();
+                    flow.velocities_inside(curve, &markers.positions[range.clone()], velocities)?;
+                } else {
+                    samples.resize(range.len(), FlowSample::default());
+                    flow.sample(&markers.positions[range.clone()], samples)?;
+                    velocities.iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
+                }
             }
         }
         let shortest = (0..flow.len()).filter_map(|interface| flow.perimeter(interface)).reduce(f64::min);

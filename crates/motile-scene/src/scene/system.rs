@@ -3,11 +3,11 @@
 mod bodies;
 mod contacts;
 mod findings;
-mod forces;
 mod gaps;
 mod guests;
 mod handles;
 mod imposed;
+mod parts;
 mod resistance;
 mod state;
 
@@ -349,8 +349,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     pub(crate) fn begin_step(&mut self, step: StepInfo) -> Result<(), SceneError> {
-        let view = self.hydrodynamics.fluid_view();
-        self.bodies.try_each(self.clock.time, |_, body, outside| body.begin_step(&view.in_fluid(outside), step))
+        self.bodies.begin_step(&self.hydrodynamics.fluid_view(), self.clock.time, step)
     }
 
     pub(crate) fn end_step(&mut self, dt: f64) -> Result<(), SceneError> {

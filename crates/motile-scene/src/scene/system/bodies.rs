@@ -2,8 +2,8 @@
 
 use motile_base::boxes::Periods;
 
-use super::forces::write_forces;
-use crate::{Body, BodyError, FluidView, Handle, Markers, SceneError, gap::Surfaces, scene::SceneId};
+use super::parts::{Parts, markers, states};
+use crate::{Body, BodyError, FluidView, Handle, Markers, SceneError, body::StepInfo, gap::Surfaces, scene::SceneId};
 
 /// The bodies of a scene with what they have on the fluid and around them: markers, guests, enclosing interfaces.
 #[derive(Debug)]
@@ -63,6 +63,25 @@ impl Bodies {
         self.list.iter().any(|body| body.kind().is_curve())
     }
 
+    /// The error of the body that failed, if one did.
+    pub(super) fn done(&self, time: f64, failed: Option<(usize, BodyError)>) -> Result<(), SceneError> {
+        let failed = failed.map(|(index, source)| failure(time, self.list[index].as_ref(), source));
+        failed.map_or(Ok(()), Err)
+    }
+
+    /// Gives the bodies a state, in which each has so many entries.
+    pub(super) fn read_state(
+        &mut self,
+        time: f64,
+        state: &[f64],
+        len: &(impl Fn(usize, &dyn Body) -> usize + Sync),
+    ) -> Result<(), SceneError> {
+        let none: &mut [f64] = &mut [];
+        let parts = Parts::of(&mut self.list, state.len(), none);
+        let failed = parts.each(len, &|_, body, range, _| body.read_state(&state[range]));
+        self.done(time, failed)
+    }
+
     /// Calls `act` with the number of each body, the body, and the viscosity around it, until it fails.
     pub(super) fn try_each(
         &mut self,
@@ -94,26 +113,34 @@ impl Bodies {
     pub(super) fn place_markers(&mut self, same: bool) {
         self.fit_markers(same);
         self.update_hosts();
-        let mut start = 0;
-        for body in &self.list {
-            let end = start + body.marker_count();
-            body.write_markers(&mut self.markers.positions[start..end]);
-            start = end;
-        }
+        let positions = &mut self.markers.positions;
+        Parts::of(&mut self.list, positions.len(), positions).each(&markers, &|_, body, _, positions| {
+            body.write_markers(positions);
+            Ok(())
+        });
     }
 
     /// Writes the forces of all bodies, those of guests on their hosts included.
     pub(super) fn write_forces(&mut self, view: &FluidView, time: f64) -> Result<(), SceneError> {
-        let failed = write_forces(0, &mut self.list, &self.viscosity_around, &mut self.markers.forces, view);
-        if let Some((index, source)) = failed {
-            return Err(failure(time, self.list[index].as_ref(), source));
-        }
+        let Self { list, markers: Markers { forces, .. }, viscosity_around, .. } = self;
+        let failed = Parts::of(list, forces.len(), forces).each(&markers, &|index, body, _, forces| {
+            body.write_forces(&view.in_fluid(viscosity_around[index]), forces)
+        });
+        self.done(time, failed)?;
         self.add_guest_forces();
         Ok(())
     }
 
     /// Writes the explicit rates of all bodies from the velocities at their markers.
     pub(super) fn write_rates(&mut self, rate: &mut [f64]) {
+        let Self { list, markers: Markers { groups, velocities, .. }, guests, .. } = self;
+        if guests.is_empty() {
+            Parts::of(list, rate.len(), rate).each(&states, &|index, body, _, rate| {
+                body.rate(&velocities[groups[index].range.clone()], rate);
+                Ok(())
+            });
+            return;
+        }
         let mut rest = &mut *rate;
         for index in 0..self.list.len() {
             self.host_moved(index);
@@ -163,9 +190,25 @@ impl Bodies {
         Err(SceneError::Containment { time, body: self.name_of(body), before, now })
     }
 
+    /// Begins a step.
+    pub(super) fn begin_step(&mut self, view: &FluidView, time: f64, step: StepInfo) -> Result<(), SceneError> {
+        let Self { list, markers, viscosity_around, .. } = self;
+        let none: &mut [f64] = &mut [];
+        let failed = Parts::of(list, markers.len(), none)
+            .each(&|_, _| 0, &|index, body, _, _| body.begin_step(&view.in_fluid(viscosity_around[index]), step));
+        self.done(time, failed)
+    }
+
     /// Ends a step of `dt` (time).
     pub(super) fn end_step(&mut self, view: &FluidView, time: f64, dt: f64) -> Result<(), SceneError> {
         self.update_hosts();
+        let Self { list, markers, viscosity_around, guests, .. } = self;
+        if guests.is_empty() {
+            let none: &mut [f64] = &mut [];
+            let failed = Parts::of(list, markers.len(), none)
+                .each(&|_, _| 0, &|index, body, _, _| body.end_step(&view.in_fluid(viscosity_around[index]), dt));
+            return self.done(time, failed);
+        }
         for index in 0..self.list.len() {
             self.update_host(index);
             let (body, outside) = (&mut self.list[index], self.viscosity_around[index]);

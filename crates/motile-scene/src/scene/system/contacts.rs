@@ -16,6 +16,8 @@ const THINNEST: f64 = 0.02;
 pub(in crate::scene) struct Contacts {
     pub(super) surfaces: Surfaces,
     films: Films,
+    /// How far films were looked for since surfaces and surroundings are those of the present state (length).
+    looked: Option<f64>,
     /// The gaps of the present state.
     pub(super) gaps: Gaps,
     /// Time until the first film closes at its present velocity (time), and the number of its body.
@@ -31,11 +33,13 @@ impl Contacts {
     /// Lays out the surfaces through the markers.
     pub(super) fn lay_out(&mut self, bodies: &Bodies, [period, _]: [Option<f64>; 2]) {
         self.surfaces.update(&bodies.markers, period.unwrap_or(0.0));
+        self.looked = None;
     }
 
     /// Finds the interfaces that the bodies lie in, and the gaps.
     pub(super) fn find_gaps(&mut self, bodies: &mut Bodies, view: &FluidView) {
         bodies.find_surroundings(&self.surfaces, view.domain.periods);
+        self.looked = None;
         self.gaps = self.surfaces.gaps_near(view, self.least_gap.unwrap_or_default());
     }
 
@@ -70,6 +74,9 @@ impl Contacts {
     }
 
     fn find_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics, reach: f64) {
+        if self.looked == Some(reach) {
+            return;
+        }
         let (domain, walls) = (flow.fluid_view().domain, flow.walls());
         let of_revolution = flow.of_revolution();
         self.films.find(
@@ -77,6 +84,7 @@ impl Contacts {
             Surroundings { domain, walls, around: &bodies.enclosing, of_revolution },
             reach,
         );
+        self.looked = Some(reach);
     }
 
     /// Tells `each` the bounds on the time step that films set, with the names of the bodies.

@@ -5,6 +5,7 @@ use motile_base::Vec2;
 use super::{
     System,
     bodies::{failure, part},
+    parts::{Parts, states},
 };
 use crate::{Body, Handle, Hydrodynamics, SceneError, integrator::Dynamics};
 
@@ -22,11 +23,9 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        let mut rest = state;
-        self.bodies.try_each(self.clock.time, |_, body, _| {
-            body.read_state(rest.split_off(..body.state_len()).unwrap_or_default())
-        })?;
-        self.read_clock(rest)
+        let (bodies, clock) = state.split_at(state.len().saturating_sub(self.clock_len()));
+        self.bodies.read_state(self.clock.time, bodies, &states)?;
+        self.read_clock(clock)
     }
 
     fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
@@ -42,18 +41,20 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
         Ok(())
     }
 
-    fn add_implicit(&mut self, mut state: &[f64], factor: f64, mut out: &mut [f64]) {
-        for body in &mut self.bodies.list {
-            let (state, out) = (state.split_off(..body.state_len()).unwrap_or_default(), part(&mut out, body.as_ref()));
-            body.add_implicit(state, factor, out);
-        }
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        let parts = Parts::of(&mut self.bodies.list, state.len(), out);
+        parts.each(&states, &|_, body, range, out| {
+            body.add_implicit(&state[range], factor, out);
+            Ok(())
+        });
     }
 
-    fn solve_implicit(&mut self, factor: f64, mut state: &mut [f64]) {
-        for body in &mut self.bodies.list {
-            let state = part(&mut state, body.as_ref());
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        let parts = Parts::of(&mut self.bodies.list, state.len(), state);
+        parts.each(&states, &|_, body, _, state| {
             body.solve_implicit(factor, state);
-        }
+            Ok(())
+        });
     }
 
     fn write_scales(&self, mut scales: &mut [f64]) {
@@ -71,11 +72,9 @@ impl<H: Hydrodynamics> System<H> {
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        let mut rest = state;
-        self.bodies.try_each(self.clock.time, |index, body, _| {
-            body.read_state(rest.split_off(..lengths[index]).unwrap_or_default())
-        })?;
-        self.read_clock(rest)
+        let (bodies, clock) = state.split_at(lengths.iter().sum());
+        self.bodies.read_state(self.clock.time, bodies, &|index, _| lengths[index])?;
+        self.read_clock(clock)
     }
 
     /// Moves bodies by `by` (length), and computes the flow there.
