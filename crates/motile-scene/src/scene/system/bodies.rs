@@ -78,7 +78,7 @@ impl Bodies {
     ) -> Result<(), SceneError> {
         let none: &mut [f64] = &mut [];
         let parts = Parts::of(&mut self.list, state.len(), none);
-        let failed = parts.each(len, &|_, body, range, _| body.read_state(&state[range]));
+        let failed = parts.each(len, &|_, body, range, _| body.read_state(state.get(range).unwrap_or_default()));
         self.done(time, failed)
     }
 

@@ -32,10 +32,12 @@ impl<'a, T: Send> Parts<'a, T> {
         len: &(impl Fn(usize, &dyn Body) -> usize + Sync),
         work: &(impl Fn(usize, &mut dyn Body, Range<usize>, &mut [T]) -> Result<(), BodyError> + Sync),
     ) -> Option<(usize, BodyError)> {
-        let Self { first, start, bodies, mut values, .. } = self;
+        let Self { first, start, entries, bodies, mut values } = self;
+        #[cfg(not(feature = "rayon"))]
+        let _ = entries;
         #[cfg(feature = "rayon")]
-        if bodies.len() > 1 && self.entries >= MANY {
-            let entries = self.entries / 2;
+        if bodies.len() > 1 && entries >= MANY {
+            let entries = entries / 2;
             let (below, above) = bodies.split_at_mut(bodies.len() / 2);
             let count = below.iter().enumerate().map(|(k, body)| len(first + k, body.as_ref())).sum::<usize>();
             let (written, written_above) = values.split_at_mut(count.min(values.len()));

@@ -44,7 +44,7 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
         let parts = Parts::of(&mut self.bodies.list, state.len(), out);
         parts.each(&states, &|_, body, range, out| {
-            body.add_implicit(&state[range], factor, out);
+            body.add_implicit(state.get(range).unwrap_or_default(), factor, out);
             Ok(())
         });
     }
@@ -72,7 +72,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        let (bodies, clock) = state.split_at(lengths.iter().sum());
+        let (bodies, clock) = state.split_at(lengths.iter().sum::<usize>().min(state.len()));
         self.bodies.read_state(self.clock.time, bodies, &|index, _| lengths[index])?;
         self.read_clock(clock)
     }
