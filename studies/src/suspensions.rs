@@ -2,8 +2,8 @@
 //! trajectories part, and the methods on sixteen droplets.
 //!
 //! `cargo run --release -p studies -- suspensions` prints four tables, one of them with `--part`, which `--write` keeps
-//! as `docs/tables/suspensions.csv`, `suspensions-2.csv` ... With `--rows FILE` each row is kept there once it is found,
-//! and a study that was ended goes on behind it.
+//! as `docs/tables/suspensions.csv`, `suspensions-2.csv` ... With `--rows FILE` each row is kept there once it is
+//! found, and a study that was ended goes on behind it.
 
 mod crowds;
 mod methods;

@@ -89,7 +89,7 @@ fn drops_deform_alike_wherever_they_are() {
     }
 }
 
-/// Two drops in a shear of a surface so tight that they stay round, and their way past each other: the first reflection.
+/// Two drops in a shear, so tight that they stay round, and their way past each other: the first reflection.
 /// A drop of radius 1 and ratio L adds the streamfunction `-(1/4) [(1 + 2 L) - L/r^2]/(1 + L) sin 2t` to an extension
 /// at a rate of 1/2, t the angle from its axis, by vanishing normal velocities, and equal tangential velocities and
 /// stresses, on both sides of the circle. The same coefficient is that of the viscosity of dilute emulsions in two

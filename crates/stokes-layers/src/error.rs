@@ -145,7 +145,7 @@ pub enum LayerError {
     ShortTube {
         /// The length (length).
         length: f64,
-        /// What these surfaces need (length).
+        /// Least length for these surfaces (length).
         least: f64,
     },
     /// Surfaces with singular equations.

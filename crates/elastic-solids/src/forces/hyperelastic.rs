@@ -162,8 +162,8 @@ impl<E: EnergyDensity> Hyperelastic<E> {
     }
 
     /// Gives the stresses (force per reference length) of the triangles of a patch to `add`, two of each, which add up.
-    /// With P the stress of the scaled gradient A' = s A and w = P : A'/2, the derivative of the energy of a triangle by
-    /// A is `s P - w cof(A)/J`, and that by the area of the patch is the sum of w over the triangles, times their
+    /// With P the stress of the scaled gradient A' = s A and w = P : A'/2, the derivative of a triangle's energy by A
+    /// is `s P - w cof(A)/J`, and that by the area of the patch is the sum of w over the triangles, times their
     /// reference areas, over J' and the reference area of the patch.
     #[inline]
     fn shared_stresses(

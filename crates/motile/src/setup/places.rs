@@ -42,7 +42,7 @@ impl Setup {
         }
     }
 
-    /// Refuses a straight tube whose pressure is given over a length in which the bodies leave no room to the next ones.
+    /// Refuses a straight tube whose pressure is given over a length in which bodies leave no room to the next ones.
     fn check_length<'a>(&self, corners: impl Iterator<Item = &'a Vec2>) -> Result<(), SetupError> {
         let Region::Tube { radius, shape: TubeShape::Straight, drive, length: Some(length) } = self.region else {
             return Ok(());
@@ -52,8 +52,8 @@ impl Setup {
         let least = high - low + Region::LENGTHS_APART * radius;
         let holds = drive.flux().is_some() || least <= length;
         let remedy = format!(
-            "bodies in neighbouring lengths, whose flows on one another are not counted, are a radius of the tube apart \
-             or more: give at least {least:.4}, or a flux in place of a pressure"
+            "bodies in neighbouring lengths, whose flows on one another are not counted, are a radius of the tube \
+             apart or more: give at least {least:.4}, or a flux in place of a pressure"
         );
         Checked { place: "" }.require(holds, "region.tube.length", length, &remedy)
     }

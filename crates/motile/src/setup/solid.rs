@@ -61,8 +61,8 @@ pub struct SolidSetup {
     #[serde(default)]
     pub finer_surface: Option<bool>,
     /// Forces of inner points spread over the triangles about them ([`Solid::spread_over_triangles`]): soft walls are
-    /// then as incompressible as the fluid, whatever their bulk modulus, at two to four times the time. Among layers the
-    /// grid then has half the spacing. Not for scenes that are kept mirror symmetric.
+    /// then as incompressible as the fluid, whatever their bulk modulus, at two to four times the time. Among layers
+    /// the grid then has half the spacing. Not for scenes that are kept mirror symmetric.
     #[serde(default)]
     pub spread_over_triangles: bool,
     /// Leave for triangles of springs to be inverted ([`Solid::allow_inversion`]).
