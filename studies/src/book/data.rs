@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use motile::motile_base::{Region, Vec2};
+use motile::motile_base::{FlowSample, Region, Vec2};
 use motile::motile_scene::SceneError;
-use motile::setup::Setup;
+use motile::motile_scene::checkpoint::Checkpoint;
+use motile::setup::{Built, Setup};
 use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
 use serde::Deserialize;
@@ -31,7 +32,7 @@ const FIELD: f64 = 6.0;
 const FIELD_CELLS: usize = 120;
 const LINES_APART: f64 = 0.5;
 const POINT_OF_LINE: usize = 3;
-/// How far from a droplet's ends in a channel the pressure is looked at, over the channel's width.
+/// How far from a droplet's ends in a channel the pressure is looked at, over the channel's width or the droplet's.
 const BESIDE: f64 = 0.1;
 /// Largest step along a branch that leads to a state, the norm as of [`Continuation`].
 const LARGEST_STEP: f64 = 0.2;
@@ -59,6 +60,9 @@ pub(super) struct Source {
     /// With streamlines around them, in the frame of the laboratory.
     #[serde(default)]
     streamlines: bool,
+    /// With the pressure ahead of the first droplet of runs at their ends, less that behind it.
+    #[serde(default)]
+    pressures: bool,
     /// Of each point of the plan the boundary between two outcomes.
     #[serde(default)]
     bisect: Option<Bisection>,
@@ -298,6 +302,9 @@ impl Source {
                 let aside = heights.fold(0.0, |most: f64, y| if y.abs() > most.abs() { y } else { most });
                 row.insert("aside".to_owned(), aside);
             }
+            if self.pressures {
+                row.insert("pressure_ahead".to_owned(), pressure_ahead(trial)?);
+            }
             Ok(row)
         };
         let mut rows = vec![None; labels.len()];
@@ -345,12 +352,30 @@ fn narrowness(state: &SteadyState) -> Result<[Option<f64>; 2]> {
     let Region::Channel { width, .. } = state.setup().region else { return Ok([None; 2]) };
     let places = &state.profile().positions;
     let highest = places.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
-    let [low, high] = places
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place.x), high.max(place.x)]);
-    let ends = [high + BESIDE * width, low - BESIDE * width].map(|x| Vec2::new(x, 0.0));
-    let pressures: Vec<f64> = state.sample(&ends)?.iter().map(|sample| sample.pressure).collect();
+    let pressures: Vec<f64> =
+        state.sample(&beside(places, BESIDE * width))?.iter().map(|sample| sample.pressure).collect();
     Ok([Some(0.5 * width - highest), Some(pressures[0] - pressures[1])])
+}
+
+/// Points on the x axis at this distance ahead of and behind an outline.
+fn beside(outline: &[Vec2], distance: f64) -> [Vec2; 2] {
+    let ends = |[low, high]: [f64; 2], place: &Vec2| [low.min(place.x), high.max(place.x)];
+    let [low, high] = outline.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+    [high + distance, low - distance].map(|x| Vec2::new(x, 0.0))
+}
+
+/// The pressure ahead of a run's first droplet at its end less that behind it (force per length), a tenth of the
+/// droplet's height from it.
+fn pressure_ahead(trial: &Trial) -> Result<f64> {
+    let Built { mut scene, droplets, .. } = trial.setup.build()?;
+    scene.resume(&Checkpoint::read(&trial.folder.join("checkpoint"))?)?;
+    let droplet = *droplets.first().context("a pressure ahead of no droplet")?;
+    let outline = scene.body(droplet)?.markers();
+    let height = 2.0 * outline.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
+    let points = beside(outline, BESIDE * height);
+    let mut samples = [FlowSample::default(); 2];
+    scene.system_mut().sample(&points, &mut samples)?;
+    Ok(samples[0].pressure - samples[1].pressure)
 }
 
 /// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the
