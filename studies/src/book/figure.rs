@@ -152,6 +152,8 @@ struct Points {
     /// lists, each a line of its own.
     x: Several,
     y: Several,
+    /// Error of y, shown as a bar where it is of one row.
+    error: Option<String>,
     by: Option<String>,
     #[serde(rename = "where")]
     wanted: Option<String>,
@@ -440,12 +442,14 @@ impl Figure {
         let is_list = matches!(&points.x, Several::One(text) if text.ends_with('*'));
         let has_ends = matches!(&points.x, Several::One(text) if text.ends_with("*_*"));
         let by = points.by.as_deref().map(&parse).transpose()?;
+        let error = points.error.as_deref().map(&parse).transpose()?;
         let wanted = points.wanted.as_deref().map(&parse).transpose()?;
         let mut groups: Vec<Group> = Vec::new();
         let is_wanted = |row: &&Row| wanted.as_ref().is_none_or(|wanted| wanted.value(row) == 1.0);
         for row in rows.iter().filter(is_wanted) {
             let group = by.as_ref().map_or(f64::NAN, |by| by.value(row));
-            let values = x.iter().zip(&y).map(|(x, y)| (x.value(row), y.value(row), 0.0));
+            let error = error.as_ref().map_or(0.0, |error| error.value(row));
+            let values = x.iter().zip(&y).map(|(x, y)| (x.value(row), y.value(row), error));
             let values: Vec<_> = values.filter(|(x, y, _)| has_ends || x.is_finite() && y.is_finite()).collect();
             match groups.iter_mut().find(|(other, _)| same(*other, group) || other.is_nan() && group.is_nan()) {
                 Some((_, points)) => points.extend(values),
@@ -461,8 +465,11 @@ impl Figure {
     }
 }
 
-/// Points that follow each other at the same x as one, with its standard deviation.
+/// Points that follow each other at the same x as one, with its standard deviation; of a single one with its error.
 fn means(points: &[(f64, f64, f64)]) -> Vec<(f64, f64, f64)> {
-    let groups = points.chunk_by(|a, b| same(a.0, b.0));
-    groups.map(|group| (group, mean(group.iter().map(|p| p.1)))).map(|(group, (y, d))| (group[0].0, y, d)).collect()
+    let of = |group: &[(f64, f64, f64)]| {
+        let (y, deviation) = mean(group.iter().map(|p| p.1));
+        (group[0].0, y, if group.len() == 1 { group[0].2 } else { deviation })
+    };
+    points.chunk_by(|a, b| same(a.0, b.0)).map(of).collect()
 }

@@ -98,6 +98,21 @@ fn what_is_wrong_is_told_in_a_sentence() {
 }
 
 #[test]
+fn a_single_row_is_shown_with_its_error_and_several_with_their_deviation() {
+    let text = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\ndata = [\"rows\"]\n[[panel]]\nx = \"x\"\ny = \"y\"\n\
+                [[panel.curve]]\nx = \"x\"\ny = \"y\"\nerror = \"2 * e\"\n";
+    let figure: Figure = toml::from_str(text).expect("a figure");
+    let row =
+        |x: f64, y: f64, e: f64| [("x", x), ("y", y), ("e", e)].map(|(name, value)| (name.to_owned(), value)).into();
+    let rows = vec![row(1.0, 5.0, 0.25), row(2.0, 1.0, 0.25), row(2.0, 3.0, 0.25)];
+    let data = [("rows".to_owned(), Data { rows, ..Data::default() })].into();
+    let (plots, points) = figure.panels(&Definitions::new(), &data).expect("a panel");
+    assert_eq!(plots.len(), 1);
+    let deviation = 2_f64.sqrt();
+    assert_eq!(points, format!("panel,curve,group,x,y,deviation\n1,,none,1,5,0.5\n1,,none,2,2,{deviation}\n"));
+}
+
+#[test]
 fn a_verdict_falls_with_its_numbers() {
     let text = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\nverdict = \"confirmed\"\ndata = [\"rows\"]\n[[check]]\n\
                 name = \"speed\"\nmeasure = \"mean\"\nx = \"1\"\ny = \"speed\"\nwithin = [0.9, 1.1]\n";

@@ -134,7 +134,7 @@ impl Bisection {
         let own = format!("{number:03}-{value}");
         let mut trials = Plan::of(plan)?.trials(&folder(name, making).join(&own))?;
         let mut trial = trials.pop().context("a plan without a run")?;
-        trial.label = format!("{own}/{}", trial.label);
+        trial.label = own;
         Ok(trial)
     }
 }
