@@ -32,6 +32,7 @@ const UNCHANGED: u8 = 255;
 /// let Built { mut scene, .. } = Setup::default().build()?;
 /// let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.2)?);
 /// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
+/// assert_eq!(film.begins(), Some(0.0));
 /// let path = std::env::temp_dir().join("a-droplet.gif");
 /// film.write(&[], &path)?;
 /// # std::fs::remove_file(&path)?;
@@ -61,6 +62,13 @@ impl Film {
         let levels = (usual.levels as f64 * factor.min(1.0)).round() as usize;
         let em = (usual.em * factor).max(LEAST_TYPE);
         Self { format: Format { width: pixels, em, levels: levels.max(LEAST_LEVELS), ..usual }, ..self }
+    }
+
+    /// Time of the first frame, later than that of the scene's start in a run that was resumed: frames are kept with the
+    /// film alone.
+    #[must_use]
+    pub fn begins(&self) -> Option<f64> {
+        self.frames.first().map(|seen| seen.time)
     }
 
     /// Writes the animation as a GIF that repeats for ever; between walls each frame shows the tracks up to its time.

@@ -10,7 +10,7 @@ use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::Soli
 use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Numbers, Particles, Setup};
 
 use super::scene_run::view as view_of;
-use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
+use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary, words::say};
 use crate::plot::{concentration_plot, time_series};
 use crate::{CsvTable, DropletsCsv, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
@@ -216,7 +216,11 @@ impl WatchedRun {
             let tracks = [recorder.track()];
             let seen = Snapshot::take(scene.system_mut(), raster)?;
             look.write_picture(&seen, &tracks, directory.join("final.png"))?;
-            Ok(film.write(&tracks, directory.join("swim.gif"))?)
+            film.write(&tracks, directory.join("swim.gif"))?;
+            if let Some(begins) = film.begins().filter(|begins| *begins > 0.0) {
+                say(format_args!("swim.gif begins at t = {begins:.4}, where the run was resumed"));
+            }
+            Ok(())
         })
     }
 }
