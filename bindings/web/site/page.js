@@ -73,7 +73,7 @@ function showPresets() {
     button.title = `${words} (${k + 1})`;
     button.setAttribute("aria-pressed", "false");
     const image = document.createElement("img");
-    image.src = `thumbnails/${name}.png`;
+    image.src = `thumbnails/${name}.webp`;
     image.alt = "";
     image.width = 144;
     image.height = 96;

@@ -136,6 +136,48 @@ fn sliders_act_on_the_running_scene_and_on_its_text() {
     live.step(None).expect("a step");
 }
 
+/// Sliders at their ends: the scene goes on, or says why not and is what it was.
+#[test]
+fn sliders_at_their_ends_leave_every_preset_running() {
+    for preset in PRESETS {
+        let setup = Setup::from_toml(preset.scene).expect("a scene");
+        for (name, knob) in Knob::NAMES {
+            let (ends, _) = knob.range(&setup);
+            if knob.value(&setup).is_none() {
+                continue;
+            }
+            for value in ends {
+                let mut live = Live::new(setup.clone()).expect("a scene");
+                let before = concise(live.described()).expect("a text");
+                match live.turn(knob, value) {
+                    Ok(()) => assert!((knob.value(live.described()).expect("a value") - value).abs() < 1e-9, "{name}"),
+                    Err(refused) => {
+                        assert!(!refused.message.is_empty(), "{}, {name} = {value}", preset.name);
+                        assert_eq!(concise(live.described()).expect("a text"), before, "{name} = {value}");
+                    }
+                }
+                let stepped = live.step(None);
+                assert!(stepped.is_ok_and(|more| more), "{}, {name} = {value}", preset.name);
+                assert!(live.speed(0).expect("a flow").is_some_and(f64::is_finite), "{}, {name}", preset.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn droplets_stay_between_walls() {
+    for (name, away) in [("channel", [0.0, 1.5]), ("channel", [0.0, 40.0]), ("constriction", [0.0, 3.0])] {
+        let mut live = Live::new(preset(name)).expect("a scene");
+        let before = live.speed(0).expect("a flow");
+        let refused = live.drag(0, away.into()).expect_err("a wall");
+        assert!(!refused.message.is_empty(), "{name}");
+        assert_eq!(live.speed(0).expect("a flow"), before, "{name}");
+        live.step(None).expect("a step");
+    }
+    let mut live = Live::new(preset("channel")).expect("a scene");
+    assert!(live.drag(0, Vec2::new(f64::NAN, 0.0)).is_err());
+}
+
 #[test]
 fn several_droplets_keep_their_ratios() {
     let meeting = preset("meeting");

@@ -197,6 +197,11 @@ async function whole({ name, ...view }) {
 try {
   const wide = await whole({ name: "wide", width: 1400, height: 900, touch: false, scheme: "light" });
   const narrow = await whole({ name: "narrow", width: 390, height: 844, touch: true, scheme: "dark" });
+  const pale = await visit({ width: 390, height: 844, touch: true, scheme: "light" });
+  await drawn(pale.page, "narrow and light");
+  await shot(pale.page, "narrow-light");
+  await accessible(pale.page);
+  await pale.context.close();
   // By the keyboard alone: every scene runs, the view of the other theme is readable too.
   const { context, page, problems } = await visit({ width: 1400, height: 900, touch: false, scheme: "dark" });
   const presets = await page.locator("#presets button").count();
@@ -217,6 +222,7 @@ try {
   await plays(page, "keyboard", "Play");
   await until(page, "no map of speeds", () => Number(document.documentElement.dataset.map) > 12);
   await accessible(page);
+  await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
   console.log(

@@ -9,7 +9,7 @@ const TYPES = {
   ".css": "text/css",
   ".wasm": "application/wasm",
   ".svg": "image/svg+xml",
-  ".png": "image/png",
+  ".webp": "image/webp",
 };
 
 /** Switches of Chromium for a machine without a screen, a graphics card or a network. */

@@ -37,9 +37,9 @@ for (const [name, time] of Object.entries(TIMES)) {
       288,
       192,
     );
-    return small.toDataURL("image/png");
+    return small.toDataURL("image/webp", 0.75);
   });
-  writeFileSync(join(out, `${name}.png`), Buffer.from(data.split(",")[1], "base64"));
+  writeFileSync(join(out, `${name}.webp`), Buffer.from(data.split(",")[1], "base64"));
 }
 await browser.close();
 server.close();

@@ -1,4 +1,9 @@
 //! Makes the page's JavaScript module from the compiled crate: `tool WASM FOLDER web|nodejs`.
+
+mod order;
+
+use std::{fs, path::Path};
+
 use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -12,5 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "nodejs" => bindgen.nodejs(true)?,
         other => return Err(format!("there is no target {other}: give web or nodejs").into()),
     };
-    Ok(bindgen.generate(folder)?)
+    bindgen.generate(folder)?;
+    let module = Path::new(folder).join("motile_bg.wasm");
+    Ok(fs::write(&module, order::alike(&fs::read(&module)?)?)?)
 }
