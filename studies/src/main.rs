@@ -25,6 +25,7 @@ mod suspensions;
 mod tables;
 mod threads;
 mod time_steps;
+mod tubes;
 mod validation;
 mod warnings;
 mod work_precision;
@@ -54,6 +55,7 @@ enum Study {
     TimeSteps(time_steps::Flags),
     Scaling(scaling::Flags),
     Threads(threads::Flags),
+    Tubes(tubes::Flags),
     ElasticStep(elastic_step::Flags),
     Gel(gel::Flags),
     Warnings(warnings::Flags),
@@ -84,6 +86,7 @@ fn main() -> ExitCode {
         Study::TimeSteps(flags) => time_steps::run(flags),
         Study::Scaling(flags) => scaling::run(flags),
         Study::Threads(flags) => threads::run(flags),
+        Study::Tubes(flags) => tubes::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),

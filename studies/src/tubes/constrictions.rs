@@ -1,0 +1,147 @@
+//! Constrictions of tubes that a droplet passes, beside those of channels in the plane.
+
+use anyhow::{Context, Result, bail};
+use motile::motile_base::{Drive, Region, TubeShape};
+use motile::motile_scene::{Every, SceneError};
+use motile::setup::{DropletSetup, Setup};
+use motile_examples::{Passage, Verdict};
+use motile_output::run::{Decided, say};
+use motile_tests::validation::Table;
+use toml::{Table as Toml, Value};
+
+use super::scene;
+
+/// Sources that the table depends on besides those of every run.
+pub(super) const INPUTS: [&str; 3] = [
+    "studies/src/tubes/constrictions.rs",
+    "examples/src/passage.rs",
+    "studies/book/data/environment-constriction.toml",
+];
+/// End of the runs, and place on the axis where they start (R0).
+const TIME: f64 = 160.0;
+const START: f64 = -4.0;
+/// Half of the distance of the last two throats over their middle.
+const WITHIN: f64 = 0.012;
+/// Diameter of tubes and width of the channel (R0).
+const WIDTH: f64 = 3.0;
+/// Lengths of the throat and of its ramps (R0), and diameters or widths of throats that are not passed and that are, in
+/// tubes and in the plane.
+const CASES: [([f64; 2], [f64; 2], [f64; 2]); 2] =
+    [([2.0, 1.0], [2.1, 2.5], [1.2, 2.6]), ([1.0, 1.0], [1.7, 2.5], [1.0, 2.6])];
+/// Nodes in tubes.
+const NODES: [usize; 2] = [48, 64];
+/// Constrictions in the plane, one of whose scenes is taken with its ends closed.
+const PLANE: &str = include_str!("../../book/data/environment-constriction.toml");
+
+/// The droplet of the plane's constrictions before one of a tube, of that diameter (R0).
+fn in_tube([throat_length, ramp]: [f64; 2], count: usize, diameter: f64) -> Result<Setup> {
+    let shape = TubeShape::Constriction { throat: 0.5 * diameter, throat_length, ramp };
+    let region = Region::Tube { radius: 0.5 * WIDTH, shape, drive: Drive::ZeroFlux, length: Some(16.0) };
+    let droplet = DropletSetup { centre: [START, 0.0], ..DropletSetup::contractile(-4.0, 10.0) };
+    Ok(scene(region, droplet, count))
+}
+
+/// That droplet before a constriction of a channel in the plane.
+fn in_channel([throat_length, ramp]: [f64; 2], closed: Drive, width: f64) -> Result<Setup> {
+    let data: Toml = toml::from_str(PLANE)?;
+    let scene = data.get("plan").and_then(|plan| plan.get("scene")).context("no scene")?;
+    let mut setup: Setup = scene.clone().try_into()?;
+    if let Region::Channel { drive, .. } = &mut setup.region {
+        *drive = closed;
+    }
+    let mut scene = Value::try_from(&setup)?;
+    let walls = scene.get_mut("walls").and_then(Value::as_array_mut).context("no walls")?;
+    for wall in walls {
+        let sides = wall.get_mut("outline").and_then(Value::as_table_mut).context("no outline")?;
+        for (_, side) in sides.iter_mut() {
+            let shape = side.get_mut("constriction").and_then(Value::as_table_mut).context("no constriction")?;
+            for (key, value) in [("width", WIDTH), ("throat", width), ("throat-length", throat_length), ("ramp", ramp)]
+            {
+                shape.insert(key.to_owned(), Value::Float(value));
+            }
+        }
+    }
+    Ok(scene.try_into()?)
+}
+
+/// What is known of the least throat.
+#[derive(Debug, Default)]
+struct Boundary {
+    /// Throats that are not passed and that are (R0).
+    ends: [f64; 2],
+    /// Runs that ended in an error, as the film to the wall is thinner than the nodes resolve, judged by how far they
+    /// had come.
+    failed: usize,
+    runs: usize,
+}
+
+impl Boundary {
+    /// True where the droplet of a scene passes the place `beyond` (R0).
+    fn passes(&mut self, setup: &Setup, beyond: f64) -> Result<bool> {
+        let mut scene = setup.build()?.scene;
+        let mut passage = Passage::new(beyond);
+        self.runs += 1;
+        match scene.run(TIME).observe(Every::Steps(1), &mut passage).go() {
+            Err(SceneError::Observer { source, .. }) if !source.is::<Decided>() => bail!("{source}"),
+            Err(SceneError::Observer { .. }) | Ok(_) => {}
+            Err(error) => {
+                say(format_args!("{error}"));
+                self.failed += 1;
+            }
+        }
+        say(format_args!("{:?} at t = {:.1}", passage.verdict(), passage.time()));
+        Ok(passage.verdict() == Verdict::Passed)
+    }
+
+    /// By bisection between a throat that is not passed and one that is.
+    fn found(setup: impl Fn(f64) -> Result<Setup>, beyond: f64, ends: [f64; 2]) -> Result<Self> {
+        let mut found = Self { ends, ..Self::default() };
+        if found.passes(&setup(ends[0])?, beyond)? || !found.passes(&setup(ends[1])?, beyond)? {
+            found.ends = [f64::NAN; 2];
+        }
+        while found.error() > WITHIN * found.middle() {
+            let middle = found.middle();
+            let passed = found.passes(&setup(middle)?, beyond)?;
+            found.ends[usize::from(passed)] = middle;
+        }
+        Ok(found)
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * (self.ends[0] + self.ends[1])
+    }
+
+    fn error(&self) -> f64 {
+        0.5 * (self.ends[1] - self.ends[0])
+    }
+}
+
+/// Least diameters of throats in tubes, and least widths in the plane with closed ends and with a flux.
+pub(super) fn constrictions() -> Result<Table> {
+    let title = format!(
+        "Least throats that droplets of activity -4, A = 10 pass by t = {TIME} from x = {START} R0, of tubes of \
+         diameter and channels of width {WIDTH} R0, 16 R0 long"
+    );
+    let header = ["throat", "ramps", "in", "nodes", "least throat", "half of the bracket", "runs", "in errors"];
+    let mut table = Table::new(&title, &header);
+    for (case, tube, plane) in CASES {
+        let [long, ramp] = case;
+        let beyond = 0.5 * long + ramp + 1.0;
+        let mut push = |place: &str, count: usize, found: Boundary| {
+            let of = |value: f64, places: usize| {
+                if value.is_finite() { format!("{value:.places$}") } else { "-".to_owned() }
+            };
+            let cells = [long.to_string(), ramp.to_string(), place.to_owned(), count.to_string()];
+            let told = [of(found.middle(), 3), of(found.error(), 3), found.runs.to_string(), found.failed.to_string()];
+            say(format_args!("{cells:?} {told:?}"));
+            table.push(cells.into_iter().chain(told));
+        };
+        for (place, drive) in [("plane, no flux", Drive::ZeroFlux), ("plane, no pressure drop", Drive::ZeroGradient)] {
+            push(place, 56, Boundary::found(|width| in_channel(case, drive, width), beyond, plane)?);
+        }
+        for count in NODES {
+            push("tube, no flux", count, Boundary::found(|throat| in_tube(case, count, throat), beyond, tube)?);
+        }
+    }
+    Ok(table)
+}
