@@ -32,6 +32,8 @@ const CLOSEST: f64 = 1e-9;
 const ASYMMETRY: f64 = 1e-6;
 /// Points that finer nodes are made for, rather than panels for each of them.
 const MANY: usize = 100;
+/// Largest difference of a point from the mirror image of another one, over the extent of all, that is round-off.
+const MIRRORED: f64 = 1e-14;
 /// Most nodes of a closed curve: the matrix for a viscosity contrast then takes 36 MB.
 const MOST_NODES: f64 = 2048.0;
 
@@ -515,15 +517,20 @@ impl AxisymmetricFlow {
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
-        // Pictures of the meridian plane hold each point and its mirror image.
-        let mut known = HashMap::new();
+        // Pictures of the meridian plane hold each point and, but for round-off, its mirror image.
+        let mut known: HashMap<[u64; 2], (f64, FlowSample)> = HashMap::new();
+        let extent = points.iter().map(|point| point.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max);
         let layers = if points.len() < MANY { 0 } else { self.len() + 1 };
         let mut fine: Vec<Levels> = (0..layers).map(|_| Levels::default()).collect();
         for (point, out) in points.iter().zip(out) {
             let side = if point.y < 0.0 { -1.0 } else { 1.0 };
             let place = Vec2::new(point.x, point.y.abs());
-            *out =
-                *known.entry([place.x.to_bits(), place.y.to_bits()]).or_insert_with(|| self.flow_at(place, &mut fine));
+            let key = [place.x.to_bits(), (place.y / (MIRRORED * extent)).round() as u64];
+            *out = match known.get(&key) {
+                Some((y, sample)) if y * side < 0.0 || *y == point.y => *sample,
+                _ => self.flow_at(place, &mut fine),
+            };
+            known.entry(key).or_insert((point.y, *out));
             out.velocity.y *= side;
             (out.gradient[0][1], out.gradient[1][0]) = (side * out.gradient[0][1], side * out.gradient[1][0]);
         }
@@ -559,10 +566,11 @@ impl AxisymmetricFlow {
                 fluid = (sides.inside.unwrap_or(f64::INFINITY), volume);
             }
             let contrast = sides.contrast();
+            let wanted = if contrast == 0.0 { Wanted::Both } else { Wanted::Gradients };
             let nodes = fine.get_mut(surface).and_then(|levels| levels.at(&spot, (grid, meridian), Some(solution)));
             if let Some(nodes) = nodes {
                 for node in nodes {
-                    let ring = node.ring(&spot, Wanted::Gradients);
+                    let ring = node.ring(&spot, wanted);
                     add(node.weight, ring.single_flow(node.force));
                     if contrast != 0.0 {
                         let factor = contrast * node.weight * node.point.place.y;
@@ -571,7 +579,7 @@ impl AxisymmetricFlow {
                 }
                 continue;
             }
-            panels.each((grid, meridian), &spot, Wanted::Gradients, |source| {
+            panels.each((grid, meridian), &spot, wanted, |source| {
                 add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
                 if contrast != 0.0 {
                     let density = Vec2::new(
@@ -587,11 +595,9 @@ impl AxisymmetricFlow {
             let Walls { grid, meridian, panels, shift, .. } = &mut **walls;
             let spot = meridian.spot(grid, place - *shift, panels);
             if let Some(nodes) = fine.last_mut().and_then(|levels| levels.at(&spot, (grid, meridian), None)) {
-                nodes
-                    .iter()
-                    .for_each(|node| add(node.weight, node.ring(&spot, Wanted::Gradients).single_flow(node.force)));
+                nodes.iter().for_each(|node| add(node.weight, node.ring(&spot, Wanted::Both).single_flow(node.force)));
             } else {
-                panels.each((grid, meridian), &spot, Wanted::Gradients, |source| {
+                panels.each((grid, meridian), &spot, Wanted::Both, |source| {
                     add(source.weight, source.ring.single_flow(meridian.force_at(&source)));
                 });
             }

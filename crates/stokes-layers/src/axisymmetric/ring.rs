@@ -17,7 +17,7 @@ const POINTS: usize = 16;
 pub(super) enum Wanted {
     /// The single layer.
     Single,
-    /// Both.
+    /// Both, or the single layer with its gradient.
     Both,
     /// Both with their gradients.
     Gradients,
@@ -72,9 +72,9 @@ impl Ring {
         let mean = distance + product;
         let moments = if product < NEAR_AXIS * mean {
             match wanted {
-                Wanted::Single => summed::<2>(distance, product),
-                Wanted::Both => summed::<3>(distance, product),
-                Wanted::Gradients => summed::<4>(distance, product),
+                Wanted::Single => summed::<2, 3>(distance, product),
+                Wanted::Both => summed::<3, 4>(distance, product),
+                Wanted::Gradients => summed::<4, 5>(distance, product),
             }
         } else {
             elliptic_moments(distance, product, wanted)
@@ -222,8 +222,8 @@ fn elliptic_moments(distance: f64, product: f64, wanted: Wanted) -> [[f64; 5]; 4
     moments
 }
 
-/// Moments of so many orders by the trapezoidal rule.
-fn summed<const ORDERS: usize>(distance: f64, product: f64) -> [[f64; 5]; 4] {
+/// So many moments of so many orders by the trapezoidal rule.
+fn summed<const ORDERS: usize, const POWERS: usize>(distance: f64, product: f64) -> [[f64; 5]; 4] {
     /// w at the points of half a turn.
     const W: [f64; POINTS / 2 + 1] = [
         0.0,
@@ -243,7 +243,7 @@ fn summed<const ORDERS: usize>(distance: f64, product: f64) -> [[f64; 5]; 4] {
         let mut value = weight * TAU / POINTS as f64 * square.sqrt();
         for moments in &mut moments[..ORDERS] {
             let mut power = value;
-            for moment in moments {
+            for moment in &mut moments[..POWERS] {
                 *moment += power;
                 power *= w;
             }

@@ -499,6 +499,26 @@ fn flow_at_many_points_is_that_at_few() {
     }
 }
 
+/// The mirror image of a point, to round-off, has the mirror image of its flow, and bit for bit; a point beside it on
+/// the same side has its own.
+#[test]
+fn flow_is_its_own_mirror_image() {
+    let spheroid = closed(64, |t| (1.1 * t.cos(), 0.9 * t.sin()));
+    let forces = tensions(&spheroid, |t| 2.0 + t.cos());
+    let mut flow = flow(64);
+    flow.load([Interface::closed(&spheroid, &forces, [1.0, 1.0])].into_iter()).unwrap();
+    flow.solve().unwrap();
+    let y = 0.05_f64;
+    let points = [y, -y - 3e-16, y + 3e-15].map(|y| Vec2::new(2.0, y));
+    let mut out = [FlowSample::default(); 3];
+    flow.sample(&points, &mut out).unwrap();
+    let [point, image, beside] = out;
+    let [[xx, xy], [yx, yy]] = point.gradient;
+    assert_eq!(image.velocity, Vec2::new(point.velocity.x, -point.velocity.y));
+    assert_eq!((image.pressure, image.gradient), (point.pressure, [[xx, -xy], [-yx, yy]]));
+    assert_ne!(beside.velocity.y, point.velocity.y);
+}
+
 /// Rows in shares: to the same bits by any number of threads, in a tube, of drops with another viscosity.
 #[cfg(feature = "rayon")]
 #[test]
