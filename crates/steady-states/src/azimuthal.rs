@@ -7,7 +7,7 @@ use motile_base::{PeriodicSeries, Region, Vec2, within};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::spectrum::{Eigenmode, NO_GROWTH, Spectrum, Symmetry, complement, eigenvalues};
+use crate::spectrum::{Eigenmode, NO_GROWTH, Spectrum, Symmetry, eigenvalues};
 use crate::system::{Point, System};
 use crate::{SteadyError, SteadyState};
 
@@ -16,6 +16,8 @@ const MOST_ORDER: f64 = 2.0;
 /// Part of the waves of a disturbance off the axis that is kept: products with normals alias higher ones to the poles,
 /// where a displacement that does not vanish is a singular one, whose growth rate falls as the logarithm of the nodes.
 const KEPT: f64 = 11.0 / 12.0;
+/// Speed, over the radius times the rate of diffusion, of a droplet that swims: one at rest cannot be turned.
+const SLOWEST: f64 = 1e-9;
 
 /// Undisturbed surface at nodes: t_j = pi (j + 1/2)/N on the meridian.
 struct Surface {
@@ -122,8 +124,7 @@ fn singular() -> SteadyError {
 
 impl System {
     /// Matrix of the rates (1/time) of disturbances of an order m about a steady state in three dimensions, of offsets
-    /// eta along the normal and of the concentration c', both times cos(m phi); and the rigid motions that change no
-    /// rate, as columns of coefficients.
+    /// eta along the normal and of the concentration c', both times cos(m phi).
     ///
     /// With the surface's tangent tau, normal n, curvatures kappa_1 and kappa_2, the slip q and h = |X_t|
     ///
@@ -139,11 +140,7 @@ impl System {
     ///
     /// and v' of the forces g' and the displacements eta n by [`stokes_layers::axisymmetric::Disturbances`]. The
     /// shortest waves are left out.
-    pub(crate) fn around(
-        &mut self,
-        point: &Point,
-        order: usize,
-    ) -> Result<(DMatrix<f64>, Vec<DVector<f64>>), SteadyError> {
+    pub(crate) fn around(&mut self, point: &Point, order: usize) -> Result<DMatrix<f64>, SteadyError> {
         self.load(point)?;
         let Some(disturbances) = self.model.flow.disturbances(order)? else {
             return Err(SteadyError::Unsupported {
@@ -232,26 +229,16 @@ impl System {
             }
             matrix.set_column(column, &coefficients(&offsets, &concentrations)?);
         }
-        // A shift across the axis and a turn, where there is no wall.
-        let motions: &[fn(&Node) -> Vec2] = match order {
-            1 if self.model.setup.region == Region::Space => {
-                &[|_| Vec2::new(0.0, 1.0), |node| Vec2::new(-node.place.y, node.place.x)]
-            }
-            _ => &[],
-        };
-        let motions = motions.iter().map(|motion| {
-            let offsets = surface.nodes.iter().map(|node| motion(node).dot(node.normal));
-            let concentrations = surface.nodes.iter().map(|node| -motion(node).dot(node.tangent) * node.gradient);
-            coefficients(&DVector::from_iterator(n, offsets), &DVector::from_iterator(n, concentrations))
-        });
-        Ok((matrix, motions.collect::<Result<_, _>>()?))
+        Ok(matrix)
     }
 }
 
 impl SteadyState {
     /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order: those of
     /// m = 1 turn a swimmer and push it aside, those of m = 2 flatten it. Shifts across the axis and turns, which
-    /// neither grow nor decay in unbounded fluid, are left out; [`Spectrum::neutral`] is how fast they seem to.
+    /// neither grow nor decay in unbounded fluid, are left out: the eigenvalues nearest to zero, of which
+    /// [`Spectrum::neutral`] is the largest. A turned droplet swims aside, so that their error is the root of the
+    /// matrix'.
     ///
     /// The equations are linearised by hand and integrated over the azimuth by quadrature. Disturbances of m = 0 are
     /// those of [`SteadyState::spectrum`].
@@ -261,19 +248,18 @@ impl SteadyState {
     pub fn spectrum_around(&self, order: usize) -> Result<Spectrum, SteadyError> {
         within("the order of a disturbance", order as f64, 1.0, MOST_ORDER)?;
         let mut system = System::new(self.setup())?;
-        let (matrix, motions) = system.around(self.point(), order)?;
+        let matrix = system.around(self.point(), order)?;
         let unit = system.model.rate_unit();
-        let neutral = if let [shift, turn] = motions.as_slice() {
-            // A droplet that is turned swims aside: the rate of a turn is a shift.
-            let rate = &matrix * turn;
-            let rest = &rate - shift * (rate.dot(shift) / shift.norm_squared());
-            ((&matrix * shift).norm() / shift.norm()).max(rest.norm() / turn.norm())
-        } else {
-            0.0
+        // Shifts and, of droplets that swim, turns.
+        let swims = self.velocity().length() > SLOWEST * system.model.radius * unit;
+        let motions = match order {
+            1 if self.setup().region == Region::Space => 1 + usize::from(swims),
+            _ => 0,
         };
-        let basis = complement(&motions, matrix.nrows());
+        let mut values = eigenvalues(&matrix)?;
+        values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let neutral = values.drain(..motions).map(|z| z.norm()).fold(0.0, f64::max);
         let symmetry = if order.is_multiple_of(2) { Symmetry::Symmetric } else { Symmetry::Antisymmetric };
-        let values = eigenvalues(&(basis.transpose() * matrix * &basis))?;
         let mut modes: Vec<Eigenmode> =
             values.into_iter().filter(|z| z.im >= 0.0).map(|value| Eigenmode { value, symmetry }).collect();
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
