@@ -7,6 +7,7 @@ use motile::active_interface::ActiveDroplet;
 use motile::motile_base::{Drive, Region, TubeShape, Vec2};
 use motile::motile_scene::Scene;
 use motile::setup::{DropletSetup, Particles, Setup};
+use motile_output::run::say;
 use motile_tests::validation::Table;
 use steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 
@@ -35,52 +36,89 @@ fn leading(state: &SteadyState) -> Result<f64> {
 }
 
 /// Leading eigenvalue of disturbances of an order around the axis.
-fn turning(state: &SteadyState, order: usize, places: usize) -> Result<String> {
-    let spectrum = state.spectrum_around(order)?;
-    let value = spectrum.leading().context("no modes")?.value;
-    let swing = if value.im == 0.0 { String::new() } else { format!(" + {:.4} i", value.im.abs()) };
-    Ok(format!("{:.places$}{swing}", value.re))
+fn turning(state: &SteadyState, order: usize) -> Result<[f64; 2]> {
+    let value = state.spectrum_around(order)?.leading().context("no modes")?.value;
+    Ok([value.re, value.im.abs()])
 }
 
-/// Swimmers in unbounded fluid over activity, excluded volume and viscosities.
+/// Growth rate and frequency in so many places.
+fn rate([growth, frequency]: [f64; 2], places: usize) -> String {
+    let swing = if frequency == 0.0 { String::new() } else { format!(" + {frequency:.4} i") };
+    format!("{growth:.places$}{swing}")
+}
+
+/// Digits in which two values agree.
+fn settled([a, b]: [[f64; 2]; 2]) -> String {
+    let [apart, size] = [(a[0] - b[0]).hypot(a[1] - b[1]), b[0].hypot(b[1])];
+    ((size / apart).log10().floor().clamp(0.0, 9.0) as usize).to_string()
+}
+
+/// Regime by the leading eigenvalues of m = 1 and 2, with two numbers of nodes each.
+fn regime(turn: [[f64; 2]; 2], flatten: [[f64; 2]; 2]) -> String {
+    let of = |found: [[f64; 2]; 2], grows: &'static str, decays: &'static str| match found.map(|value| value[0] > 0.0) {
+        [true, true] => grows,
+        [false, false] => decays,
+        _ => "not settled",
+    };
+    let grows = if turn[1][1] == 0.0 { "turns" } else { "swings off the axis" };
+    [of(turn, grows, "keeps its heading"), of(flatten, "flattens", "stays round")].join(", ")
+}
+
+/// Swimmers in unbounded fluid over activity, excluded volume and viscosities, and their regimes.
 pub(super) fn space() -> Result<Vec<Table>> {
-    let header = [
-        "viscosities",
-        "activity",
-        "A",
-        "nodes",
-        "speed",
-        "aspect ratio",
-        "largest c",
-        "stresslet",
-        "tail",
-        "m = 0",
-        "m = 1",
-        "m = 2",
-    ];
+    let header =
+        ["viscosities", "activity", "A", "nodes", "speed", "aspect ratio", "largest c", "stresslet", "tail", "m = 0"];
     let mut table = Table::new("Swimmers of revolution in unbounded fluid", &header);
+    let [coarse, fine] = PAIR;
+    let columns = [
+        "viscosities".to_owned(),
+        "activity".to_owned(),
+        "A".to_owned(),
+        format!("m = 1, {coarse} nodes"),
+        format!("m = 1, {fine} nodes"),
+        "digits of m = 1".to_owned(),
+        format!("m = 2, {coarse} nodes"),
+        format!("m = 2, {fine} nodes"),
+        "digits of m = 2".to_owned(),
+        "regime".to_owned(),
+    ];
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let mut regimes = Table::new("Regimes of swimmers in unbounded fluid", &columns);
     let equal = [100.0; 2];
-    for (viscosities, activity, strength) in
-        [(equal, -1.0, 2.0), (equal, -2.0, 4.0), (equal, -2.0, 10.0), (equal, -4.0, 8.0), ([100.0, 10.0], -1.0, 2.0)]
-    {
-        for count in PAIR {
+    for (viscosities, activity, strength) in [
+        (equal, -0.6, 1.2),
+        (equal, -1.0, 2.0),
+        (equal, -2.0, 4.0),
+        (equal, -2.0, 10.0),
+        (equal, -3.0, 6.0),
+        (equal, -4.0, 8.0),
+        ([100.0, 10.0], -1.0, 2.0),
+        ([10.0, 100.0], -0.4, 0.8),
+    ] {
+        let [inside, outside] = viscosities;
+        let names = [format!("{inside}/{outside}"), activity.to_string(), strength.to_string()];
+        let (mut turns, mut flattens) = ([[f64::NAN; 2]; 2], [[f64::NAN; 2]; 2]);
+        for (k, count) in PAIR.into_iter().enumerate() {
             let state = SteadyState::find(&droplet(Region::Space, viscosities, activity, strength, count))?;
             let seen = state.measured()?;
-            let [inside, outside] = viscosities;
-            let names = [format!("{inside}/{outside}"), activity.to_string(), strength.to_string(), count.to_string()];
             let values = [seen.speed, seen.aspect_ratio, seen.concentration[0], seen.stresslet];
             let values = values.map(|value| digits(value, 6)).into_iter();
             let growth = [format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)];
-            let around = [turning(&state, 1, 4)?, turning(&state, 2, 4)?];
-            table.push(names.into_iter().chain(values).chain(growth).chain(around));
+            table.push(names.clone().into_iter().chain([count.to_string()]).chain(values).chain(growth));
+            (turns[k], flattens[k]) = (turning(&state, 1)?, turning(&state, 2)?);
         }
+        let of = |found: [[f64; 2]; 2]| [rate(found[0], 4), rate(found[1], 4), settled(found)];
+        let cells = names.into_iter().chain(of(turns)).chain(of(flattens)).chain([regime(turns, flattens)]);
+        let cells: Vec<String> = cells.collect();
+        say(cells.join("  "));
+        regimes.push(cells);
     }
-    Ok(vec![table])
+    Ok(vec![table, regimes])
 }
 
 /// Swimmers of activity -2 in tubes, at two numbers of nodes each.
 pub(super) fn tubes() -> Result<Vec<Table>> {
-    let header = ["radius", "nodes", "speed", "film", "aspect ratio", "stresslet", "tail", "m = 0", "m = 1"];
+    let header = ["radius", "nodes", "speed", "film", "aspect ratio", "stresslet", "tail", "m = 0", "m = 1", "m = 2"];
     let mut table = Table::new("Swimmers in tubes without flux, viscosities 100, activity -2, A = 4", &header);
     for (radius, count) in RADII.into_iter().flat_map(|radius| PAIR.map(|count| (radius, count))) {
         let mut cells = vec![radius.to_string(), count.to_string()];
@@ -89,7 +127,8 @@ pub(super) fn tubes() -> Result<Vec<Table>> {
         let widest = state.profile().positions.iter().map(|x| x.y).fold(0.0, f64::max);
         cells.extend([digits(seen.speed, 6), digits(radius - widest, 5), digits(seen.aspect_ratio, 6)]);
         cells.extend([digits(seen.stresslet, 6), format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)]);
-        cells.push(turning(&state, 1, 5)?);
+        cells.extend([rate(turning(&state, 1)?, 5), rate(turning(&state, 2)?, 4)]);
+        say(cells.join("  "));
         table.push(cells);
     }
     Ok(vec![table, drives()?])

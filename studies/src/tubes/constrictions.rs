@@ -21,17 +21,31 @@ pub(super) const INPUTS: [&str; 3] = [
 const TIME: f64 = 160.0;
 const START: f64 = -4.0;
 /// Half of the distance of the last two throats over their middle.
-const WITHIN: f64 = 0.012;
+const WITHIN: f64 = 0.02;
 /// Diameter of tubes and width of the channel (R0).
 const WIDTH: f64 = 3.0;
-/// Lengths of the throat and of its ramps (R0), and diameters or widths of throats that are not passed and that are, in
-/// tubes and in the plane.
-const CASES: [([f64; 2], [f64; 2], [f64; 2]); 2] =
-    [([2.0, 1.0], [2.1, 2.5], [1.2, 2.6]), ([1.0, 1.0], [1.7, 2.5], [1.0, 2.6])];
-/// Nodes in tubes.
-const NODES: [usize; 2] = [48, 64];
+/// A case: lengths of the throat and of its ramps (R0), what it is in, and the nodes; and diameters or widths of throats
+/// that are not passed and that are (R0).
+type Case = ([f64; 2], Place, usize, [f64; 2]);
+const CASES: [Case; 6] = [
+    ([2.0, 1.0], Place::Plane(Drive::ZeroFlux), 56, [1.2, 2.6]),
+    ([2.0, 1.0], Place::Plane(Drive::ZeroGradient), 56, [1.2, 1.6]),
+    ([2.0, 1.0], Place::Tube, 48, [2.2, 2.35]),
+    ([2.0, 1.0], Place::Tube, 64, [2.2, 2.35]),
+    ([1.0, 1.0], Place::Plane(Drive::ZeroGradient), 56, [1.0, 1.6]),
+    ([1.0, 1.0], Place::Tube, 48, [1.9, 2.3]),
+];
 /// Constrictions in the plane, one of whose scenes is taken with its ends closed.
 const PLANE: &str = include_str!("../../book/data/environment-constriction.toml");
+
+/// What a constriction is in.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// A tube without flux.
+    Tube,
+    /// A channel in the plane.
+    Plane(Drive),
+}
 
 /// The droplet of the plane's constrictions before one of a tube, of that diameter (R0).
 fn in_tube([throat_length, ramp]: [f64; 2], count: usize, diameter: f64) -> Result<Setup> {
@@ -124,24 +138,21 @@ pub(super) fn constrictions() -> Result<Table> {
     );
     let header = ["throat", "ramps", "in", "nodes", "least throat", "half of the bracket", "runs", "in errors"];
     let mut table = Table::new(&title, &header);
-    for (case, tube, plane) in CASES {
+    for (case, place, count, ends) in CASES {
         let [long, ramp] = case;
         let beyond = 0.5 * long + ramp + 1.0;
-        let mut push = |place: &str, count: usize, found: Boundary| {
-            let of = |value: f64, places: usize| {
-                if value.is_finite() { format!("{value:.places$}") } else { "-".to_owned() }
-            };
-            let cells = [long.to_string(), ramp.to_string(), place.to_owned(), count.to_string()];
-            let told = [of(found.middle(), 3), of(found.error(), 3), found.runs.to_string(), found.failed.to_string()];
-            say(format_args!("{cells:?} {told:?}"));
-            table.push(cells.into_iter().chain(told));
+        let (name, found) = match place {
+            Place::Tube => ("tube, no flux", Boundary::found(|throat| in_tube(case, count, throat), beyond, ends)?),
+            Place::Plane(drive) => {
+                let name = if drive == Drive::ZeroFlux { "plane, no flux" } else { "plane, no pressure drop" };
+                (name, Boundary::found(|width| in_channel(case, drive, width), beyond, ends)?)
+            }
         };
-        for (place, drive) in [("plane, no flux", Drive::ZeroFlux), ("plane, no pressure drop", Drive::ZeroGradient)] {
-            push(place, 56, Boundary::found(|width| in_channel(case, drive, width), beyond, plane)?);
-        }
-        for count in NODES {
-            push("tube, no flux", count, Boundary::found(|throat| in_tube(case, count, throat), beyond, tube)?);
-        }
+        let of = |value: f64| if value.is_finite() { format!("{value:.3}") } else { "-".to_owned() };
+        let cells = [long.to_string(), ramp.to_string(), name.to_owned(), count.to_string()];
+        let told = [of(found.middle()), of(found.error()), found.runs.to_string(), found.failed.to_string()];
+        say(format_args!("{cells:?} {told:?}"));
+        table.push(cells.into_iter().chain(told));
     }
     Ok(table)
 }
