@@ -24,16 +24,14 @@ const START: f64 = -4.0;
 const WITHIN: f64 = 0.02;
 /// Diameter of tubes and width of the channel (R0).
 const WIDTH: f64 = 3.0;
-/// A case: lengths of the throat and of its ramps (R0), what it is in, and the nodes; and diameters or widths of throats
-/// that are not passed and that are (R0).
-type Case = ([f64; 2], Place, usize, [f64; 2]);
-const CASES: [Case; 6] = [
-    ([2.0, 1.0], Place::Plane(Drive::ZeroFlux), 56, [1.2, 2.6]),
-    ([2.0, 1.0], Place::Plane(Drive::ZeroGradient), 56, [1.2, 1.6]),
-    ([2.0, 1.0], Place::Tube, 48, [2.2, 2.35]),
-    ([2.0, 1.0], Place::Tube, 64, [2.2, 2.35]),
-    ([1.0, 1.0], Place::Plane(Drive::ZeroGradient), 56, [1.0, 1.6]),
-    ([1.0, 1.0], Place::Tube, 48, [1.9, 2.3]),
+/// Lengths of the throat and of its ramps (R0).
+const THROAT: [f64; 2] = [2.0, 1.0];
+/// What the constriction is in, nodes, and diameters or widths of throats that are not passed and that are (R0).
+const CASES: [(Place, usize, [f64; 2]); 4] = [
+    (Place::Plane(Drive::ZeroFlux), 56, [1.2, 2.6]),
+    (Place::Plane(Drive::ZeroGradient), 56, [1.2, 1.6]),
+    (Place::Tube, 48, [2.2, 2.35]),
+    (Place::Tube, 64, [2.2, 2.35]),
 ];
 /// Constrictions in the plane, one of whose scenes is taken with its ends closed.
 const PLANE: &str = include_str!("../../book/data/environment-constriction.toml");
@@ -48,7 +46,8 @@ enum Place {
 }
 
 /// The droplet of the plane's constrictions before one of a tube, of that diameter (R0).
-fn in_tube([throat_length, ramp]: [f64; 2], count: usize, diameter: f64) -> Result<Setup> {
+fn in_tube(count: usize, diameter: f64) -> Result<Setup> {
+    let [throat_length, ramp] = THROAT;
     let shape = TubeShape::Constriction { throat: 0.5 * diameter, throat_length, ramp };
     let region = Region::Tube { radius: 0.5 * WIDTH, shape, drive: Drive::ZeroFlux, length: Some(16.0) };
     let droplet = DropletSetup { centre: [START, 0.0], ..DropletSetup::contractile(-4.0, 10.0) };
@@ -56,7 +55,8 @@ fn in_tube([throat_length, ramp]: [f64; 2], count: usize, diameter: f64) -> Resu
 }
 
 /// That droplet before a constriction of a channel in the plane.
-fn in_channel([throat_length, ramp]: [f64; 2], closed: Drive, width: f64) -> Result<Setup> {
+fn in_channel(closed: Drive, width: f64) -> Result<Setup> {
+    let [throat_length, ramp] = THROAT;
     let data: Toml = toml::from_str(PLANE)?;
     let scene = data.get("plan").and_then(|plan| plan.get("scene")).context("no scene")?;
     let mut setup: Setup = scene.clone().try_into()?;
@@ -79,14 +79,14 @@ fn in_channel([throat_length, ramp]: [f64; 2], closed: Drive, width: f64) -> Res
 }
 
 /// What is known of the least throat.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Boundary {
-    /// Throats that are not passed and that are (R0).
+    /// Throats that are not passed and that are (R0), as far as there are.
     ends: [f64; 2],
-    /// Runs that ended in an error, as the film to the wall is thinner than the nodes resolve, judged by how far they
-    /// had come.
-    failed: usize,
+    /// Runs, and those that ended in an error, as the film to the wall is thinner than the nodes resolve, judged by how
+    /// far they had come.
     runs: usize,
+    failed: usize,
 }
 
 impl Boundary {
@@ -107,11 +107,15 @@ impl Boundary {
         Ok(passage.verdict() == Verdict::Passed)
     }
 
-    /// By bisection between a throat that is not passed and one that is.
+    /// By bisection between a throat that is not passed and one that is; with one end that is not a number where the
+    /// first two are not so.
     fn found(setup: impl Fn(f64) -> Result<Setup>, beyond: f64, ends: [f64; 2]) -> Result<Self> {
-        let mut found = Self { ends, ..Self::default() };
-        if found.passes(&setup(ends[0])?, beyond)? || !found.passes(&setup(ends[1])?, beyond)? {
-            found.ends = [f64::NAN; 2];
+        let mut found = Self { ends, runs: 0, failed: 0 };
+        let [narrow, wide] = [found.passes(&setup(ends[0])?, beyond)?, found.passes(&setup(ends[1])?, beyond)?];
+        match [narrow, wide] {
+            [false, true] => {}
+            [true, _] => found.ends = [f64::NAN, ends[0]],
+            _ => found.ends = [ends[1], f64::NAN],
         }
         while found.error() > WITHIN * found.middle() {
             let middle = found.middle();
@@ -119,6 +123,11 @@ impl Boundary {
             found.ends[usize::from(passed)] = middle;
         }
         Ok(found)
+    }
+
+    /// Ends that were found.
+    fn known(&self) -> [bool; 2] {
+        self.ends.map(f64::is_finite)
     }
 
     fn middle(&self) -> f64 {
@@ -132,27 +141,30 @@ impl Boundary {
 
 /// Least diameters of throats in tubes, and least widths in the plane with closed ends and with a flux.
 pub(super) fn constrictions() -> Result<Table> {
+    let [long, ramp] = THROAT;
     let title = format!(
-        "Least throats that droplets of activity -4, A = 10 pass by t = {TIME} from x = {START} R0, of tubes of \
-         diameter and channels of width {WIDTH} R0, 16 R0 long"
+        "Least throats {long} R0 long behind ramps of {ramp} R0 that droplets of activity -4, A = 10 pass by t = {TIME} \
+         from x = {START} R0, of tubes of diameter and channels of width {WIDTH} R0, 16 R0 long"
     );
-    let header = ["throat", "ramps", "in", "nodes", "least throat", "half of the bracket", "runs", "in errors"];
+    let header = ["in", "nodes", "not passed", "passed", "half of the bracket over its middle", "runs", "in errors"];
     let mut table = Table::new(&title, &header);
-    for (case, place, count, ends) in CASES {
-        let [long, ramp] = case;
+    for (place, count, ends) in CASES {
         let beyond = 0.5 * long + ramp + 1.0;
         let (name, found) = match place {
-            Place::Tube => ("tube, no flux", Boundary::found(|throat| in_tube(case, count, throat), beyond, ends)?),
+            Place::Tube => ("tube, no flux", Boundary::found(|throat| in_tube(count, throat), beyond, ends)?),
             Place::Plane(drive) => {
                 let name = if drive == Drive::ZeroFlux { "plane, no flux" } else { "plane, no pressure drop" };
-                (name, Boundary::found(|width| in_channel(case, drive, width), beyond, ends)?)
+                (name, Boundary::found(|width| in_channel(drive, width), beyond, ends)?)
             }
         };
-        let of = |value: f64| if value.is_finite() { format!("{value:.3}") } else { "-".to_owned() };
-        let cells = [long.to_string(), ramp.to_string(), name.to_owned(), count.to_string()];
-        let told = [of(found.middle()), of(found.error()), found.runs.to_string(), found.failed.to_string()];
-        say(format_args!("{cells:?} {told:?}"));
-        table.push(cells.into_iter().chain(told));
+        let Boundary { ends: [held, passed], failed, runs } = found;
+        let of = |known: bool, value: f64| if known { format!("{value:.4}") } else { "-".to_owned() };
+        let known = found.known();
+        let cells = [name.to_owned(), count.to_string(), of(known[0], held), of(known[1], passed)];
+        let error = of(known == [true; 2], found.error() / found.middle());
+        let cells: Vec<String> = cells.into_iter().chain([error, runs.to_string(), failed.to_string()]).collect();
+        say(cells.join("  "));
+        table.push(cells);
     }
     Ok(table)
 }
