@@ -1,5 +1,7 @@
 //! Constrictions of tubes that a droplet passes, beside those of channels in the plane.
 
+use std::thread::ScopedJoinHandle;
+
 use anyhow::{Context, Result, bail};
 use motile::motile_base::{Drive, Region, TubeShape};
 use motile::motile_scene::{Every, SceneError};
@@ -26,12 +28,13 @@ const WITHIN: f64 = 0.02;
 const WIDTH: f64 = 3.0;
 /// Lengths of the throat and of its ramps (R0).
 const THROAT: [f64; 2] = [2.0, 1.0];
-/// What the constriction is in, nodes, and diameters or widths of throats that are not passed and that are (R0).
+/// What the constriction is in, nodes, and diameters or widths of throats that are not passed and that are (R0); coarser
+/// bisections ended in these.
 const CASES: [(Place, usize, [f64; 2]); 4] = [
-    (Place::Plane(Drive::ZeroFlux), 56, [1.2, 2.6]),
-    (Place::Plane(Drive::ZeroGradient), 56, [1.2, 1.6]),
-    (Place::Tube, 48, [2.2, 2.35]),
-    (Place::Tube, 64, [2.2, 2.35]),
+    (Place::Plane(Drive::ZeroFlux), 56, [1.4, 2.6]),
+    (Place::Plane(Drive::ZeroGradient), 56, [1.36, 1.41]),
+    (Place::Tube, 48, [2.25, 2.3]),
+    (Place::Tube, 64, [2.25, 2.3]),
 ];
 /// Constrictions in the plane, one of whose scenes is taken with its ends closed.
 const PLANE: &str = include_str!("../../book/data/environment-constriction.toml");
@@ -89,38 +92,50 @@ struct Boundary {
     failed: usize,
 }
 
-impl Boundary {
-    /// True where the droplet of a scene passes the place `beyond` (R0).
-    fn passes(&mut self, setup: &Setup, beyond: f64) -> Result<bool> {
-        let mut scene = setup.build()?.scene;
-        let mut passage = Passage::new(beyond);
-        self.runs += 1;
-        match scene.run(TIME).observe(Every::Steps(1), &mut passage).go() {
-            Err(SceneError::Observer { source, .. }) if !source.is::<Decided>() => bail!("{source}"),
-            Err(SceneError::Observer { .. }) | Ok(_) => {}
-            Err(error) => {
-                say(format_args!("{error}"));
-                self.failed += 1;
-            }
+/// Runs a scene: true where the droplet passes the place `beyond` (R0), and where the run ended in an error.
+fn passes(setup: &Setup, beyond: f64) -> Result<[bool; 2]> {
+    let mut scene = setup.build()?.scene;
+    let mut passage = Passage::new(beyond);
+    let failed = match scene.run(TIME).observe(Every::Steps(1), &mut passage).go() {
+        Err(SceneError::Observer { source, .. }) if !source.is::<Decided>() => bail!("{source}"),
+        Err(SceneError::Observer { .. }) | Ok(_) => false,
+        Err(error) => {
+            say(error);
+            true
         }
-        say(format_args!("{:?} at t = {:.1}", passage.verdict(), passage.time()));
-        Ok(passage.verdict() == Verdict::Passed)
-    }
+    };
+    say(format_args!("{:?} at t = {:.1}", passage.verdict(), passage.time()));
+    Ok([passage.verdict() == Verdict::Passed, failed])
+}
 
+/// Results of two works that are done side by side.
+fn both<T: Send>(works: [impl FnOnce() -> Result<T> + Send; 2]) -> Result<[T; 2]> {
+    std::thread::scope(|scope| {
+        let [first, second] = works.map(|work| scope.spawn(work)).map(ScopedJoinHandle::join);
+        let (Ok(first), Ok(second)) = (first, second) else { bail!("a run has panicked") };
+        Ok([first?, second?])
+    })
+}
+
+impl Boundary {
     /// By bisection between a throat that is not passed and one that is; with one end that is not a number where the
     /// first two are not so.
-    fn found(setup: impl Fn(f64) -> Result<Setup>, beyond: f64, ends: [f64; 2]) -> Result<Self> {
-        let mut found = Self { ends, runs: 0, failed: 0 };
-        let [narrow, wide] = [found.passes(&setup(ends[0])?, beyond)?, found.passes(&setup(ends[1])?, beyond)?];
-        match [narrow, wide] {
+    fn found(setup: impl Fn(f64) -> Result<Setup> + Sync, beyond: f64, ends: [f64; 2]) -> Result<Self> {
+        let run = |throat: f64| passes(&setup(throat)?, beyond);
+        let [narrow, wide] = both(ends.map(|throat| move || run(throat)))?;
+        let failed = [narrow, wide].into_iter().filter(|[_, failed]| *failed).count();
+        let mut found = Self { ends, runs: 2, failed };
+        match [narrow[0], wide[0]] {
             [false, true] => {}
             [true, _] => found.ends = [f64::NAN, ends[0]],
             _ => found.ends = [ends[1], f64::NAN],
         }
         while found.error() > WITHIN * found.middle() {
             let middle = found.middle();
-            let passed = found.passes(&setup(middle)?, beyond)?;
+            let [passed, failed] = run(middle)?;
             found.ends[usize::from(passed)] = middle;
+            found.runs += 1;
+            found.failed += usize::from(failed);
         }
         Ok(found)
     }
@@ -148,14 +163,18 @@ pub(super) fn constrictions() -> Result<Table> {
     );
     let header = ["in", "nodes", "not passed", "passed", "half of the bracket over its middle", "runs", "in errors"];
     let mut table = Table::new(&title, &header);
-    for (place, count, ends) in CASES {
-        let beyond = 0.5 * long + ramp + 1.0;
-        let (name, found) = match place {
-            Place::Tube => ("tube, no flux", Boundary::found(|throat| in_tube(count, throat), beyond, ends)?),
-            Place::Plane(drive) => {
-                let name = if drive == Drive::ZeroFlux { "plane, no flux" } else { "plane, no pressure drop" };
-                (name, Boundary::found(|width| in_channel(drive, width), beyond, ends)?)
-            }
+    let beyond = 0.5 * long + ramp + 1.0;
+    let work = &|(place, count, ends): (Place, usize, [f64; 2])| match place {
+        Place::Tube => Boundary::found(|throat| in_tube(count, throat), beyond, ends),
+        Place::Plane(drive) => Boundary::found(|width| in_channel(drive, width), beyond, ends),
+    };
+    let pair = &|k: usize| both([k, k + 1].map(|k| move || work(CASES[k])));
+    let found = both([0, 2].map(|k| move || pair(k)))?;
+    for ((place, count, _), found) in CASES.into_iter().zip(found.into_iter().flatten()) {
+        let name = match place {
+            Place::Tube => "tube, no flux",
+            Place::Plane(Drive::ZeroFlux) => "plane, no flux",
+            Place::Plane(_) => "plane, no pressure drop",
         };
         let Boundary { ends: [held, passed], failed, runs } = found;
         let of = |known: bool, value: f64| if known { format!("{value:.4}") } else { "-".to_owned() };
