@@ -258,7 +258,7 @@ impl SteadyState {
         };
         let mut values = eigenvalues(&matrix)?;
         values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-        let neutral = values.drain(..motions).map(|z| z.norm()).fold(0.0, f64::max);
+        let neutral = values.drain(..motions).map(Complex64::norm).fold(0.0, f64::max);
         let symmetry = if order.is_multiple_of(2) { Symmetry::Symmetric } else { Symmetry::Antisymmetric };
         let mut modes: Vec<Eigenmode> =
             values.into_iter().filter(|z| z.im >= 0.0).map(|value| Eigenmode { value, symmetry }).collect();
