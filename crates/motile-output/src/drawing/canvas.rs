@@ -1,8 +1,6 @@
 //! Drawings, element by element.
 
-use std::ops::Range;
-
-use tiny_skia::{ColorU8, Pixmap, StrokeDash};
+use tiny_skia::{ColorU8, FillRule, Paint, Pixmap, StrokeDash, Transform};
 
 use crate::Rgb;
 use crate::drawing::font;
@@ -78,21 +76,16 @@ impl Drawing {
         self.shapes.push(Shape::Image { corner: [area.left, area.top], image });
     }
 
-    /// Fills triangles, each in its colour, within `area`, whose edges are on whole pixels: those pixels whose centres
-    /// are inside. Of two that share a side each pixel along it belongs to one, so that none is left out between them.
+    /// Fills triangles, each in its colour, within `area`, whose edges are on whole pixels.
     pub(crate) fn triangles(&mut self, area: Rect, triangles: impl Iterator<Item = ([Pixel; 3], Rgb)>) {
         let Some(mut image) = Pixmap::new(area.width as u32, area.height as u32) else { return };
-        let [width, height] = [image.width() as usize, image.height() as usize];
-        let pixels = image.pixels_mut();
+        let place = Transform::from_translate(-area.left as f32, -area.top as f32);
         for (corners, Rgb([r, g, b])) in triangles {
-            let corners = corners.map(|[x, y]| [x - area.left, y - area.top]);
-            let colour = ColorU8::from_rgba(r, g, b, 255).premultiply();
-            for row in centres(bounds(corners.map(|[_, y]| Some(y))), height) {
-                let y = row as f64 + 0.5;
-                let crossings = [[0, 1], [1, 2], [2, 0]].map(|ends| crossing(ends.map(|end| corners[end]), y));
-                for column in centres(bounds(crossings), width) {
-                    pixels[row * width + column] = colour;
-                }
+            // Smooth edges would let the background through between neighbours.
+            let mut paint = Paint { anti_alias: false, ..Paint::default() };
+            paint.set_color_rgba8(r, g, b, 255);
+            if let Some(path) = joined(&[corners.to_vec()], true) {
+                image.fill_path(&path, &paint, FillRule::Winding, place, None);
             }
         }
         self.shapes.push(Shape::Image { corner: [area.left, area.top], image });
@@ -103,25 +96,4 @@ impl Drawing {
         let area = |path| Shape::Area { path, colour: style.colour, opacity: 1.0, label: text.to_string() };
         self.shapes.extend(font::place(text, at, style).map(area));
     }
-}
-
-/// Least and largest of the values that there are.
-fn bounds(values: [Option<f64>; 3]) -> [f64; 2] {
-    values
-        .into_iter()
-        .flatten()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
-/// Place x at which a side crosses a height, the same for both triangles that share it; the upper end is part of the
-/// side, the lower one is not.
-fn crossing(ends: [Pixel; 2], y: f64) -> Option<f64> {
-    let [a, b] = if ends[0][1] <= ends[1][1] { ends } else { [ends[1], ends[0]] };
-    (a[1] <= y && y < b[1]).then(|| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-}
-
-/// Pixels of so many in a row whose centres lie from one place up to another, without the latter.
-fn centres([from, to]: [f64; 2], count: usize) -> Range<usize> {
-    let first = |place: f64| ((place - 0.5).ceil().max(0.0) as usize).min(count);
-    first(from)..first(to)
 }

@@ -1,6 +1,6 @@
 //! Scene files: descriptions in TOML.
 
-use super::{Setup, reader::read};
+use super::Setup;
 use crate::SetupError;
 
 impl Setup {
@@ -24,8 +24,11 @@ impl Setup {
     /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line),
     /// keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
-        let problem = |problem| replaced(text).unwrap_or(SetupError::File { problem });
-        let setup: Self = read(text).map_err(problem)?;
+        let problem = |error: toml::de::Error| match replaced(text) {
+            Some(error) => error,
+            None => SetupError::File { problem: error.to_string() },
+        };
+        let setup: Self = toml::from_str(text).map_err(problem)?;
         setup.check()?;
         Ok(setup)
     }

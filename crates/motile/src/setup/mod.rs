@@ -16,8 +16,6 @@ mod method;
 mod numbers;
 mod particles_entry;
 mod places;
-#[cfg(feature = "toml")]
-mod reader;
 mod rigid_body;
 mod shell;
 mod solid;

@@ -742,7 +742,7 @@ mod file {
             ("[[droplets]]\nparticles = \"nothing\"", &["line 2", "\"none\" for a passive droplet"]),
             (
                 "[[droplets]]\nshape.ellipse.half_axes = [1.0, 1.0]",
-                &["line 2", "unknown field `half_axes`, expected `half-axes`"],
+                &["line 2", "half_axes", "available keys: half-axes"],
             ),
             ("[method.grid]\nspacing = \"fine\"", &["line 2", "spacing"]),
             ("[region.pipe]\nlength = 3.0", &["unknown variant `pipe`", "channel"]),
