@@ -1,9 +1,10 @@
-//! Runs in constrictions of tubes: a table of `docs/three-dimensions.md`.
+//! Runs in constrictions of tubes, and the cost of an evaluation of the flow: tables of `docs/three-dimensions.md`.
 //!
 //! `cargo run --release -p studies -- tubes TABLE` prints one of them; with `--write` it becomes a file of
 //! `docs/tables`.
 
 mod constrictions;
+mod cost;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -26,12 +27,15 @@ pub(crate) struct Flags {
 enum Which {
     /// Least throats that a droplet passes, beside those of channels in the plane
     Constrictions,
+    /// Cost of an evaluation beside the plane's, and the gain of two threads
+    Cost,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let Flags { table, keep } = *flags;
-    let (name, inputs, found) = match table {
+    let (name, inputs, found): (_, &[&str], _) = match table {
         Which::Constrictions => ("constrictions", &constrictions::INPUTS, constrictions::constrictions()),
+        Which::Cost => ("cost", &["studies/src/tubes/cost.rs", "benches/src/turns.rs"], cost::cost()),
     };
     keep.tables(&format!("tubes-{name}"), &format!("tubes {name}"), inputs, &[found?])
 }

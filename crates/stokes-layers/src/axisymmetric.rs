@@ -706,12 +706,11 @@ fn load(
     );
     meridian.points = count;
     meridian.update(grid);
-    if let Some(point) = meridian.nodes.iter().position(|node| node.place.y <= 0.0) {
-        let Vec2 { x, y } = meridian.nodes[point].place;
-        return Err(LayerError::NotOfRevolution { curve, point, x, y });
-    }
     if meridian.measures(grid)[0] <= 0.0 {
         return Err(LayerError::Clockwise { curve });
+    }
+    if let Some(node) = meridian.nodes.iter().find(|node| node.place.y <= 0.0) {
+        return Err(LayerError::MeetsAxis { curve, x: node.place.x });
     }
     // Force on both halves of a ring, per parameter and azimuth.
     let factor = count as f64 / (2.0 * PI * PI);

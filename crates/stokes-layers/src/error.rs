@@ -109,11 +109,21 @@ pub enum LayerError {
     /// Rigid walls with a singular matrix, so that the forces on them are not determined.
     #[error("the forces on the rigid walls are not determined: use more nodes, or leave more fluid between the walls")]
     SingularWalls,
+    /// A surface of revolution whose meridian meets the axis between its poles.
+    #[error(
+        "curve {curve} meets the axis between its poles, at x = {x:.4}: keep the meridian off the axis; in a run a neck \
+         has pinched there, after which the droplet would be two, which is not in the model"
+    )]
+    MeetsAxis {
+        /// Number of the curve.
+        curve: usize,
+        /// Place on the axis (length).
+        x: f64,
+    },
     /// A curve that is not the meridian of a surface of revolution with its mirror image.
     #[error(
         "point {point} of curve {curve} at ({x:.4}, {y:.4}) is not on the meridian of a surface of revolution: give an \
-         even number of points, the first on the x axis, each the mirror image of its partner, the meridian off the \
-         axis"
+         even number of points, the first on the x axis, each the mirror image of its partner"
     )]
     NotOfRevolution {
         /// Number of the curve.

@@ -320,7 +320,10 @@ fn points_that_are_no_meridian_are_refused() {
     let off_axis: Vec<Vec2> = sphere(64).iter().map(|x| *x + Vec2::new(0.0, 0.1)).collect();
     assert!(load(&off_axis).unwrap_err().contains("mirror image"));
     let clockwise: Vec<Vec2> = sphere(64).iter().map(|x| Vec2::new(x.x, -x.y)).collect();
-    assert!(load(&clockwise).is_err());
+    assert!(load(&clockwise).unwrap_err().contains("clockwise"));
+    let neck = |waist: f64| closed(64, |t| (1.5 * t.cos(), t.sin() * (t.cos().powi(2) + waist)));
+    assert!(load(&neck(0.05)).is_ok());
+    assert!(load(&neck(-0.05)).unwrap_err().contains("meets the axis between its poles, at x = "));
     assert!(load(&sphere(32)).unwrap_err().contains("give it 64"));
     let mut nan = sphere(64);
     nan[3].x = f64::NAN;
