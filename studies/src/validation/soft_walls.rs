@@ -95,7 +95,7 @@ fn texts(case: Case, resolutions: &[[f64; 2]]) -> [String; 3] {
         texts.join(", ")
     };
     let difference = |pair: &[Result<[f64; 2], String>]| match pair {
-        [Ok([coarse, _]), Ok([fine, _])] => format!("{:.2}", 100.0 * (coarse / fine - 1.0).abs()),
+        [Ok([coarse, _]), Ok([fine, _]), ..] => format!("{:.2}", 100.0 * (coarse / fine - 1.0).abs()),
         _ => String::new(),
     };
     [each(&|[speed, _]| format!("{speed:.5}")), difference(&runs), each(&|[_, seconds]| format!("{seconds:.1}"))]
