@@ -132,7 +132,8 @@ async function whole({ name, ...view }) {
   await page.locator("#canvas").scrollIntoViewIfNeeded();
   const picture = await page.locator("#canvas").boundingBox();
   const middle = [picture.x + picture.width / 2, picture.y + picture.height / 2];
-  const held = () => until(page, `${name}: no droplet is held`, () => document.getElementById("canvas").dataset.held === "0");
+  const isLoose = () => document.getElementById("canvas").dataset.held === "0";
+  const held = () => until(page, `${name}: no droplet is held`, isLoose);
   if (view.touch) {
     const touch = await context.newCDPSession(page);
     const send = (type, y) =>

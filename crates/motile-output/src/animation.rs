@@ -64,8 +64,8 @@ impl Film {
         Self { format: Format { width: pixels, em, levels: levels.max(LEAST_LEVELS), ..usual }, ..self }
     }
 
-    /// Time of the first frame, later than that of the scene's start in a run that was resumed: frames are kept with the
-    /// film alone.
+    /// Time of the first frame, later than the scene's start in a run that was resumed: frames are kept with the film
+    /// alone.
     #[must_use]
     pub fn begins(&self) -> Option<f64> {
         self.frames.first().map(|seen| seen.time)

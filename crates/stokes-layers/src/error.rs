@@ -111,8 +111,8 @@ pub enum LayerError {
     SingularWalls,
     /// A surface of revolution whose meridian meets the axis between its poles.
     #[error(
-        "curve {curve} meets the axis between its poles, at x = {x:.4}: keep the meridian off the axis; in a run a neck \
-         has pinched there, after which the droplet would be two, which is not in the model"
+        "curve {curve} meets the axis between its poles, at x = {x:.4}: keep the meridian off the axis; in a run a \
+         neck has pinched there, after which the droplet would be two, which is not in the model"
     )]
     MeetsAxis {
         /// Number of the curve.

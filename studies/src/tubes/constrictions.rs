@@ -28,7 +28,7 @@ const WITHIN: f64 = 0.02;
 const WIDTH: f64 = 3.0;
 /// Lengths of the throat and of its ramps (R0).
 const THROAT: [f64; 2] = [2.0, 1.0];
-/// What the constriction is in, nodes, and diameters or widths of throats that are not passed and that are (R0); coarser
+/// Places of constrictions, nodes, and diameters or widths of throats that are not passed and that are (R0); coarser
 /// bisections ended in these.
 const CASES: [(Place, usize, [f64; 2]); 4] = [
     (Place::Plane(Drive::ZeroFlux), 56, [1.4, 2.6]),
@@ -39,7 +39,7 @@ const CASES: [(Place, usize, [f64; 2]); 4] = [
 /// Constrictions in the plane, one of whose scenes is taken with its ends closed.
 const PLANE: &str = include_str!("../../book/data/environment-constriction.toml");
 
-/// What a constriction is in.
+/// Surroundings of a droplet before a constriction.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     /// A tube without flux.
