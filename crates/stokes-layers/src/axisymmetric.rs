@@ -706,10 +706,12 @@ fn load(
     );
     meridian.points = count;
     meridian.update(grid);
-    if meridian.measures(grid)[0] <= 0.0 {
+    // The meridian of a clockwise curve is its lower half.
+    let mut below = meridian.nodes.iter().filter(|node| node.place.y <= 0.0);
+    if below.clone().count() == meridian.nodes.len() || meridian.measures(grid)[0] <= 0.0 {
         return Err(LayerError::Clockwise { curve });
     }
-    if let Some(node) = meridian.nodes.iter().find(|node| node.place.y <= 0.0) {
+    if let Some(node) = below.next() {
         return Err(LayerError::MeetsAxis { curve, x: node.place.x });
     }
     // Force on both halves of a ring, per parameter and azimuth.
