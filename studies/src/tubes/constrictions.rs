@@ -158,8 +158,8 @@ impl Boundary {
 pub(super) fn constrictions() -> Result<Table> {
     let [long, ramp] = THROAT;
     let title = format!(
-        "Least throats {long} R0 long behind ramps of {ramp} R0 that droplets of activity -4, A = 10 pass by t = {TIME} \
-         from x = {START} R0, of tubes of diameter and channels of width {WIDTH} R0, 16 R0 long"
+        "Least throats {long} R0 long behind ramps of {ramp} R0 that droplets of activity -4, A = 10 pass by \
+         t = {TIME} from x = {START} R0, of tubes of diameter and channels of width {WIDTH} R0, 16 R0 long"
     );
     let header = ["in", "nodes", "not passed", "passed", "half of the bracket over its middle", "runs", "in errors"];
     let mut table = Table::new(&title, &header);
