@@ -15,7 +15,7 @@ use motile::setup::{MethodKind, Setup, SolidOutline, WallSetup};
 use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, mean_speed, not_negative, positive};
 
 /// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
-const BEHIND: f64 = 0.5;
+const BEHIND: f64 = 1.5;
 
 /// Shapes of rigid geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -276,10 +276,11 @@ fn reverse(points: &mut [Vec2]) {
 /// The least values within some places of each of a periodic list, smoothed over as many: nowhere above the list.
 fn smoothed_below(values: &[f64], reach: usize) -> Result<Vec<f64>, LayerError> {
     let count = values.len();
-    let least =
-        |k: usize| (0..=2 * reach).map(|j| values[(k + count + j - reach) % count]).fold(f64::INFINITY, f64::min);
+    let around = |k: usize| values[(k + count - reach) % count];
+    let repeated: Vec<f64> = (0..count + 2 * reach).map(around).collect();
+    let least = repeated.windows(2 * reach + 1).map(|near| near.iter().copied().fold(f64::INFINITY, f64::min));
     let mut series = PeriodicSeries::new(count)?;
-    series.analyse((0..count).map(|k| Complex64::from(least(k))))?;
+    series.analyse(least.map(Complex64::from))?;
     // A Gaussian whose tail beyond the reach is below 1e-4.
     let decay = std::f64::consts::TAU * reach as f64 / (4.0 * count as f64);
     series.scale(|index| (-0.5 * (decay * index as f64).powi(2)).exp());

@@ -314,6 +314,7 @@ impl<H: Hydrodynamics> System<H> {
             return;
         }
         self.bodies.place_markers(self.known > Known::Nothing);
+        self.contacts.nearest_wall = None;
         self.known = Known::Places;
     }
 

@@ -146,10 +146,7 @@ impl Setup {
     /// Outlines that cannot be, more than 3000 nodes of a wall.
     pub fn rigid_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
-        let walls = self.walls.iter().enumerate();
-        let keyed = |k: usize| move |error: SetupError| error.of(&format!("walls[{k}]"));
-        let built: Vec<RigidWall> =
-            walls.map(|(k, wall)| wall.build(period).map_err(keyed(k))).collect::<Result<_, _>>()?;
+        let built = self.even_walls()?;
         if self.walls.iter().all(|wall| wall.grading == 1.0) {
             return Ok(built);
         }
@@ -162,17 +159,26 @@ impl Setup {
         };
         let others: Vec<Boundary> = (0..built.len()).map(others).collect();
         let distance = |k: usize, point: Vec2| others[k].distance(point, [Some(period), None]).abs();
-        let nearest = built.iter().enumerate().flat_map(|(k, wall)| wall.points().iter().map(move |p| (k, *p)));
-        let nearest = nearest.map(|(k, point)| distance(k, point)).fold(f64::INFINITY, f64::min);
+        let nearest = others.iter().zip(&built).filter_map(|(others, wall)| {
+            others.smallest(wall.points(), [Some(period), None]).map(|(distance, _)| distance.abs())
+        });
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
         let apart = |k: usize, point: Vec2| {
             if nearest > 0.0 && nearest.is_finite() { distance(k, point) / nearest } else { 1.0 }
         };
         let graded = built.iter().zip(&self.walls).enumerate().map(|(k, (wall, setup))| {
             let wanted = |point| setup.spacing * apart(k, point).clamp(1.0, setup.grading);
             if setup.grading == 1.0 { Ok(wall.clone()) } else { wall.clone().graded(wanted) }
-                .map_err(|error| keyed(k)(error.into()))
+                .map_err(|error| SetupError::from(error).of(&wall_key(k)))
         });
         graded.collect()
+    }
+
+    /// The rigid walls with nodes at equal distances.
+    fn even_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
+        let [period, _] = self.region.lengths();
+        let walls = self.walls.iter().enumerate();
+        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&wall_key(k)))).collect()
     }
 
     /// Refuses a droplet that starts beyond a rigid wall.
@@ -192,9 +198,14 @@ impl Setup {
     /// Distance of a place from the nearest rigid wall (length).
     pub(super) fn room(&self, place: Vec2) -> Result<Option<f64>, SetupError> {
         let mut boundary = Boundary::default();
-        self.rigid_walls()?.iter().for_each(|wall| wall.add_to(&mut boundary));
+        self.even_walls()?.iter().for_each(|wall| wall.add_to(&mut boundary));
         boundary.sort();
         let [length, _] = self.region.lengths();
         Ok((!boundary.is_empty()).then(|| boundary.distance(place, [Some(length), None])))
     }
+}
+
+/// The key of a wall, by which errors name it.
+fn wall_key(number: usize) -> String {
+    format!("walls[{number}]")
 }

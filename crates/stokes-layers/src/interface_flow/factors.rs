@@ -6,20 +6,38 @@ use nalgebra::{DMatrix, Dim, Dyn, LU, Matrix, PermutationSequence, VecStorage};
 /// Columns that are taken off the right-hand side together, so that it is read and written once for all of them.
 const COLUMNS: usize = 4;
 
+/// Columns that are eliminated before the rest of the matrix is updated, by a product of matrices.
+const PANEL: usize = 48;
+
 /// Lower and upper factor of a matrix by Gaussian elimination with row exchanges. The solution, which reads all of the
 /// matrix for each right-hand side, runs in the widest vector registers that there are.
 #[derive(Debug, Clone)]
 pub(crate) struct DenseFactors {
-    exchanges: PermutationSequence<Dyn>,
+    /// Exchanges of rows, counted from the first of a panel.
+    exchanges: Vec<PermutationSequence<Dyn>>,
     /// The upper factor, and below the diagonal the lower one, whose diagonal is 1.
     entries: DMatrix<f64>,
 }
 
 impl DenseFactors {
-    pub(crate) fn new(matrix: DMatrix<f64>) -> Self {
-        let (exchanges, mut lower, entries) = LU::new(matrix).unpack();
-        lower.fill_diagonal(0.0);
-        Self { exchanges, entries: entries + lower }
+    pub(crate) fn new(mut entries: DMatrix<f64>) -> Self {
+        let count = entries.nrows();
+        let eliminate = |start: usize| {
+            let (rows, width) = (count - start, PANEL.min(count - start));
+            let panel = LU::new(entries.view((start, start), (rows, width)).into_owned());
+            let beside = [(0, start), (start + width, rows - width)];
+            for (column, columns) in beside {
+                panel.p().permute_rows(&mut entries.view_mut((start, column), (rows, columns)));
+            }
+            entries.view_mut((start, start), (rows, width)).copy_from(panel.lu_internal());
+            let (lower, mut right) = entries.columns_range_pair_mut(start..start + width, start + width..);
+            let (mut above, mut rest) = right.rows_range_pair_mut(start..start + width, start + width..);
+            lower.rows(start, width).solve_lower_triangular_with_diag_mut(&mut above, 1.0);
+            rest.gemm(-1.0, &lower.rows_range(start + width..), &above, 1.0);
+            panel.p().clone()
+        };
+        let exchanges = (0..count).step_by(PANEL).map(eliminate).collect();
+        Self { exchanges, entries }
     }
 
     /// True for a matrix with an inverse.
@@ -29,7 +47,9 @@ impl DenseFactors {
 
     /// Replaces right-hand sides, a column each, by the solutions; singular matrices give values that are not finite.
     pub(crate) fn solve<C: Dim>(&self, values: &mut Matrix<f64, Dyn, C, VecStorage<f64, Dyn, C>>) {
-        self.exchanges.permute_rows(values);
+        for (panel, exchanges) in self.exchanges.iter().enumerate() {
+            exchanges.permute_rows(&mut values.rows_range_mut(panel * PANEL..));
+        }
         let (entries, count) = (self.entries.as_slice(), self.entries.nrows());
         for column in values.as_mut_slice().chunks_exact_mut(count.max(1)) {
             widely(
@@ -94,7 +114,7 @@ mod tests {
 
     #[test]
     fn products_with_solutions_are_the_right_hand_sides() {
-        for count in [1, 3, 4, 7, 30] {
+        for count in [1, 3, 4, 7, 30, 48, 131] {
             let entry =
                 |i: usize, j: usize| (1.3 * (i * i + 3 * j + 1) as f64).sin() - if i == j + 1 { 2.0 } else { 0.0 };
             let matrix = DMatrix::from_fn(count, count, entry);

@@ -6,6 +6,7 @@ use crate::{
     body::{StepCause, StepLimit},
     gap::{Films, Gaps, REACH, Repulsion, RepulsionLoad, Surfaces, Surroundings},
 };
+use motile_base::Vec2;
 
 /// Thinnest gap, in units of the length that contacts are measured in, that sets a step: bodies that touch at the start
 /// close as if they were so far apart.
@@ -20,6 +21,9 @@ pub(in crate::scene) struct Contacts {
     looked: Option<f64>,
     /// The gaps of the present state.
     pub(super) gaps: Gaps,
+    /// The gap to walls in the present state (length), the number of the body and the place of its marker, once looked
+    /// for.
+    pub(super) nearest_wall: Option<Option<(f64, usize, Vec2)>>,
     /// Time until the first film closes at its present velocity (time), and the number of its body.
     closing: Option<(f64, usize)>,
     /// Fastest rate at which a repulsion opens the present films (1/time).

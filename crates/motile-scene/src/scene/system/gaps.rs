@@ -22,16 +22,21 @@ impl<H: Hydrodynamics> System<H> {
     /// a wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
     /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
-        if self.hydrodynamics.fluid_view().domain.walls.is_none() && self.hydrodynamics.walls().is_none() {
-            return None;
-        }
-        self.place_markers();
         self.nearest_wall().map(|(gap, ..)| gap)
     }
 
-    /// The gap of [`System::wall_gap`], the body, and the place of its marker (length), for markers that are where the
-    /// bodies have them.
-    fn nearest_wall(&self) -> Option<(f64, usize, Vec2)> {
+    /// The gap of [`System::wall_gap`], the body, and the place of its marker (length), found once in a state.
+    fn nearest_wall(&mut self) -> Option<(f64, usize, Vec2)> {
+        let bounded = self.hydrodynamics.fluid_view().domain.walls.is_some() || self.hydrodynamics.walls().is_some();
+        if bounded {
+            self.place_markers();
+            let found = self.contacts.nearest_wall.unwrap_or_else(|| self.find_nearest_wall());
+            self.contacts.nearest_wall = Some(found);
+        }
+        self.contacts.nearest_wall.flatten()
+    }
+
+    fn find_nearest_wall(&self) -> Option<(f64, usize, Vec2)> {
         let (domain, others) = (self.hydrodynamics.fluid_view().domain, self.hydrodynamics.walls());
         // Keeps what is not a number.
         let nearer = |least: (f64, _, _), gap: (f64, _, _)| if gap.0 < least.0 || gap.0.is_nan() { gap } else { least };
@@ -218,12 +223,14 @@ impl<H: Hydrodynamics> System<H> {
             return Err(SceneError::Crossing { time, body, x, y, other, depth, allowed });
         }
         if let Some(bound) = self.contacts.least_gap {
+            let wall = self.nearest_wall();
+            let names = |bodies: [usize; 2]| bodies.map(|index| self.bodies.name_of(index));
             let between = self.contacts.gaps.narrowest.map(|Gap { body, other, width, place }| {
                 let [body, other] = names([body, other]);
                 (width, body, other, place)
             });
-            let wall = |(gap, body, place)| (gap, self.bodies.name_of(body), "a wall".to_owned(), place);
-            let narrow = between.into_iter().chain(self.nearest_wall().map(wall)).find(|(gap, ..)| *gap < bound);
+            let wall = wall.map(|(gap, body, place)| (gap, self.bodies.name_of(body), "a wall".to_owned(), place));
+            let narrow = between.into_iter().chain(wall).find(|(gap, ..)| *gap < bound);
             if let Some((gap, body, other, Vec2 { x, y })) = narrow {
                 return Err(SceneError::Gap { time, body, x, y, other, gap, bound });
             }
