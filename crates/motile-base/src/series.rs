@@ -84,6 +84,17 @@ impl PeriodicSeries {
         }
     }
 
+    /// Multiplies each coefficient by a factor of its own, in their order, such as [`PeriodicSeries::factors`].
+    pub fn multiply_each(&mut self, factors: &[Complex64]) {
+        self.coefficients.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
+    }
+
+    /// The factors of [`PeriodicSeries::multiply`] for series of `len` samples, in the order of the coefficients.
+    #[must_use]
+    pub fn factors(len: usize, factor: impl Fn(f64) -> Complex64) -> Vec<Complex64> {
+        (0..len).map(|index| factor(spectrum::wave(index, len))).collect()
+    }
+
     /// Multiplies each coefficient by `factor(|m|)`: an operator that does not tell the directions of the curve.
     pub fn scale(&mut self, factor: impl Fn(usize) -> f64) {
         let len = self.len();

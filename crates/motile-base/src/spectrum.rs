@@ -52,5 +52,16 @@ pub fn differentiate(spectrum: &mut [Complex64]) {
     }
 }
 
+/// True for a number without other prime factors than `primes`: transforms of lengths with small ones are fast.
+#[must_use]
+pub fn is_product(mut number: usize, primes: &[usize]) -> bool {
+    for &prime in primes {
+        while number > 1 && number.is_multiple_of(prime) {
+            number /= prime;
+        }
+    }
+    number == 1
+}
+
 #[cfg(test)]
 mod tests;

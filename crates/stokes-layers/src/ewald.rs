@@ -21,7 +21,7 @@ mod window;
 
 use std::{f64::consts::PI, ops::Range};
 
-use motile_base::{InputError, Region, Vec2};
+use motile_base::{InputError, Region, Vec2, spectrum::is_product};
 
 use crate::{
     curve::Curve,
@@ -378,14 +378,8 @@ fn transform(rows: &mut [Rows], columns: &mut [Columns], traces: bool) {
 
 /// The least even number from a given one on without prime factors above 5, which is fast to transform.
 fn smooth(least: usize) -> usize {
-    let without = |mut number: usize, prime: usize| {
-        while number.is_multiple_of(prime) {
-            number /= prime;
-        }
-        number
-    };
     let mut number = least.next_multiple_of(2);
-    while [2, 3, 5].into_iter().fold(number, without) != 1 {
+    while !is_product(number, &[2, 3, 5]) {
         number += 2;
     }
     number

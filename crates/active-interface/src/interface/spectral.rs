@@ -17,6 +17,12 @@ use super::geometry::{Geometry, Rings, add_tangential_motion, write_normal_motio
 pub(crate) struct SpectralCurve {
     vectors: PeriodicSeries,
     numbers: PeriodicSeries,
+    /// Factors that go over from the markers to the middles of the segments.
+    to_middles: Vec<Complex64>,
+    /// Factors that integrate over the segments.
+    over_segments: Vec<Complex64>,
+    /// Factors of [`SpectralCurve::sharpen`].
+    sharpening: Vec<Complex64>,
     /// Factors of a quadrature over the meridian, of a body of revolution.
     quadrature: Vec<f64>,
 }
@@ -38,7 +44,15 @@ fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = C
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Result<Self, InputError> {
         let series = PeriodicSeries::new(count)?;
-        Ok(Self { vectors: series.clone(), numbers: series, quadrature: Vec::new() })
+        let half = PI / count as f64;
+        let to_middles = PeriodicSeries::factors(count, |wave| Complex64::cis(wave * half));
+        let over_segments = PeriodicSeries::factors(count, |wave| segment_integral(wave, 2.0 * half));
+        let sharpening = PeriodicSeries::factors(count, |wave| {
+            let x = wave * half;
+            (if x == 0.0 { 1.0 } else { x / x.sin() }).into()
+        });
+        let (vectors, numbers, quadrature) = (series.clone(), series, Vec::new());
+        Ok(Self { vectors, numbers, to_middles, over_segments, sharpening, quadrature })
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -66,7 +80,7 @@ impl SpectralCurve {
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
         }
-        self.vectors.shift(0.5 * spacing);
+        self.vectors.multiply_each(&self.to_middles);
         let tangents = self.vectors.values().iter().map(|tangent| tangent + slope);
         for (direction, tangent) in geometry.directions.iter_mut().zip(tangents) {
             *direction = vector(tangent / tangent.norm());
@@ -76,7 +90,7 @@ impl SpectralCurve {
         // The unpaired wave of an even number of markers, all minima and maxima at the markers, adds nothing.
         let count = self.len();
         self.numbers.scale(|m| if 2 * m < count { 1.0 } else { 0.0 });
-        self.numbers.multiply(|wave| segment_integral(wave, spacing));
+        self.numbers.multiply_each(&self.over_segments);
         geometry.perimeter = 0.0;
         for (length, value) in geometry.lengths.iter_mut().zip(self.numbers.values()) {
             *length = value.re;
@@ -86,7 +100,7 @@ impl SpectralCurve {
 
     /// Computes the rings of a surface of revolution, after [`SpectralCurve::update`].
     pub(crate) fn update_rings(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
-        let (count, spacing) = (self.len(), TAU / self.len() as f64);
+        let count = self.len();
         let Rings { areas, circles, middles, weights } = &mut geometry.rings;
         for list in [&mut *areas, circles, middles, weights] {
             list.resize(count, 0.0);
@@ -95,7 +109,7 @@ impl SpectralCurve {
             self.quadrature = Rings::quadrature(count);
         }
         analyse(&mut self.numbers, markers.iter().map(|x| x.y.into()));
-        self.numbers.shift(0.5 * spacing);
+        self.numbers.multiply_each(&self.to_middles);
         for (middle, value) in middles.iter_mut().zip(self.numbers.values()) {
             *middle = value.re;
         }
@@ -107,7 +121,7 @@ impl SpectralCurve {
         }
         let products = markers.iter().zip(&geometry.stretch);
         analyse(&mut self.numbers, products.map(|(x, stretch)| (PI * x.y * stretch).into()));
-        self.numbers.multiply(|wave| segment_integral(wave, spacing));
+        self.numbers.multiply_each(&self.over_segments);
         for (area, value) in areas.iter_mut().zip(self.numbers.values()) {
             *area = value.re.abs();
         }
@@ -151,11 +165,7 @@ impl SpectralCurve {
     /// at the marker times the spacing, a factor of `x / sin x`, x = pi m / M, for mode m; their sum stays zero.
     pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
         let _ = self.vectors.analyse_vectors(forces);
-        let half = PI / self.len() as f64;
-        self.vectors.multiply(|wave| {
-            let x = wave * half;
-            (if x == 0.0 { 1.0 } else { x / x.sin() }).into()
-        });
+        self.vectors.multiply_each(&self.sharpening);
         let _ = self.vectors.write_vectors(forces);
     }
 

@@ -7,7 +7,7 @@ use boundary_integral::{BoundaryIntegral, RevolutionIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
 use interior_fields::{GelInBox, ParticlesInDroplet};
-use motile_base::{Region, Vec2, polygon};
+use motile_base::{Region, Vec2, polygon, spectrum::is_product};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
@@ -349,16 +349,8 @@ fn handles<B: Body>(scene: &Scene<AnyFlow>) -> Vec<Handle<B>> {
 /// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
 fn fast_count(wanted: f64) -> usize {
     let wanted = wanted.round().clamp(8.0, MARKERS[1]) as usize;
-    let fast = |mut n: usize| {
-        for p in [2, 3, 5] {
-            while n.is_multiple_of(p) {
-                n /= p;
-            }
-        }
-        n == 1
-    };
     (0..wanted)
         .flat_map(|d| [wanted + d, wanted - d])
-        .find(|&n| n >= 8 && n.is_multiple_of(2) && fast(n))
+        .find(|&n| n >= 8 && n.is_multiple_of(2) && is_product(n, &[2, 3, 5]))
         .unwrap_or(wanted)
 }
