@@ -37,7 +37,11 @@ function rebase() {
 
 function load(scene, id) {
   const made = new Engine(scene);
-  engine?.free();
+  try {
+    engine?.free();
+  } catch {
+    // It is in the middle of a call for which the rest of the module did not come.
+  }
   [engine, text, number] = [made, scene, id];
   sent = { records: 0, flow: -Infinity, cost: 0, shapes: -1 };
   meter = { at: now(), steps: 0, time: 0, rate: 0, pace: 0 };

@@ -1,10 +1,22 @@
-// The compiled page in node against native numbers: `node tests/node.mjs MODULE NUMBERS`.
+// The compiled page in node against native numbers: `node tests/node.mjs FOLDER NUMBERS`.
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { resolve } from "node:path";
+import { basename, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 
-const [module, numbers] = process.argv.slice(2);
-const { Engine, presets } = createRequire(import.meta.url)(resolve(module));
+const [folder, numbers] = process.argv.slice(2);
+const bytes = (name) => readFileSync(join(folder, name));
+/** What `rest.js` asks of a browser, of files. */
+globalThis.XMLHttpRequest = class {
+  open(_method, address) {
+    this.name = basename(address.pathname);
+  }
+  overrideMimeType() {}
+  send() {
+    [this.status, this.responseText] = [200, bytes(this.name).toString("latin1")];
+  }
+};
+const { default: init, Engine, presets } = await import(pathToFileURL(resolve(folder, "motile.js")));
+await init({ module_or_path: bytes("motile_bg.wasm") });
 const expected = JSON.parse(readFileSync(numbers, "utf8"));
 const known = JSON.parse(presets());
 if (known.length !== expected.length) throw new Error(`${expected.length} scenes, ${known.length} presets`);

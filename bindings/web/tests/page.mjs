@@ -12,7 +12,9 @@ function check(truth, words) {
   if (!truth) throw new Error(words);
 }
 
-const { server, address } = await serve(folder);
+const { server, address, asked, missing } = await serve(folder);
+/** The part of the module that is not loaded before it is needed. */
+const rest = join(folder, "motile_rest.wasm");
 const executablePath = process.env.CHROMIUM;
 check(executablePath, "CHROMIUM does not say where the browser is");
 const browser = await chromium.launch({ executablePath, args: FLAGS });
@@ -72,6 +74,7 @@ async function visit({ width, height, touch, scheme, path = "" }) {
   page.on("response", (response) => {
     if (response.status() >= 400) problems.push(`${response.status()} ${response.url()}`);
   });
+  asked.clear();
   await page.goto(address + path);
   await until(page, "no droplet is drawn", () => document.documentElement.dataset.first);
   return { context, page, problems, press: (selector) => (touch ? page.tap(selector) : page.click(selector)) };
@@ -163,9 +166,11 @@ async function whole({ name, ...view }) {
   const png = page.waitForEvent("download");
   await press('[data-save="png"]');
   check(statSync(await (await png).path()).size > 10_000, `${name}: the PNG file is empty`);
+  check(!asked.has(rest), `${name}: the rest of the module is loaded at once`);
   const svg = page.waitForEvent("download");
   await press('[data-save="svg"]');
   check(readFileSync(await (await svg).path(), "utf8").startsWith("<svg"), `${name}: no SVG file`);
+  check(asked.has(rest), `${name}: pictures are not of the rest of the module`);
 
   // A link brings the same scene, and its text is what the library reads.
   await press("#link");
@@ -207,7 +212,7 @@ try {
   const { context, page, problems } = await visit({ width: 1400, height: 900, touch: false, scheme: "dark" });
   const presets = await page.locator("#presets button").count();
   check(presets === 7, `${presets} presets`);
-  for (let k = presets; k >= 1; k -= 1) {
+  const choose = async (k) => {
     await page.keyboard.press(String(k));
     await until(
       page,
@@ -217,7 +222,11 @@ try {
     );
     await steps(page, 2);
     await drawn(page, `preset ${k}`);
-  }
+  };
+  for (const k of [4, 3, 2]) await choose(k);
+  check(!asked.has(rest), "the first presets need the rest of the module");
+  for (const k of [7, 6, 5, 1]) await choose(k);
+  check(asked.has(rest), "no preset needs the rest of the module");
   await plays(page, "keyboard", "Pause");
   await page.keyboard.press(" ");
   await plays(page, "keyboard", "Play");
@@ -226,6 +235,20 @@ try {
   await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
+  // Where the rest of the module does not come, the page says so and goes on.
+  missing.add(rest);
+  const poor = await visit({ width: 390, height: 844, touch: false, scheme: "light" });
+  await poor.page.click('[data-save="svg"]');
+  await until(poor.page, "no word of the missing rest", () =>
+    document.getElementById("note").textContent.includes("the rest of the page is missing"),
+  );
+  await poor.page.keyboard.press("2");
+  await steps(poor.page, 2);
+  missing.clear();
+  const late = poor.page.waitForEvent("download");
+  await poor.page.click('[data-save="svg"]');
+  await late;
+  await poor.context.close();
   console.log(
     `page in Chromium ${browser.version()}: first droplet after ${wide} ms (1400 pixels), ${narrow} ms (390 pixels)`,
   );

@@ -5,10 +5,6 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use wasm_encoder::reencode::{Error, Reencode, utils};
-use wasm_encoder::{CodeSection, FunctionSection, Module};
-use wasmparser::{BinaryReaderError, CodeSectionReader, FunctionSectionReader, Parser, Payload, TypeRef};
-
 /// Bytes that a compressor looks back.
 const WINDOW: usize = 32_768;
 /// Length of the pieces by which functions are compared (bytes).
@@ -18,36 +14,8 @@ const SAMPLE: u32 = 4;
 /// Functions with a piece from which on it tells nothing.
 const COMMON: usize = 1000;
 
-/// Module with its functions in an order that compresses well; it does what it did.
-///
-/// # Errors
-/// Bytes that are no module.
-pub(crate) fn alike(bytes: &[u8]) -> Result<Vec<u8>, Error> {
-    let mut imported = 0;
-    let mut bodies = Vec::new();
-    for payload in Parser::new(0).parse_all(bytes) {
-        match payload? {
-            Payload::ImportSection(imports) => {
-                for import in imports.into_imports() {
-                    imported += u32::from(matches!(import?.ty, TypeRef::Func(_)));
-                }
-            }
-            Payload::CodeSectionEntry(body) => bodies.push(&bytes[body.range()]),
-            _ => {}
-        }
-    }
-    let order = order(&bodies);
-    let mut places = vec![0; order.len()];
-    for (place, &function) in (0..).zip(&order) {
-        places[function] = place;
-    }
-    let mut module = Module::new();
-    Reordered { imported, order, places }.parse_core_module(&mut module, Parser::new(0), bytes)?;
-    Ok(module.finish())
-}
-
 /// Order in which each function shares as much as can be had with those before it, the largest first.
-fn order(bodies: &[&[u8]]) -> Vec<usize> {
+pub(crate) fn alike(bodies: &[&[u8]]) -> Vec<usize> {
     let pieces: Vec<Vec<u32>> = bodies.iter().map(|body| pieces(body)).collect();
     let mut holders: HashMap<u32, Vec<usize>> = HashMap::new();
     for (function, pieces) in pieces.iter().enumerate() {
@@ -108,41 +76,4 @@ fn pieces(body: &[u8]) -> Vec<u32> {
     pieces.sort_unstable();
     pieces.dedup();
     pieces
-}
-
-/// Copy of a module with its functions in another order.
-struct Reordered {
-    imported: u32,
-    order: Vec<usize>,
-    /// New place of each function.
-    places: Vec<u32>,
-}
-
-impl Reencode for Reordered {
-    type Error = std::convert::Infallible;
-
-    fn function_index(&mut self, function: u32) -> Result<u32, Error> {
-        let own = function.checked_sub(self.imported);
-        Ok(own.map_or(function, |own| self.imported + self.places[own as usize]))
-    }
-
-    fn parse_function_section(
-        &mut self,
-        to: &mut FunctionSection,
-        from: FunctionSectionReader<'_>,
-    ) -> Result<(), Error> {
-        let types = from.into_iter().collect::<Result<Vec<u32>, BinaryReaderError>>()?;
-        self.order.iter().for_each(|&function| {
-            to.function(types[function]);
-        });
-        Ok(())
-    }
-
-    fn parse_code_section(&mut self, to: &mut CodeSection, from: CodeSectionReader<'_>) -> Result<(), Error> {
-        let bodies = from.into_iter().collect::<Result<Vec<_>, BinaryReaderError>>()?;
-        for function in self.order.clone() {
-            utils::parse_function_body(self, to, bodies[function].clone())?;
-        }
-        Ok(())
-    }
 }
