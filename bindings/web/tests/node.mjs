@@ -1,9 +1,10 @@
-// The compiled page in node against native numbers: `node tests/node.mjs FOLDER NUMBERS`.
+// The compiled page in node against native numbers, and against the command line's of a scene that the tests of the
+// Python package compare with the same command: `node tests/node.mjs FOLDER NUMBERS SCENE SUMMARY`.
 import { readFileSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [folder, numbers] = process.argv.slice(2);
+const [folder, numbers, scene, summary] = process.argv.slice(2);
 const bytes = (name) => readFileSync(join(folder, name));
 /** What `rest.js` asks of a browser, of files. */
 globalThis.XMLHttpRequest = class {
@@ -34,6 +35,13 @@ for (const [k, { name, time, speed }] of expected.entries()) {
   }
   engine.free();
 }
+const there = JSON.parse(readFileSync(summary, "utf8"));
+const engine = new Engine(readFileSync(scene, "utf8"));
+while (engine.step(there.time)) {
+  // To the end.
+}
+const apart = Math.abs(engine.speed(0) / there.speed - 1);
+if (!(apart < 1e-9)) throw new Error(`speed ${engine.speed(0)} on the page, ${there.speed} by the command line`);
 try {
   new Engine("viscosity = -1.0");
   throw new Error("a negative viscosity was taken");
@@ -41,4 +49,7 @@ try {
   const { key, remedy } = JSON.parse(error);
   if (key !== "viscosity" || !remedy) throw new Error(`an error without key and remedy: ${error}`);
 }
-console.log(`wasm in node: ${expected.length} scenes, largest difference from native ${largest.toExponential(1)}`);
+console.log(
+  `wasm in node: ${expected.length} scenes, largest difference from native ${largest.toExponential(1)},`,
+  `from the command line ${apart.toExponential(1)}`,
+);
