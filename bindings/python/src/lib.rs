@@ -6,6 +6,7 @@ mod setup;
 mod steady;
 mod tension;
 mod value;
+mod work;
 
 /// Compiled part of motile.
 #[pyo3::pymodule]

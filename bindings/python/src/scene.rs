@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -20,11 +20,10 @@ use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot};
 use crate::error::{failed, of_setup, refused};
 use crate::tension::TabulatedTension;
 use crate::value::{described, from_python};
+use crate::work::{BETWEEN_LOOKS, unless_interrupted};
 
 /// Fluid shown around the bodies of a region without an end, in units of length: those of the droplets' usual radius.
 const MARGIN: f64 = 2.0;
-/// Time between two looks at signals.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 type AnyScene = motile::motile_scene::Scene<AnyFlow>;
 
@@ -65,8 +64,10 @@ fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec2>> {
 
 impl Scene {
     pub(crate) fn new(py: Python<'_>, description: &Description) -> PyResult<Self> {
+        let own = description.clone();
+        let built = unless_interrupted(py, None, move |_| own.build())?;
         py.detach(|| {
-            let Built { mut scene, droplets, .. } = description.build().map_err(|error| of_setup(&error))?;
+            let Built { mut scene, droplets, .. } = built.map_err(|error| of_setup(&error))?;
             let meters = droplets.iter().map(|&droplet| DropletMeter::of(scene.system_mut(), droplet));
             let meters = meters.collect::<Result<_, _>>().map_err(failed)?;
             let state = State { scene, droplets, meters, records: Vec::new(), warnings: Warnings::default() };
@@ -249,9 +250,10 @@ impl Scene {
         Ok(observables)
     }
 
-    /// Gives a droplet the tension of a table: concentrations that rise (particles per length) and tensions (force).
-    fn set_tension(&self, droplet: usize, concentrations: Vec<f64>, tensions: Vec<f64>) -> PyResult<()> {
-        let law = TabulatedTension::new(concentrations, tensions)?;
+    /// Gives a droplet the tension of a table: concentrations that rise (particles per length) and tensions (force), of
+    /// a smooth function or measured.
+    fn set_tension(&self, droplet: usize, concentrations: Vec<f64>, tensions: Vec<f64>, smooth: bool) -> PyResult<()> {
+        let law = TabulatedTension::new(concentrations, tensions, smooth)?;
         let mut state = self.lock()?;
         let droplet = Self::droplet(&state, droplet)?;
         state.scene.body_mut(droplet).map_err(failed)?.set_tension(law);
@@ -264,9 +266,9 @@ impl Scene {
     fn sample<'py>(
         &self,
         py: Python<'py>,
-        points: PyReadonlyArray2<'py, f64>,
+        points: &Bound<'py, PyArray2<f64>>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray3<f64>>)> {
-        let points = points_of(&points)?;
+        let points = points_of(&points.try_readonly()?)?;
         let samples = py.detach(|| {
             let mut samples = vec![FlowSample::default(); points.len()];
             self.lock()?.scene.system_mut().sample(&points, &mut samples).map_err(failed)?;
@@ -301,9 +303,9 @@ impl Scene {
         streamlines: bool,
     ) -> PyResult<()> {
         let look = Look { width, caption: caption.to_owned(), streamlines, ..Look::default() };
-        py.detach(|| {
+        py.detach(move || {
             let seen = self.seen(spacing)?;
-            look.write_picture(&seen, &[], &path).map_err(failed)
+            look.write_picture(&seen, &[], path).map_err(failed)
         })
     }
 
@@ -319,13 +321,15 @@ impl Scene {
     }
 
     /// Saves the state to a file.
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    fn save(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path: PathBuf = path.extract()?;
         let description = self.description.fingerprint();
         py.detach(|| self.lock()?.scene.checkpoint(description).write(&path).map_err(failed))
     }
 
     /// Goes on from a saved state of this scene.
-    fn load(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    fn load(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path: PathBuf = path.extract()?;
         py.detach(|| {
             let saved = Checkpoint::read(&path).map_err(failed)?;
             let mut state = self.lock()?;

@@ -4,10 +4,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
-use steady_states::{Continuation, Parameter, SteadyError};
+use steady_states::{Continuation, Parameter, Spectrum, SteadyError};
 
 use crate::error::{failed, of_setup, refused};
 use crate::setup::Setup;
+use crate::work::unless_interrupted;
 
 fn of_steady(error: &SteadyError) -> PyErr {
     if let SteadyError::Setup(error) = error { of_setup(error) } else { failed(error) }
@@ -77,14 +78,14 @@ impl SteadyState {
     /// Eigenvalues (1/time) of small disturbances, largest growth rate first, one of each conjugate pair, and their
     /// symmetries.
     fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyArray1<numpy::Complex64>>, Vec<&'static str>)> {
-        let spectrum = py.detach(|| self.state.spectrum()).map_err(|error| of_steady(&error))?;
+        let spectrum = self.of_disturbances(py)?;
         let values = spectrum.modes.iter().map(|mode| mode.value).collect();
         Ok((PyArray1::from_vec(py, values), spectrum.modes.iter().map(|mode| mode.symmetry.name()).collect()))
     }
 
     /// True if no small disturbance grows.
     fn is_stable(&self, py: Python<'_>) -> PyResult<bool> {
-        Ok(py.detach(|| self.state.spectrum()).map_err(|error| of_steady(&error))?.unstable() == 0)
+        Ok(self.of_disturbances(py)?.unstable() == 0)
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -92,12 +93,19 @@ impl SteadyState {
     }
 }
 
+impl SteadyState {
+    fn of_disturbances(&self, py: Python<'_>) -> PyResult<Spectrum> {
+        let state = self.state.clone();
+        unless_interrupted(py, None, move |_| state.spectrum())?.map_err(|error| of_steady(&error))
+    }
+}
+
 /// Steady state of a setup with one droplet.
 #[pyfunction]
 pub(crate) fn steady(py: Python<'_>, setup: &Bound<'_, Setup>) -> PyResult<SteadyState> {
     let description = setup.get().description.clone();
-    let state = py.detach(|| steady_states::SteadyState::find(&description)).map_err(|error| of_steady(&error))?;
-    Ok(SteadyState { state })
+    let found = unless_interrupted(py, None, move |_| steady_states::SteadyState::find(&description))?;
+    Ok(SteadyState { state: found.map_err(|error| of_steady(&error))? })
 }
 
 /// Branch of steady states along a parameter: values, speeds, largest growth rates, numbers of growing disturbances,
@@ -111,7 +119,7 @@ pub(crate) fn branch<'py>(
     stop: f64,
     largest_step: f64,
     most_points: usize,
-    tick: Option<Py<PyAny>>,
+    tick: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let name = parameter.replace('_', "-");
     let known = Parameter::NAMES.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
@@ -122,23 +130,10 @@ pub(crate) fn branch<'py>(
         refused(&message, Some("parameter".into()), Some(parameter.to_owned()), Some(remedy))
     };
     let known = known.ok_or_else(unknown)?;
-    let start = &start.get().state;
+    let start = start.get().state.clone();
     let from = known.get(start.setup()).unwrap_or(f64::NAN);
     let settings = Continuation { largest_step, most_points, ..Continuation::new(known, from, stop) };
-    let mut signal = None;
-    let found = py.detach(|| {
-        settings.follow(start, |point, _| {
-            let looked = Python::attach(|py| {
-                py.check_signals()?;
-                tick.as_ref().map_or(Ok(()), |tick| tick.call1(py, (point.value,)).map(|_| ()))
-            });
-            signal = looked.err();
-            signal.is_none()
-        })
-    });
-    if let Some(signal) = signal {
-        return Err(signal);
-    }
+    let found = unless_interrupted(py, tick, move |go_on| settings.follow(&start, |point, _| go_on(point.value)))?;
     let found = found.map_err(|error| of_steady(&error))?;
     let dict = PyDict::new(py);
     let speeds = found.points.iter().map(|point| Ok(point.state.measured()?.speed)).collect::<Result<Vec<_>, _>>();

@@ -6,9 +6,11 @@ use motile::active_interface::Tension;
 
 use crate::error::refused;
 
-/// Tension as a function of the concentration through the points of a table, by cubic polynomials between them whose
-/// slopes never change the sense of a table that rises or falls throughout (Fritsch and Carlson, "Monotone piecewise
-/// cubic interpolation", 1980, with the harmonic means of Fritsch and Butland); beyond the table it goes on straight.
+/// Tension as a function of the concentration through the points of a table, by cubic polynomials between them; beyond
+/// the table it goes on straight. Slopes of measured tables never change the sense of one that rises or falls
+/// throughout (Fritsch and Carlson, "Monotone piecewise cubic interpolation", 1980, with the harmonic means of Fritsch
+/// and Butland); those of a smooth function are of the polynomial through five points, so that the error is of the
+/// fourth order in their distance.
 #[derive(Debug)]
 pub(crate) struct TabulatedTension {
     concentrations: Vec<f64>,
@@ -17,7 +19,7 @@ pub(crate) struct TabulatedTension {
 }
 
 impl TabulatedTension {
-    pub(crate) fn new(concentrations: Vec<f64>, tensions: Vec<f64>) -> PyResult<Self> {
+    pub(crate) fn new(concentrations: Vec<f64>, tensions: Vec<f64>, smooth: bool) -> PyResult<Self> {
         let refuse = |problem: &str, remedy: &str| {
             refused(&format!("{problem}: {remedy}"), Some("tension".into()), None, Some(remedy.into()))
         };
@@ -40,6 +42,9 @@ impl TabulatedTension {
             slopes.push(if d0 * d1 > 0.0 { (w0 + w1) / (w0 / d0 + w1 / d1) } else { 0.0 });
         }
         slopes.push(steps[steps.len() - 1][1]);
+        if smooth && concentrations.len() >= 5 {
+            slopes = (0..concentrations.len()).map(|k| slope_of_five(&concentrations, &tensions, k)).collect();
+        }
         Ok(Self { concentrations, tensions, slopes })
     }
 
@@ -59,6 +64,15 @@ impl TabulatedTension {
         let (second, third) = (3.0 * b - 2.0 * p - q, p + q - 2.0 * b);
         [a + t * (p + t * (second + t * third)), (p + t * (2.0 * second + 3.0 * t * third)) / h]
     }
+}
+
+/// Slope at point k of the polynomial through the five points of a table around it.
+fn slope_of_five(x: &[f64], y: &[f64], k: usize) -> f64 {
+    let first = k.saturating_sub(2).min(x.len() - 5);
+    let others = |j: usize| (first..first + 5).filter(move |&i| i != j && i != k);
+    // Each point by the slope of its Lagrange polynomial; those of the constant one add up to zero.
+    let slope = |j: usize| others(j).map(|i| (x[k] - x[i]) / (x[j] - x[i])).product::<f64>() / (x[j] - x[k]);
+    (first..first + 5).filter(|&j| j != k).map(|j| slope(j) * (y[j] - y[k])).sum()
 }
 
 impl Tension for TabulatedTension {

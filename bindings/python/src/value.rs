@@ -79,6 +79,8 @@ pub(crate) fn described<T: serde::de::DeserializeOwned>(value: Value) -> PyResul
     serde_path_to_error::deserialize(value).map_err(|error| {
         let key = error.path().to_string().replace('-', "_");
         let inner = error.inner().to_string();
+        let kinds = "wanted exactly 1 element";
+        let inner = if inner.starts_with(kinds) { "give one entry, that of its kind".into() } else { inner };
         // The first line says what is wrong, in the names of scene files; the others say where.
         let said = inner.trim().lines().next().unwrap_or_default().split('`').enumerate();
         let snake = |(number, part): (usize, &str)| if number % 2 == 1 { part.replace('-', "_") } else { part.into() };

@@ -1,10 +1,13 @@
-"""Programs of the guide, as they stand there, and the example of the package's first page."""
+"""Programs of the guide beside those of the guide in Rust, and the example of the package's first page."""
 
 import doctest
+import json
 import re
+import subprocess
 from pathlib import Path
 
 import motile
+import numpy as np
 import pytest
 
 DOCS = Path(__file__).parents[3] / "docs"
@@ -12,14 +15,64 @@ GUIDE = DOCS / "python.md"
 PROGRAMS = re.findall(r"^## (.+?)$.*?^```python\n(.*?)^```$", GUIDE.read_text(), flags=re.M | re.S)
 
 
+def in_rust() -> dict[str, str]:
+    """Programs of the guide in Rust that do the same, by the titles here."""
+    others = {
+        "Tables and pictures": "CSV and picture",
+        "A channel with a drive, and films": "A channel with a drive",
+        "Sweeps, and runs that go on": "Sweeps",
+    }
+    sections = re.split(r"^## ", (DOCS / "guide.md").read_text(), flags=re.M)
+    found = (re.match(r"(.+?)\n.*?^```rust\n(.*?)^```$", section, re.M | re.S) for section in sections)
+    rust = dict(match.groups() for match in found if match)
+    return {title: rust[others.get(title, title)] for title, _ in PROGRAMS}
+
+
+@pytest.fixture(scope="module")
+def printed_in_rust(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What the programs in Rust print, with all digits: one program of all, beside the crates of an example."""
+    command = "cargo build --release --quiet --example bifurcation_diagram --message-format json"
+    built = subprocess.run(command.split(), cwd=DOCS.parent, check=True, capture_output=True, text=True).stdout
+    messages = [json.loads(line) for line in built.splitlines()]
+    files = {m["target"]["name"]: m["filenames"][0] for m in messages if m["reason"] == "compiler-artifact"}
+    crates = ["motile", "motile_output", "steady_states"]
+    place = tmp_path_factory.mktemp("rust")
+    programs = list(in_rust().values())
+    modules = [f"mod p{k} {{ {p.replace('fn main', 'pub fn main')} }}" for k, p in enumerate(programs)]
+    calls = [f'println!("== "); p{k}::main().unwrap();' for k in range(len(programs))]
+    text = "\n".join([*modules, "fn main() {", *calls, "}"])
+    (place / "all.rs").write_text(re.sub(r"(\{\w*):\.\d+e?\}", r"\1:.17e}", text))
+    extern = [f"--extern={name}={files[name]}" for name in crates]
+    compiler = ["rustc", "--edition=2024", "-Copt-level=3", f"-Ldependency={Path(files['motile']).parent}", *extern]
+    subprocess.run([*compiler, "all.rs"], cwd=place, check=True)
+    out = subprocess.run([place / "all"], cwd=place, check=True, capture_output=True, text=True).stdout
+    return dict(zip(in_rust(), out.split("== ")[1:], strict=True))
+
+
+def numbers(text: str) -> list[float]:
+    return [float(number) for number in re.findall(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text)]
+
+
 def test_there_are_ten() -> None:
     assert len(PROGRAMS) == 10
 
 
 @pytest.mark.parametrize(("title", "program"), PROGRAMS, ids=[title for title, _ in PROGRAMS])
-def test_program(title: str, program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_program(
+    title: str,
+    program: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+    printed_in_rust: dict[str, str],
+) -> None:
     monkeypatch.chdir(tmp_path)
-    exec(compile(program, title, "exec"), {"__name__": "__main__"})
+    exec(compile(re.sub(r":\.\d+[ef]\}", ":.17g}", program), title, "exec"), {"__name__": "__main__"})
+    printed = numbers(capfd.readouterr().out)
+    # Rust prints more: each number here is the next one there that is the same.
+    others = iter(numbers(printed_in_rust[title]))
+    missing = [number for number in printed if not any(np.isclose(number, o, rtol=1e-12, atol=1e-12) for o in others)]
+    assert printed and not missing, printed_in_rust[title]
 
 
 def test_first_page() -> None:
@@ -32,17 +85,9 @@ def test_lines_beside_rust() -> None:
         stripped = (line.strip() for line in program.splitlines())
         return str(sum(1 for line in stripped if line and not line.startswith(comment)))
 
-    # Programs of the Rust guide that do the same, where there are any.
-    others = {"Tables and pictures": "CSV and picture", "A channel with a drive, and films": "A channel with a drive"}
-    sections = re.split(r"^## ", (DOCS / "guide.md").read_text(), flags=re.M)
-    found = (re.match(r"(.+?)\n.*?^```rust\n(.*?)^```$", section, re.M | re.S) for section in sections)
-    rust = dict(match.groups() for match in found if match)
-    rows = re.findall(r"^\| (.+?) \| (\d+) \| (\d*) ?\|$", GUIDE.read_text(), flags=re.M)
-    expected = []
-    for title, program in PROGRAMS:
-        other = rust.get(others.get(title, title))
-        expected.append((title, lines(program, "#"), lines(other, "//") if other else ""))
-    assert rows == expected
+    rows = re.findall(r"^\| (.+?) \| (\d+) \| (\d+) \|$", GUIDE.read_text(), flags=re.M)
+    rust = in_rust()
+    assert rows == [(title, lines(program, "#"), lines(rust[title], "//")) for title, program in PROGRAMS]
 
 
 def test_notebook() -> None:

@@ -3,10 +3,14 @@
 import _thread
 import json
 import multiprocessing
+import os
+import pickle
 import signal
 import subprocess
+import sys
 import threading
 import time
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -57,6 +61,50 @@ def test_a_run_in_parts_is_one_run(tmp_path: Path) -> None:
         other.load(tmp_path / "missing")
 
 
+def test_broken_checkpoints_are_refused(tmp_path: Path) -> None:
+    scene, other = small().build(), small().build()
+    scene.run(0.5)
+    path = tmp_path / "state"
+    scene.save(path)
+    whole = path.read_bytes()
+    flipped = bytearray(whole)
+    flipped[len(whole) // 2] ^= 1
+    before = other.droplets[0].positions
+    half = whole[: len(whole) // 2]
+    for broken in [b"", whole[:10], half, whole[:-1], whole + b"x", bytes(flipped), os.urandom(999)]:
+        path.write_bytes(broken)
+        with pytest.raises(motile.Error):
+            other.load(path)
+        assert other.time == 0 and np.array_equal(other.droplets[0].positions, before)
+    with pytest.raises(motile.Error):
+        other.load(tmp_path)
+
+
+def test_a_full_disk_leaves_the_last_checkpoint(tmp_path: Path) -> None:
+    program = """
+import motile, resource, sys
+scene = motile.Setup(method=motile.integral(nodes=32, cells=128)).build()
+scene.save("state")
+scene.run(0.5)
+resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+go_on = lambda: scene.run(1, 0.25, checkpoint="state")
+for write in (lambda: scene.save("state"), go_on, lambda: scene.picture("a.png")):
+    try:
+        write()
+    except motile.Error as error:
+        print(error)
+    else:
+        sys.exit("written")
+assert scene.time == 0.75, scene.time
+"""
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done
+    assert done.stdout.count("state") == 2, done.stdout
+    scene = small().build()
+    scene.load(tmp_path / "state")
+    assert scene.time == 0
+
+
 def test_tables() -> None:
     one = small().build().run(1, every=0.5)
     assert one["speed"].shape == (3,) and set(one) == set(one.names) and len(one) == len(one.names)
@@ -89,9 +137,45 @@ def test_state_and_samples() -> None:
     h = 1e-4
     (right, left), _ = scene.sample([[0.3 + h, 0.2], [0.3 - h, 0.2]])
     assert np.allclose((right - left) / (2 * h), gradient[:, 0], atol=1e-6)
-    for wrong in [[1, 2, 3], 5.0, [[np.nan, 0]], "ab"]:
-        with pytest.raises((motile.Error, ValueError)):
+    single = grid.astype(np.float32)[:, ::-1]
+    assert np.array_equal(scene.sample(single)[0][:, ::-1], scene.sample(grid.astype(np.float32))[0])
+    assert np.array_equal(scene.sample(np.array([[0, 1]]))[0], scene.sample([[0.0, 1.0]])[0])
+    for wrong in [[1, 2, 3], 5.0, [[np.nan, 0]], "ab", [[1j, 0]], [["a", "b"]], [[1], [1, 2]], [[None, 1]], object()]:
+        with pytest.raises(motile.Error):
             scene.sample(wrong)
+    assert scene.sample(np.empty((0, 2)))[0].shape == (0, 2)
+
+
+@pytest.mark.parametrize("region", [motile.space(), motile.tube(2.0)], ids=["space", "tube"])
+def test_three_dimensions(region: object) -> None:
+    scene = small(region=region, droplets=[motile.droplet(-4, shape={"round": {"radius": 1.0}})]).build()
+    track = scene.run(0.5, every=0.25)
+    assert track["speed"].shape == (3,) and track["speed"][-1] > 1e-3
+    assert abs(track["y"]).max() < 1e-9
+    velocity, pressure = scene.sample([[0.0, 0.3], [0.0, -0.3], [3.0, 0.5]])
+    assert np.isfinite(pressure).all() and velocity[1] == pytest.approx(velocity[0] * [1, -1], abs=1e-9)
+    text = scene._repr_svg_()
+    assert text.startswith("<svg")
+    assert pickle.loads(pickle.dumps(small(region=region))) == small(region=region)
+    method = motile.integral(nodes=48, cells=192)
+    swimmer = motile.steady(motile.Setup(region=region, method=method, droplets=[motile.droplet(-1)]))
+    assert 0.08 < swimmer.speed < 0.11
+
+
+def test_sixteen_droplets() -> None:
+    suspension = [{"count": 16, "radius": [0.8, 1.0], "activity": [-3.0, -2.0], "seed": 3}]
+    setup = small(region=motile.box(16), droplets=[], suspension=suspension)
+    assert pickle.loads(pickle.dumps(setup)) == setup == motile.Setup.from_toml(setup.to_toml())
+    scene = setup.build()
+    track = scene.run(0.2, every=0.1)
+    assert track["speed"].shape == (3, 16) and len(scene.droplets) == len(scene.bodies) == 16
+    assert track.to_pandas().shape[0] == 48 and (track["speed"][-1] > 0).all()
+    radii = np.sqrt(track["area"][0] / np.pi)
+    assert 0.79 < radii.min() < radii.max() < 1.01 and np.ptp(radii) > 0.05
+    assert np.allclose(track["area"][-1], track["area"][0], rtol=1e-6)
+    assert scene.minimum_gap is not None and scene.minimum_gap > 0
+    with pytest.raises(motile.Error, match="suspension"):
+        small(region=motile.box(6), droplets=[], suspension=[{"count": 16}]).build()
 
 
 def test_pictures_and_files(tmp_path: Path) -> None:
@@ -116,28 +200,93 @@ def test_a_tension_of_ones_own() -> None:
     c = np.linspace(0, 1500, 6001)
     gamma0, activity, strength = 10.0, -2.0, 0.02
     table = gamma0 - activity * c - strength * c**2 / 2
-    tabulated.droplets[0].set_tension((c, table))
+    tabulated.droplets[0].set_tension(np.column_stack([c, table]).T)
     sampled.droplets[0].set_tension(lambda c: gamma0 - activity * c - strength * c**2 / 2, up_to=1500, points=6001)
     speeds = [scene.run(0.5, every=0.5)["speed"][-1] for scene in (known, tabulated, sampled)]
-    assert speeds[1] == speeds[2]
     assert speeds[1] == pytest.approx(speeds[0], rel=1e-5)
-    for wrong in [((0, 1), (1, 2)), ((0, 2, 1), (1, 2, 3)), ((0, 1, 2), (1, np.nan, 2)), ((0, 1, 2), (1, 2))]:
-        with pytest.raises(motile.Error):
-            known.droplets[0].set_tension(wrong)
+    # Of a function, which the polynomials through five points know.
+    assert speeds[2] == pytest.approx(speeds[0], rel=1e-10)
+    droplet = known.droplets[0]
+    for wrong in [
+        ((0, 1), (1, 2)),
+        ((0, 2, 1), (1, 2, 3)),
+        ((0, 1, 2), (1, np.nan, 2)),
+        ((0, 1, 2), (1, 2)),
+        ((0, 1, 2), ("a", "b", "c")),
+        ((0, 1, 2),),
+        lambda c: c[:-1],
+        lambda c: c + 1j,
+        lambda c: "steep",
+        lambda c: None,
+        lambda c: np.log(c - 1e9),
+    ]:
+        with pytest.raises(motile.Error), np.errstate(invalid="ignore"):
+            droplet.set_tension(wrong)
+    with pytest.raises(ZeroDivisionError):
+        droplet.set_tension(lambda c: 1 // 0)
+    # The law of before is there still.
+    assert known.run(1, every=1)["speed"][-1] == setup.build().run(1, every=0.5)["speed"][-1]
+
+
+def test_laws_of_functions_are_of_fourth_order() -> None:
+    start = {"excluded_volume": "none"}
+    setup = small(droplets=[motile.droplet(-2, particles=start)], step={"fixed": 0.02})
+
+    def speed(points: int) -> float:
+        scene = setup.build()
+        scene.droplets[0].set_tension(lambda c: 10 + 400 * c / (c + 100), up_to=1600, points=points)
+        return float(scene.run(0.5, every=0.5)["speed"][-1])
+
+    exact = speed(20001)
+    errors = [abs(speed(points) - exact) for points in (101, 201)]
+    assert np.log2(errors[0] / errors[1]) > 3.5 and errors[1] < 1e-5 * exact, errors
+
+
+def _interrupted(work: Callable[[], object], after: float) -> float:
+    """Seconds between Ctrl-C, some time after the start, and the end of the work by it."""
+    # A process in the background may have been started with Ctrl-C ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    pressed = threading.Event()
+    began = [0.0]
+
+    def press() -> None:
+        began[0] = time.monotonic()
+        pressed.set()
+        _thread.interrupt_main()
+
+    timer = threading.Timer(after, press)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            work()
+    finally:
+        timer.cancel()
+        signal.signal(signal.SIGINT, before)
+    assert pressed.is_set()
+    return time.monotonic() - began[0]
+
+
+def test_ctrl_c_leaves_whatever_takes_long() -> None:
+    def fine(nodes: int) -> motile.Setup:
+        return motile.Setup(region=motile.plane(), method=motile.integral(nodes=nodes, cells=4 * nodes))
+
+    crowd = motile.Setup(region=motile.box(200), droplets=[], suspension=[{"count": 4000, "seed": 1}])
+    start = motile.steady(fine(64))
+    values: list[float] = []
+    for name, work in {
+        "build": crowd.build,
+        "steady": lambda: motile.steady(fine(1000)),
+        "branch": lambda: motile.branch(motile.steady(fine(256)), "activity", -6, callback=values.append),
+        "sweep": lambda: motile.sweep(fine(300), {"viscosity": [90, 100]}, 1e3, 1.0),
+    }.items():
+        assert _interrupted(work, 0.5) < 5, name
+    # What was begun does not hold up what comes next.
+    assert motile.steady(fine(64)).speed == start.speed
 
 
 def test_ctrl_c_ends_a_run_within_a_second() -> None:
-    # A process in the background may have been started with Ctrl-C ignored.
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     scene = motile.Setup(method=motile.grid(spacing=0.05)).build()
-    threading.Timer(0.6, _thread.interrupt_main).start()
-    began = time.monotonic()
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            scene.run(1e3, every=1.0)
-    finally:
-        signal.signal(signal.SIGINT, before)
-    assert time.monotonic() - began < 5
+    assert _interrupted(lambda: scene.run(1e3, every=1.0), 0.6) < 5
     reached = scene.time
     assert reached > 0 and scene.track.time[-1] <= reached
     scene.run(reached + 0.01)

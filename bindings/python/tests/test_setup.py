@@ -2,6 +2,10 @@
 
 import copy
 import pickle
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 import motile
 import numpy as np
@@ -88,6 +92,101 @@ def test_wrong_entries_name_their_key(entries: dict[str, object], key: str) -> N
     assert "\n" not in str(raised.value)
     again = pickle.loads(pickle.dumps(raised.value))
     assert (str(again), again.key, again.remedy) == (str(raised.value), key, raised.value.remedy)
+
+
+def _whole() -> dict[str, Any]:
+    """All entries of the file that shows every key."""
+    text = (Path(__file__).parents[3] / "crates" / "motile" / "scene.toml").read_text()
+    whole: dict[str, Any] = motile.Setup.from_toml(text).to_dict()
+    return whole
+
+
+def _parts(value: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    """Places and values of everything in a dictionary, at every depth."""
+    yield place, value
+    if isinstance(value, dict):
+        for key, entry in value.items():
+            yield from _parts(entry, f"{place}.{key}" if place else key)
+    if isinstance(value, list):
+        for number, entry in enumerate(value):
+            yield from _parts(entry, f"{place}[{number}]")
+
+
+def _changed(place: str, value: Any) -> dict[str, Any]:
+    whole: Any = _whole()
+    *above, last = [int(k) if k.isdigit() else k for k in re.findall(r"[^.\[\]]+", place)]
+    at = whole
+    for key in above:
+        at = at[key]
+    at[last] = value
+    changed: dict[str, Any] = whole
+    return changed
+
+
+def test_wrong_keys_at_every_depth() -> None:
+    places = [place for place, value in _parts(_whole()) if isinstance(value, dict)]
+    assert len(places) > 50
+    for place in places:
+        wrong = f"{place}.wrong_key" if place else "wrong_key"
+        with pytest.raises(motile.Error) as raised:
+            motile.Setup.from_dict(_changed(wrong, 1))
+        # Where one of several kinds has to be given, a second entry is an error of the whole.
+        assert raised.value.key == wrong or "give one entry" in str(raised.value), (wrong, str(raised.value))
+        assert raised.value.key in (wrong, place)
+
+
+def test_wrong_values_at_every_depth() -> None:
+    leaves = [(place, value) for place, value in _parts(_whole()) if not isinstance(value, (dict, list))]
+    assert len(leaves) > 80
+    wrong = [object(), 1j, "no such name", np.array(["a", "b"]), np.array([1.0, np.nan]), float("nan"), -float("inf")]
+    for place, known in leaves:
+        # Names are free.
+        for value in [other for other in wrong if not (isinstance(other, str) and place.endswith(".name"))]:
+            with pytest.raises(motile.Error) as raised:
+                motile.Setup.from_dict(_changed(place, value))
+            assert raised.value.key, (place, known, value, str(raised.value))
+            parts = re.split(r"\[\d\]$", place)[0]
+            assert raised.value.key.startswith(parts), (place, raised.value.key)
+
+
+def test_walls_of_ones_own_are_arrays() -> None:
+    """Sides of a channel and obstacles as arrays of any kind; a channel of that shape is the same to second order."""
+    shape = {"sinusoidal": {"width": 3.0, "amplitude": 0.2, "waves": 1, "phase": 0.0}}
+    method = motile.integral(nodes=32, cells=128)
+
+    def speed(below: Any, above: Any) -> float:
+        walls = [{"outline": outline, "spacing": 0.2} for outline in (below, above)]
+        setup = motile.Setup(region=motile.channel(12, 5), method=method, walls=walls, droplets=[motile.droplet(-3)])
+        assert pickle.loads(pickle.dumps(setup)) == setup
+        return float(setup.build().run(0.5, every=0.5)["speed"][-1])
+
+    def own(count: int) -> float:
+        # The shape is its own mirror image in y = 0; its sides are farthest apart in the middle.
+        x = np.linspace(-6, 6, count + 1)
+        y = 1.5 + shape["sinusoidal"]["amplitude"] * np.cos(np.pi * x / 6)
+        # From the other end, with the end of the period, and strided; a transposed array of single precision.
+        below = np.repeat(np.column_stack([x, -y]), 2, axis=0)[::-2]
+        above = np.array([x[:-1], y[:-1]]).T
+        assert not below.flags.c_contiguous and not above.flags.c_contiguous
+        return speed({"wall_below_points": below}, {"wall_above_points": above})
+
+    expected = speed({"wall_below": shape}, {"wall_above": shape})
+    coarse, fine = (abs(own(count) - expected) / expected for count in (48, 96))
+    assert fine < 2e-4 and coarse > 3 * fine, (coarse, fine)
+
+    t = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    post = np.column_stack([3 + 0.3 * np.cos(t), 0.3 * np.sin(t)])
+    disc = {"disc": {"centre": (3, 0), "radius": 0.3}}
+    walls = [[{"outline": outline, "spacing": 0.1}] for outline in ({"polygon": {"corners": post}}, disc)]
+    speeds = []
+    for wall in walls:
+        setup = motile.Setup(region=motile.channel(12, 5), method=method, walls=wall)
+        speeds.append(setup.build().run(0.5, every=0.5)["speed"][-1])
+    assert speeds[0] == pytest.approx(speeds[1], rel=1e-3)
+    for wrong in (np.zeros((8, 3)), post.T, post + np.nan, "circle", post[0]):
+        wall = {"outline": {"polygon": {"corners": wrong}}, "spacing": 0.1}
+        with pytest.raises(motile.Error, match="walls"):
+            motile.Setup(region=motile.channel(12, 5), method=method, walls=[wall]).build()
 
 
 def test_remedies() -> None:

@@ -19,7 +19,9 @@ def test_a_swimmer_in_a_channel() -> None:
 
 def test_a_branch_and_how_it_ends() -> None:
     start = motile.steady(motile.Setup(region=motile.plane(), method=motile.integral(nodes=72, cells=288)))
-    branch = motile.branch(start, "activity", -3)
+    seen: list[float] = []
+    branch = motile.branch(start, "activity", -3, callback=seen.append)
+    assert np.array_equal(seen, branch.values)
     assert branch.values[0] == -2 and branch.values[-1] == -3 and branch.end == "end of the range"
     assert np.all(np.diff(branch.speeds) > 0) and np.all(branch.unstable == 0)
     other = start.setup.replace({"droplets.0.particles.activity": -3})

@@ -45,7 +45,8 @@ def branch(
     """Branch from a steady state, or from that of a setup, to a value of a parameter, around folds.
 
     Parameters are those of `bifurcation_diagram`: activity, viscosity_ratio, width, ... A wrong name ends in an error
-    that lists them. `callback` is called with each value; what it raises ends the search.
+    that lists them. `callback` is called with each value, in the middle of the search for the next; what it raises
+    ends the search.
     """
     state = _motile.steady(start) if isinstance(start, _motile.Setup) else start
     found = _motile.branch(state, parameter, stop, largest_step, most_points, callback)

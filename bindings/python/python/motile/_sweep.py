@@ -90,8 +90,15 @@ def sweep(
     if processes > 1 and len(work) > 1:
         # Forked copies of a process with threads may hang.
         context = multiprocessing.get_context("spawn")
+        others = set(multiprocessing.active_children())
         with ProcessPoolExecutor(processes, mp_context=context) as pool:
-            results = list(pool.map(_run, work))
+            try:
+                results = list(pool.map(_run, work))
+            except BaseException:
+                # After Ctrl-C nobody waits for the runs that have begun.
+                for child in set(multiprocessing.active_children()) - others:
+                    child.terminate()
+                raise
     else:
         results = list(map(_run, work))
     return Sweep([SweepRun(v, s, Track(*table), error) for v, s, (table, error) in zip(combinations, setups, results)])

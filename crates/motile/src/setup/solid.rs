@@ -1,8 +1,7 @@
 //! Descriptions of elastic solids.
 
-use elastic_solids::ChannelShape;
 use elastic_solids::mesh::TriangleMesh;
-use elastic_solids::{ActiveSprings, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
+use elastic_solids::{ActiveSprings, Channel, ChannelShape, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
 use motile_base::{Region, Vec2};
 use motile_scene::{MarkerKind, Scene, integrator::IntegratorKind};
@@ -159,6 +158,12 @@ pub enum SolidOutline {
     WallBelow(ChannelShape),
     /// The wall from the upper side of a channel up to the upper rigid wall of the region.
     WallAbove(ChannelShape),
+    /// The wall from the lower rigid wall of the region up to the line through points (length) of one period, along x
+    /// or against it; it may overhang. The image of the first one ends the line, given or left out. Joints turned by
+    /// more than 15 degrees are corners.
+    WallBelowPoints(Vec<[f64; 2]>),
+    /// The wall from such a line up to the upper rigid wall of the region.
+    WallAbovePoints(Vec<[f64; 2]>),
     /// An island of a channel.
     Island {
         /// The channel.
@@ -180,7 +185,7 @@ pub enum SolidOutline {
         /// Half axes in x and y (length).
         half_axes: [f64; 2],
     },
-    /// A polygon.
+    /// A polygon; the smooth curve that it stands for where no corner turns by more than 15 degrees.
     Polygon {
         /// Its corners in order (length).
         corners: Vec<[f64; 2]>,
@@ -371,12 +376,11 @@ impl SolidSetup {
     /// Interior of its outline in a region.
     pub(super) fn enclosed(&self, region: &Region) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
-        let closed = match &self.outline {
-            SolidOutline::WallBelow(shape) => return Ok(shape.channel(period)?.below(-0.5 * height)?),
-            SolidOutline::WallAbove(shape) => return Ok(shape.channel(period)?.above(0.5 * height)?),
-            outline => outline.line(period)?,
-        };
-        Ok(Interior::new([closed])?)
+        Ok(match self.outline.channel(region)? {
+            Some(channel) if self.outline.is_above() => channel.above(0.5 * height)?,
+            Some(channel) => channel.below(-0.5 * height)?,
+            None => Interior::new([self.outline.line(period)?])?,
+        })
     }
 
     /// The solid on a mesh, at rest and not held.
@@ -397,7 +401,7 @@ impl SolidSetup {
         }
     }
 
-    /// Height y of the side of the channel beside it (length) where this is a wall.
+    /// Height y of the side of the channel beside it (length) where this is a wall of a channel of known width.
     pub(super) fn side(&self) -> Option<f64> {
         match &self.outline {
             SolidOutline::WallBelow(shape) => Some(-0.5 * shape.width()),
@@ -414,6 +418,16 @@ impl SolidOutline {
         Ok(match self {
             Self::WallBelow(shape) => shape.channel(period)?.lower().clone(),
             Self::WallAbove(shape) => shape.channel(period)?.upper().clone(),
+            Self::WallBelowPoints(points) | Self::WallAbovePoints(points) => {
+                let mut points: Vec<Vec2> = points.iter().copied().map(vector).collect();
+                if points.first().zip(points.last()).is_some_and(|(first, last)| last.x < first.x) {
+                    points.reverse();
+                }
+                if points.len() > 1 && (points[points.len() - 1] - points[0]).distance(Vec2::new(period, 0.0)) < 1e-9 {
+                    points.pop();
+                }
+                Outline::polyline(&points, period)?
+            }
             Self::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
             &Self::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
             &Self::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
@@ -423,6 +437,29 @@ impl SolidOutline {
                 if *rounding > 0.0 { outline.rounded(*rounding)? } else { outline }
             }
         })
+    }
+
+    /// The channel that this is a wall of, out to the other rigid wall where its line alone is known; none of what is
+    /// no wall.
+    fn channel(&self, region: &Region) -> Result<Option<Channel>, SetupError> {
+        let [period, height] = region.lengths();
+        let level = |y| Outline::flat(-0.5 * period, period, y);
+        Ok(Some(match self {
+            Self::WallBelow(shape) | Self::WallAbove(shape) => shape.channel(period)?,
+            Self::WallBelowPoints(_) => Channel::new(self.line(period)?, level(0.5 * height)?)?,
+            Self::WallAbovePoints(_) => Channel::new(level(-0.5 * height)?, self.line(period)?)?,
+            _ => return Ok(None),
+        }))
+    }
+
+    /// True of a wall above the fluid.
+    pub(super) fn is_above(&self) -> bool {
+        matches!(self, Self::WallAbove(_) | Self::WallAbovePoints(_))
+    }
+
+    /// True of a wall that reaches a rigid wall of the region.
+    pub(super) fn is_wall(&self) -> bool {
+        self.is_above() || matches!(self, Self::WallBelow(_) | Self::WallBelowPoints(_))
     }
 }
 
@@ -478,9 +515,9 @@ impl BodySetup for SolidSetup {
         let boundary = enclosed.boundary(self.mesh_spacing.map_or(grid, |spacing| spacing.min(grid)))?;
         let corners = if enclosed.period().is_none() { boundary.corners().collect() } else { Vec::new() };
         let add = move |scene: &mut Scene<AnyFlow>| {
-            let (mesher, [period, height]) = (self.mesher(setup)?, setup.region.lengths());
-            let mesh = match &self.outline {
-                SolidOutline::WallAbove(shape) => shape.channel(period)?.upper_wall(0.5 * height, &mesher)?,
+            let (mesher, [_, height]) = (self.mesher(setup)?, setup.region.lengths());
+            let mesh = match self.outline.channel(&setup.region)? {
+                Some(channel) if self.outline.is_above() => channel.upper_wall(0.5 * height, &mesher)?,
                 _ => mesher.mesh(&enclosed)?,
             };
             scene.add(self.on_mesh(mesh, setup)?);
@@ -509,7 +546,20 @@ impl BodySetup for SolidSetup {
             let remedy = format!("with points {spacing} apart it would have too many of them: give less");
             checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
         };
+        let no_channel = !matches!(setup.region, Region::Channel { .. });
+        if no_channel && (self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. })) {
+            checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
+        }
         match &self.outline {
+            SolidOutline::WallBelowPoints(points) | SolidOutline::WallAbovePoints(points) => {
+                let side = if self.outline.is_above() { "above" } else { "below" };
+                let name = &format!("outline.wall-{side}-points");
+                checked.all_finite(name, points.as_flattened())?;
+                let [length, height] = setup.region.lengths();
+                across(name, height.max(length))?;
+                let remedy = format!("give heights between the rigid walls of the region at -+{}", 0.5 * height);
+                points.iter().try_for_each(|[_, y]| checked.require(y.abs() < 0.5 * height, name, *y, &remedy))?;
+            }
             SolidOutline::WallBelow(shape)
             | SolidOutline::WallAbove(shape)
             | SolidOutline::Island { of: shape, .. } => {
@@ -518,15 +568,12 @@ impl BodySetup for SolidSetup {
                     SolidOutline::WallAbove(_) => "outline.wall-above".to_owned(),
                     _ => "outline.island.of".to_owned(),
                 };
-                if !matches!(setup.region, Region::Channel { .. }) {
-                    checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
-                }
                 let (width, height) = (shape.width(), setup.region.lengths()[1]);
                 let key = format!("{outline}.{}.width", shape.name());
                 checked.positive(&key, width)?;
                 across(&key, height.max(setup.region.lengths()[0]))?;
                 let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
-                checked.require(self.side().is_none() || width < height, &key, width, &remedy)?;
+                checked.require(!self.outline.is_wall() || width < height, &key, width, &remedy)?;
                 let islands = shape.islands();
                 if let SolidOutline::Island { number, .. } = self.outline {
                     let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
@@ -553,14 +600,14 @@ impl BodySetup for SolidSetup {
                 }
             }
         }
-        if self.hold == Hold::Pinned && self.side().is_none() {
+        if self.hold == Hold::Pinned && !self.outline.is_wall() {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
             checked.refuse("hold", &"pinned", remedy)?;
         }
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }
-        let period = self.side().and(Some(setup.region.lengths()[0]));
+        let period = self.outline.is_wall().then(|| setup.region.lengths()[0]);
         self.grading.check("grading", checked, period)?;
         self.relaxation_time_grading.check("relaxation-time-grading", checked, period)?;
         self.tension_grading.check("tension-grading", checked, period)?;

@@ -5,7 +5,7 @@ use motile_scene::{Body, Handle, Scene, StepSize};
 use interior_fields::{DirectorStart, GelInBox, GelMaterial};
 
 use super::*;
-use elastic_solids::ChannelShape;
+use elastic_solids::{ChannelShape, Outline};
 
 fn channel(width: f64) -> Region {
     Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient }
@@ -279,6 +279,54 @@ fn layers_that_make_no_scene_are_refused() {
         let [lower, upper] = [0, 1].map(|k| mesh.boundary_loops()[k].points.len());
         assert!(lower.abs_diff(30) < 4 && upper == times * lower, "{lower} {upper}");
     }
+}
+
+/// Walls along points of one's own, from either end and with or without the end of the period, are those of the shape
+/// that the points are of, to second order in their distance.
+#[test]
+fn walls_through_points() {
+    let shape = ChannelShape::Sinusoidal { width: 3.0, amplitude: 0.2, waves: 1, phase: 0.0 };
+    let channel = shape.channel(12.0).unwrap();
+    let of = |line: &Outline, count: usize| -> Vec<[f64; 2]> {
+        line.resampled(line.length() / count as f64).unwrap().into_iter().map(Vec2::to_array).collect()
+    };
+    let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
+    let walls = |outlines: [SolidOutline; 2]| {
+        let walls = outlines.map(|outline| WallSetup::new(outline, 0.2)).to_vec();
+        let method = Method::Integral(IntegralMethod::default());
+        Setup { region, method, walls, ..Setup::default() }
+    };
+    let exact = walls([SolidOutline::WallBelow(shape), SolidOutline::WallAbove(shape)]).rigid_walls().unwrap();
+    let error = |count: usize| {
+        let [mut below, above] = [channel.lower(), channel.upper()].map(|line| of(line, count));
+        below.push([below[0][0] + 12.0, below[0][1]]);
+        below.reverse();
+        let setup = walls([SolidOutline::WallBelowPoints(below), SolidOutline::WallAbovePoints(above)]);
+        setup.build().unwrap();
+        let walls = setup.rigid_walls().unwrap();
+        let pairs = walls.iter().zip(&exact).flat_map(|(a, b)| a.points().iter().zip(b.points()));
+        pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    };
+    let [coarse, fine] = [60, 120].map(error);
+    assert!(fine < 1e-3 && (coarse / fine).log2() > 1.8, "{coarse:.1e} {fine:.1e}");
+
+    // Elastic walls of a flat line are those of a straight channel.
+    let straight = elastic(3.0, plain());
+    let flat = |y: f64| [-3.0, -1.5, 0.0, 1.5].map(|x| [x, y]).to_vec();
+    let mut own = straight.clone();
+    own.solids[0].outline = SolidOutline::WallBelowPoints(flat(-1.5));
+    own.solids[1].outline = SolidOutline::WallAbovePoints(flat(1.5));
+    let meshes = |setup: &Setup| {
+        let Built { scene, solids, .. } = setup.build().unwrap();
+        let meshes = solids.iter().map(|&solid| scene.body(solid).unwrap().mesh());
+        meshes.map(|mesh| (mesh.points().len(), mesh.area())).collect::<Vec<_>>()
+    };
+    for ((points, area), (others, expected)) in meshes(&own).into_iter().zip(meshes(&straight)) {
+        assert!(points == others && (area - expected).abs() < 1e-9, "{points} {others} {area} {expected}");
+    }
+    own.solids[0].outline = SolidOutline::WallBelowPoints(flat(-2.5));
+    let said = own.check().unwrap_err().to_string();
+    assert!(said.starts_with("solids[0].outline.wall-below-points = -2.5: give heights between"), "{said}");
 }
 
 #[test]

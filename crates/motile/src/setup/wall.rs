@@ -89,10 +89,12 @@ impl WallSetup {
         }
         let nodes = 2 * (0.5 * nodes).ceil() as usize;
         let points = points(&outline, (FINER * nodes as f64) as usize)?;
-        let wall = match self.outline {
-            SolidOutline::WallBelow(_) => RigidWall::line_below(points, period, nodes)?,
-            SolidOutline::WallAbove(_) => RigidWall::line_above(points, period, nodes)?,
-            _ => RigidWall::obstacle(points, nodes)?,
+        let wall = if !self.outline.is_wall() {
+            RigidWall::obstacle(points, nodes)?
+        } else if self.outline.is_above() {
+            RigidWall::line_above(points, period, nodes)?
+        } else {
+            RigidWall::line_below(points, period, nodes)?
         };
         Ok(wall.rounded(self.rounding)?)
     }
