@@ -43,7 +43,7 @@ const NUCLEUS: f64 = 0.4;
 const SHEAR: f64 = 1000.0;
 
 /// A lattice of `side` x `side` droplets by a method, each with an elastic nucleus or none.
-fn setup(side: usize, method: Method, nuclei: bool) -> Setup {
+pub(crate) fn setup(side: usize, method: Method, nuclei: bool) -> Setup {
     let places = || (0..side * side).map(|k| [k % side, k / side].map(|j| CELL * (j as f64 + 0.5 - 0.5 * side as f64)));
     let droplet = |centre| DropletSetup { centre, ..DropletSetup::active(ACTIVITY) };
     let nucleus = |centre| SolidSetup {

@@ -1,7 +1,8 @@
 //! Gain of several threads, which change no result.
 //!
 //! `cargo run --release -p studies --features rayon -- threads` times steps of a droplet in a box of 1024 x 1024 cells
-//! and between elastic walls of 50,000 points, on one thread and on more by turns, and compares the states bit by bit.
+//! between elastic walls of 50,000 points, and of 4 to 144 droplets by integrals, on one thread and on more by turns, and
+//! compares the states bit by bit.
 
 use std::time::Instant;
 
@@ -12,8 +13,10 @@ use motile::elastic_solids::Moduli;
 use motile::motile_base::Drive;
 use motile::motile_base::Region;
 use motile::motile_scene::{Hydrodynamics, Scene, integrator::Dynamics as _};
-use motile::setup::{DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup};
+use motile::setup::{DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile_output::run::say;
+
+use crate::many;
 
 /// Compares one thread with several.
 #[derive(Debug, Args)]
@@ -51,7 +54,13 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
         ..Setup::default()
     };
-    turns(flags, "elastic walls", || Ok(elastic.build()?.scene))
+    turns(flags, "elastic walls", || Ok(elastic.build()?.scene))?;
+    for side in [2, 4, 6, 8, 12] {
+        let integral = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+        let droplets = many::setup(side, integral, false);
+        turns(flags, &format!("{} droplets by integrals", side * side), || Ok(droplets.build()?.scene))?;
+    }
+    Ok(())
 }
 
 /// Steps two equal scenes by turns, one on one thread.

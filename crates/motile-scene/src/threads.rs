@@ -1,7 +1,7 @@
 //! Work on the entries of lists, on several threads.
 
 /// Markers from which the halves of a list pay for a thread each.
-pub(crate) const MANY: usize = 30_000;
+pub(crate) const MANY: usize = 6000;
 /// Pieces of work on so many markers, for any number of threads.
 pub(crate) const PIECES: usize = 16;
 
