@@ -4,8 +4,8 @@ import init, { branch_of } from "./motile.js";
 onmessage = async ({ data: { scene, id } }) => {
   await init();
   try {
-    branch_of(scene, (activity, speed, _stable, first) => {
-      postMessage({ id, activity, speed, first });
+    branch_of(scene, (activity, speed, stable, line) => {
+      postMessage({ id, activity, speed, stable, line });
       return true;
     });
     postMessage({ id, done: true });

@@ -90,6 +90,7 @@ function choose(name) {
 }
 
 async function fromAddress() {
+  let broken = false;
   try {
     const text = await unpacked(location.hash);
     if (text !== null) {
@@ -97,11 +98,12 @@ async function fromAddress() {
       return;
     }
   } catch {
-    note("The link is not complete: it holds no scene.", true);
+    broken = true;
   }
   const named = /^#p=([a-z]+)$/.exec(location.hash)?.[1];
   const found = presets.find((one) => one.name === named) ?? presets[0];
   load(found.scene, { name: found.name, play: true });
+  if (broken) note("The link is not complete: it holds no scene.", true);
 }
 
 const knobs = new Map();
@@ -584,9 +586,9 @@ canvas.addEventListener("dblclick", () => {
 });
 
 document.addEventListener("keydown", (event) => {
-  const field = event.target.closest("input, textarea, select, [role=tab]");
+  const field = event.target.closest?.("input, textarea, select, [role=tab]");
   if (event.ctrlKey || event.metaKey || event.altKey || (field && field.type !== "range")) return;
-  const onButton = event.target.closest("button, a");
+  const onButton = event.target.closest?.("button, a");
   if (event.key === " " && !onButton) play();
   else if (event.key === ".") step();
   else if (event.key === "r" || event.key === "R") reset();

@@ -139,16 +139,17 @@ export class Plots {
 export class ActivityMap {
   constructor(canvas) {
     this.canvas = canvas;
-    this.points = [[], []];
+    this.begin();
     this.here = null;
   }
 
+  /** Points of three lines: swimmers to stronger and to weaker activities, droplets at rest. */
   begin() {
-    this.points = [[], []];
+    this.points = [[], [], []];
   }
 
-  add({ activity, speed, first }) {
-    this.points[first ? 0 : 1].push({ activity, speed });
+  add({ activity, speed, stable, line }) {
+    this.points[line].push({ activity, speed, stable });
   }
 
   /** Activity at a place of the canvas (pixels). */
@@ -164,8 +165,9 @@ export class ActivityMap {
   draw() {
     const [context, width, height] = fitted(this.canvas);
     const { left, right, top, bottom } = this.frame();
-    const line = [...this.points[0].toReversed(), ...this.points[1]];
-    const most = Math.max(0.1, ...line.map(({ speed }) => speed), this.here ? this.here.speed : 0) * 1.08;
+    const [stronger, weaker, rest] = this.points;
+    const swimmers = [...stronger.toReversed(), ...weaker];
+    const most = Math.max(0.1, ...swimmers.map(({ speed }) => speed), this.here ? this.here.speed : 0) * 1.08;
     const x = (activity) => left + ((activity + 8) / 8) * (right - left);
     const y = (speed) => bottom - (speed / most) * (bottom - top);
     context.strokeStyle = property("--line");
@@ -192,13 +194,19 @@ export class ActivityMap {
     context.strokeStyle = context.fillStyle = property("--accent");
     context.lineWidth = 2;
     context.lineJoin = "round";
-    for (let k = 1; k < line.length; k += 1) {
-      const [a, b] = [line[k - 1], line[k]];
-      context.beginPath();
-      context.moveTo(x(a.activity), y(a.speed));
-      context.lineTo(x(b.activity), y(b.speed));
-      context.stroke();
+    for (const line of [swimmers, rest]) {
+      for (let k = 1; k < line.length; k += 1) {
+        const [a, b] = [line[k - 1], line[k]];
+        // Pieces may be shorter than dashes, whose places are told from the axis.
+        context.setLineDash(a.stable && b.stable ? [] : [5, 4]);
+        context.lineDashOffset = x(a.activity);
+        context.beginPath();
+        context.moveTo(x(a.activity), y(a.speed));
+        context.lineTo(x(b.activity), y(b.speed));
+        context.stroke();
+      }
     }
+    context.setLineDash([]);
     if (this.here && Number.isFinite(this.here.speed) && Number.isFinite(this.here.activity)) {
       context.fillStyle = property("--ink");
       context.strokeStyle = property("--card");

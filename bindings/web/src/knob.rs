@@ -116,7 +116,10 @@ impl Knob {
                 Self::Diffusion | Self::Size => None,
             };
             if let Some(range) = range {
-                scale(range, factor.unwrap_or(1.0));
+                match factor {
+                    Some(factor) => scale(range, factor),
+                    None => *range = Distribution::Value(value),
+                }
             }
         }
         if self == Self::Size {

@@ -235,16 +235,17 @@ pub fn presets() -> String {
     serde_json::to_string(&preset::PRESETS).unwrap_or_default()
 }
 
-/// Follows the branch of steady states of a scene over the activity: `seen(activity, speed, stable, first half)` is
-/// called with each point, until it returns false.
+/// Follows the branch of steady states of a scene over the activity: `seen(activity, speed, stable, line)` is called
+/// with each point, the number of its line in the order of [`branch::Line`], until it returns false.
 ///
 /// # Errors
 /// Scenes without a branch.
 #[wasm_bindgen]
 pub fn branch_of(scene: &str, seen: &js_sys::Function) -> Result<(), JsValue> {
     let setup = Setup::from_toml(scene).map_err(thrown)?;
-    let tell = |point: branch::MapPoint, half: bool| {
-        let values: [JsValue; 4] = [point.activity.into(), point.speed.into(), point.stable.into(), half.into()];
+    let tell = |point: branch::MapPoint| {
+        let line = point.line as u32;
+        let values: [JsValue; 4] = [point.activity.into(), point.speed.into(), point.stable.into(), line.into()];
         let list = values.into_iter().collect::<js_sys::Array>();
         seen.apply(&JsValue::NULL, &list).is_ok_and(|more| more.as_bool() != Some(false))
     };

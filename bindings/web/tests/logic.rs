@@ -7,7 +7,7 @@ use motile_web::concise::concise;
 use motile_web::knob::Knob;
 use motile_web::live::Live;
 use motile_web::preset::PRESETS;
-use motile_web::{branch, dust::Dust, frame};
+use motile_web::{branch, branch::Line, dust::Dust, frame};
 
 fn small() -> Setup {
     Setup {
@@ -176,6 +176,11 @@ fn droplets_stay_between_walls() {
     }
     let mut live = Live::new(preset("channel")).expect("a scene");
     assert!(live.drag(0, Vec2::new(f64::NAN, 0.0)).is_err());
+    // In a tube on its axis, wherever the pointer goes.
+    let mut tube = Live::new(preset("tube")).expect("a scene");
+    tube.drag(0, Vec2::new(0.3, 0.4)).expect("room");
+    assert_eq!(tube.droplet_at(Vec2::new(1.2, 0.1)), Some(0));
+    tube.step(None).expect("a step");
 }
 
 #[test]
@@ -190,6 +195,10 @@ fn several_droplets_keep_their_ratios() {
     let turned = Knob::Activity.turned(&sixteen, -1.75).expect("a scene");
     let activities: Vec<f64> = turned.placed().expect("droplets").droplets.iter().map(DropletSetup::activity).collect();
     assert!(activities.len() == 16 && activities.iter().all(|a| (-2.0..=-1.5).contains(a)), "{activities:?}");
+    // From none there are no ratios to keep.
+    let none = Knob::Activity.turned(&sixteen, 0.0).expect("a scene");
+    let again = Knob::Activity.turned(&none, -3.0).expect("a scene");
+    assert_eq!(Knob::Activity.value(&again), Some(-3.0));
     // Droplets at places that were found for a box, and walls of their own, do not follow.
     assert!(Knob::Size.value(&sixteen).is_none() && Knob::Size.value(&preset("constriction")).is_none());
     assert!(Knob::Size.turned(&sixteen, 9.0).is_err());
@@ -268,12 +277,18 @@ fn the_map_has_the_speeds_of_runs() {
     assert!(branch::mapped(&preset("nucleus")).is_none() && branch::mapped(&preset("channel")).is_some());
     let setup = preset("swimmer");
     let mut points = Vec::new();
-    branch::follow(&setup, |point, _| {
+    branch::follow(&setup, |point| {
         points.push(point);
         true
     })
     .expect("a branch");
+    let (at_rest, mut points): (Vec<_>, Vec<_>) = points.into_iter().partition(|point| point.line == Line::Rest);
     points.sort_by(|a, b| a.activity.total_cmp(&b.activity));
+    // Rest is no longer stable where the swimmers begin; weak ones of them are stable, strong ones turn.
+    let [_, weak, strong, _] = at_rest.as_slice() else { panic!("{at_rest:?}") };
+    let slowest = points.last().expect("a swimmer");
+    assert!(weak.stable && !strong.stable && (weak.activity / slowest.activity - 1.0).abs() < 0.01, "{at_rest:?}");
+    assert!(slowest.stable && !points[0].stable, "{points:?}");
     assert!(points.len() > 12 && points.first().is_some_and(|point| point.activity < -7.0), "{}", points.len());
     let near = points.windows(2).find(|pair| pair[0].activity <= -3.0 && pair[1].activity >= -3.0).expect("about -3");
     let part = (-3.0 - near[0].activity) / (near[1].activity - near[0].activity);
@@ -282,6 +297,18 @@ fn the_map_has_the_speeds_of_runs() {
     while live.step(Some(40.0)).expect("a step") {}
     let of_run = live.speed(0).expect("a flow").expect("a droplet");
     assert!((of_map / of_run - 1.0).abs() < 0.01, "{of_map} {of_run}");
+}
+
+/// In the plane a droplet at rest is stable up to a Peclet number |zeta_dmu| c0 R0/(2 eta D) of 2.
+#[test]
+fn rest_is_stable_up_to_a_peclet_number_of_two() {
+    let map = branch::mapped(&Setup { region: Region::Plane, ..preset("swimmer") }).expect("a map");
+    let particles = map.droplets[0].particles.as_ref().expect("particles");
+    let exact = -4.0 * map.viscosity * particles.diffusion / particles.concentration;
+    let points = branch::rest(&map, -2.0, -7.5).expect("a spectrum");
+    let [_, weak, strong, _] = points.as_slice() else { panic!("{points:?}") };
+    assert!(weak.stable && !strong.stable && (strong.activity - weak.activity).abs() < 1e-3, "{points:?}");
+    assert!((weak.activity - exact).abs() < 1e-3, "{points:?}, {exact}");
 }
 
 #[test]

@@ -235,6 +235,12 @@ try {
   await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
+  // A link that was cut says so.
+  const cut = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#s=AAAA" });
+  await until(cut.page, "no word of the link", () =>
+    document.getElementById("note").textContent.startsWith("The link is not complete"),
+  );
+  await cut.context.close();
   // Where the rest of the module does not come, the page says so and goes on.
   missing.add(rest);
   const poor = await visit({ width: 390, height: 844, touch: false, scheme: "light" });
