@@ -121,6 +121,7 @@ function showAbout(message) {
   } else {
     picture.about = about;
     $("scene").value = scene;
+    note("");
   }
   showKnobs();
   showCode();
