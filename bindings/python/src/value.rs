@@ -6,11 +6,18 @@ use toml::{Table, Value};
 
 use crate::error::{refused, unreadable};
 
+/// Deepest place of a description: lists can hold themselves, and no scene is so deep.
+const DEEPEST: usize = 32;
+
 /// Value of a Python object; none for `None`, which leaves a key out. Arrays and scalars of NumPy are lists and
 /// numbers.
 pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Option<Value>> {
     if object.is_none() {
         return Ok(None);
+    }
+    if key.matches(['.', '[']).count() > DEEPEST {
+        let remedy = "no scene is so deep: look for a list or dictionary that holds itself";
+        return Err(refused(&format!("{key}: {remedy}"), Some(key.to_owned()), None, Some(remedy.to_owned())));
     }
     if let Ok(dict) = object.cast::<PyDict>() {
         let mut table = Table::new();
@@ -79,8 +86,12 @@ pub(crate) fn described<T: serde::de::DeserializeOwned>(value: Value) -> PyResul
     serde_path_to_error::deserialize(value).map_err(|error| {
         let key = error.path().to_string().replace('-', "_");
         let inner = error.inner().to_string();
-        let kinds = "wanted exactly 1 element";
-        let inner = if inner.starts_with(kinds) { "give one entry, that of its kind".into() } else { inner };
+        let plain = [
+            ("wanted exactly 1 element", "give one entry, that of its kind"),
+            ("invalid type: unit variant", "it has entries of its own: give them"),
+        ];
+        let plain = plain.into_iter().find(|(start, _)| inner.starts_with(start));
+        let inner = plain.map_or(inner, |(_, said)| said.to_owned());
         // The first line says what is wrong, in the names of scene files; the others say where.
         let said = inner.trim().lines().next().unwrap_or_default().split('`').enumerate();
         let snake = |(number, part): (usize, &str)| if number % 2 == 1 { part.replace('-', "_") } else { part.into() };

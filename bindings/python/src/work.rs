@@ -16,9 +16,9 @@ enum Heard<T> {
     Done(T),
 }
 
-/// Result of work in a thread of its own, with whose values on the way `tick` is called. After Ctrl-C or an exception of
-/// `tick` nobody waits for the thread: it ends when it next has a value, at which it is told so by `false`, or at its
-/// end.
+/// Result of work in a thread of its own, with whose values on the way `tick` is called. After Ctrl-C or an exception
+/// of `tick` nobody waits for the thread: it ends when it next has a value, at which it is told so by `false`, or at
+/// its end.
 pub(crate) fn unless_interrupted<T: Send + 'static>(
     py: Python<'_>,
     tick: Option<&Bound<'_, PyAny>>,

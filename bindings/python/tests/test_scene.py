@@ -1,6 +1,5 @@
 """Scenes: runs, interruptions, state and output."""
 
-import _thread
 import json
 import multiprocessing
 import os
@@ -252,7 +251,7 @@ def _interrupted(work: Callable[[], object], after: float) -> float:
     def press() -> None:
         began[0] = time.monotonic()
         pressed.set()
-        _thread.interrupt_main()
+        os.kill(os.getpid(), signal.SIGINT)
 
     timer = threading.Timer(after, press)
     timer.start()
@@ -378,5 +377,21 @@ def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
     assert len(list(tmp_path.glob("*.npz"))) == 5
     bad = motile.sweep(small(step={"fixed": 5.0}), {"viscosity": [100]}, 20)
     assert bad[0].error and "step" in bad[0].error
+    for until, every in [(float("nan"), None), (-1, None), (1, 0), (1, float("inf"))]:
+        with pytest.raises(motile.Error, match="positive finite time"):
+            motile.sweep(small(), {"viscosity": [100]}, until, every)
     with pytest.raises(motile.Error):
         motile.sweep(small(), {"viscosity": [1, -1]}, 1)
+    # Of a sweep that is stopped, runs that have begun are not waited for, and results are whole.
+    endless = {"viscosity": [60, 70, 80]}
+    longest = motile.Setup(method=motile.integral(nodes=200, cells=800))
+    assert _interrupted(lambda: motile.sweep(longest, endless, 1e4, 1.0, processes=2, folder=tmp_path), 2.0) < 5
+    assert not multiprocessing.active_children() and len(list(tmp_path.glob("*.npz"))) == 5
+    alone = tmp_path / "alone"
+    for broken in (b"", b"junk", b"PK\x03\x04"):
+        motile.sweep(small(), {"viscosity": [100]}, 0.1, folder=alone)
+        (file,) = alone.iterdir()
+        file.write_bytes(broken)
+        with pytest.raises(motile.Error, match="remove it"):
+            motile.sweep(small(), {"viscosity": [100]}, 0.1, folder=alone)
+        file.unlink()

@@ -83,11 +83,14 @@ def test_arrays_are_lists() -> None:
         ({"droplets": [{"centre": np.zeros((2, 2))}]}, "droplets[0].centre[0]"),
         ({"droplets": [{"tension": -1}]}, "droplets[0].tension"),
         ({"least_gap": 10**30}, "least_gap"),
+        ({"region": "box"}, "region.box"),
+        ({"region": {"box": {"lengths": [6, 6]}, "tube": {"radius": 1}}}, "region"),
+        ({1: 2}, ""),
     ],
 )
 def test_wrong_entries_name_their_key(entries: dict[str, object], key: str) -> None:
     with pytest.raises(motile.Error) as raised:
-        motile.Setup(**entries)
+        motile.Setup.from_dict(entries)
     assert raised.value.key == key, str(raised.value)
     assert "\n" not in str(raised.value)
     again = pickle.loads(pickle.dumps(raised.value))
@@ -187,6 +190,21 @@ def test_walls_of_ones_own_are_arrays() -> None:
         wall = {"outline": {"polygon": {"corners": wrong}}, "spacing": 0.1}
         with pytest.raises(motile.Error, match="walls"):
             motile.Setup(region=motile.channel(12, 5), method=method, walls=[wall]).build()
+
+
+def test_lists_that_hold_themselves() -> None:
+    itself: list[object] = []
+    itself.append(itself)
+    deep: dict[str, object] = {}
+    inner = deep
+    for _ in range(10000):
+        inner["inner"] = {}
+        inner = inner["inner"]  # type: ignore[assignment]
+    for wrong in (itself, [deep]):
+        with pytest.raises(motile.Error, match="holds itself"):
+            motile.Setup(droplets=wrong)
+        with pytest.raises(motile.Error, match="holds itself"):
+            motile.Setup().replace({"droplets": wrong})
 
 
 def test_remedies() -> None:

@@ -30,6 +30,10 @@ def test_a_branch_and_how_it_ends() -> None:
         motile.branch(start, "activty", -3)
     assert raised.value.key == "parameter"
 
+    for step in (-1.0, 0.0, float("nan")):
+        with pytest.raises(motile.Error, match="largest step"):
+            motile.branch(start, "activity", -3, largest_step=step)
+
     def stop(value: float) -> None:
         raise LookupError(value)
 

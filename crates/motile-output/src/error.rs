@@ -19,7 +19,7 @@ pub enum OutputError {
         source: io::Error,
     },
     /// Image, panel or number of cells that is too small or too large.
-    #[error("{what} of {given} cannot be drawn: give {least} to {most}")]
+    #[error("{what} of {given} cannot be drawn: give {least:?} to {most:?}")]
     Size {
         /// Object that is to have the size.
         what: &'static str,

@@ -1,5 +1,6 @@
 //! Pseudo-arclength continuation: steps along the tangent of a branch and corrections at right angles to it.
 
+use motile_base::positive;
 use nalgebra::DVector;
 
 use crate::branch::{Branch, BranchEnd, BranchPoint, SpecialKind, SpecialPoint};
@@ -138,6 +139,7 @@ struct Follower {
 
 impl Follower {
     fn new(settings: Continuation, start: &SteadyState, part: Part) -> Result<Self, SteadyError> {
+        positive("the largest step of a branch", settings.largest_step)?;
         settings.parameter.with(start.setup(), settings.range[0])?;
         let ([low, high], value) = (settings.range, settings.parameter.get(start.setup()).unwrap_or(f64::NAN));
         let slack = 1e-9 * (high - low);

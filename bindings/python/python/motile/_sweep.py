@@ -6,6 +6,7 @@ import hashlib
 import itertools
 import multiprocessing
 import os
+import zipfile
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -80,6 +81,10 @@ def sweep(
     """
     if every is None:
         every = until / 100
+    for key, time in {"until": until, "every": every}.items():
+        if not 0 < time < float("inf"):
+            remedy = "give a positive finite time"
+            raise Error(f"{key} = {time}: {remedy}", key=key, value=str(time), remedy=remedy)
     combinations = [dict(zip(changes, values)) for values in itertools.product(*changes.values())]
     # All are checked before the first run.
     setups = [setup.replace(values) for values in combinations]
@@ -111,9 +116,13 @@ def _run(work: tuple[str, float, float, str | None]) -> tuple[tuple[list[str], A
         name = hashlib.sha256(f"{text}\n{until!r}\n{every!r}".encode()).hexdigest()[:24]
         place = Path(folder) / f"{name}.npz"
         if place.exists():
-            with np.load(place) as known:
-                error = str(known["error"]) or None
-                return (known["names"].tolist(), known["values"]), error
+            try:
+                with np.load(place) as known:
+                    error = str(known["error"]) or None
+                    return (known["names"].tolist(), known["values"]), error
+            except (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile) as broken:
+                remedy = "remove it, and it is run again"
+                raise Error(f"{place} is no result of a sweep: {remedy}", remedy=remedy) from broken
     error = None
     names, values = ["time"], np.empty((0, 0, 1))
     try:
