@@ -55,6 +55,7 @@ mod imposed;
 mod input;
 mod membrane;
 pub mod polygon;
+mod quadrature;
 mod real;
 mod region;
 mod series;
@@ -73,6 +74,7 @@ pub use input::{
     InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,
 };
 pub use membrane::{BendingMeasure, Membrane};
+pub use quadrature::gauss_legendre;
 pub use real::RealTransform;
 pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::Exchange;
 use motile::setup::Particles;
-use motile_base::Vec2;
-use nalgebra::{DMatrix, DVector, Dyn, LU, SymmetricEigen};
+use motile_base::{Vec2, gauss_legendre};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::SteadyError;
 use crate::flow::Flow;
@@ -110,7 +110,10 @@ impl Field {
         Self {
             diffusion,
             exchange,
-            rule: gauss(RADIAL_POINTS),
+            rule: gauss_legendre(RADIAL_POINTS)
+                .into_iter()
+                .map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight))
+                .collect(),
             points: vec![Vec2::ZERO; points],
             weights: DVector::zeros(points),
             flow: vec![Vec2::ZERO; points],
@@ -236,15 +239,6 @@ fn legendre(x: f64, unit: f64) -> [[f64; 2]; DEGREE + 1] {
         all[n + 1] = [next, slope_before + (2.0 * m + 1.0) * now / unit];
     }
     all
-}
-
-/// Points and weights of the Gauss-Legendre quadrature on (0, 1), from the eigenvalues of the recurrence of its
-/// polynomials (Golub and Welsch, "Calculation of Gauss quadrature rules").
-fn gauss(count: usize) -> Vec<(f64, f64)> {
-    let beside = |k: usize| k as f64 / (4.0 * (k * k) as f64 - 1.0).sqrt();
-    let matrix = DMatrix::from_fn(count, count, |i, j| if i.abs_diff(j) == 1 { beside(i.max(j)) } else { 0.0 });
-    let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(matrix);
-    (0..count).map(|k| (0.5 * (1.0 + eigenvalues[k]), eigenvectors[(0, k)].powi(2))).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
-use motile_base::{FlowSample, SolveReport, Vec2, finite, positive};
+use motile_base::{FlowSample, SolveReport, Vec2, finite, gauss_legendre, positive};
 use motile_scene::{BodyError, FlowError, FluidView, Handle, Hydrodynamics, SceneError, System};
 
 use crate::curve::polygon::edges;
@@ -27,7 +27,7 @@ pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, Interface
 /// (length). In an incompressible fluid it does not depend on x, but for the error of the quadrature.
 ///
 /// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
-/// of second order in h), by 64 Gauss points where there is none.
+/// of second order in h), by 16 Gauss points a section where there is none.
 ///
 /// # Errors
 /// A fluid without walls, those of an evaluation and of sampling.
@@ -144,9 +144,8 @@ fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
 }
 
-/// Panels of a section where there is no grid: by two Gauss points each, the error is d^4/4320 times the fourth
-/// derivative of u, d the width of a panel.
-const PANELS: usize = 32;
+/// Gauss points of a section where there is no grid.
+const POINTS: usize = 16;
 
 /// Points on a vertical line, and their weights, section by section.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,28 +155,25 @@ struct Line {
 }
 
 impl Line {
-    /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity
-    /// has kinks.
+    /// Gauss points of the sections between the heights `ends`; on a grid two in each panel between the rows, where the
+    /// sampled velocity has kinks.
     fn new(view: &FluidView, ends: &[f64]) -> Self {
         let mut points = Vec::new();
-        let root = 1.0 / 3.0_f64.sqrt();
+        let rule = gauss_legendre(if view.spacing.is_some() { 2 } else { POINTS });
         for (section, pair) in ends.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
-            let mut kinks: Vec<f64> = match view.spacing {
-                Some(h) => {
-                    // Rows of u, half a cell off the walls.
-                    let row = |j: f64| ends[0] + (j + 0.5) * h;
-                    let first = ((from - row(0.0)) / h).ceil();
-                    let count = ((to - row(first)) / h).ceil().max(0.0);
-                    (0..count as usize).map(|j| row(first + j as f64)).filter(|&y| from < y && y < to).collect()
-                }
-                None => (1..PANELS).map(|j| from + (to - from) * j as f64 / PANELS as f64).collect(),
-            };
+            let mut kinks: Vec<f64> = view.spacing.map_or_else(Vec::new, |h| {
+                // Rows of u, half a cell off the walls.
+                let row = |j: f64| ends[0] + (j + 0.5) * h;
+                let first = ((from - row(0.0)) / h).ceil();
+                let count = ((to - row(first)) / h).ceil().max(0.0);
+                (0..count as usize).map(|j| row(first + j as f64)).filter(|&y| from < y && y < to).collect()
+            });
             kinks.push(to);
             let mut start = from;
             for end in kinks {
                 let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-                points.extend([-root, root].map(|at| (middle + at * half, half, section)));
+                points.extend(rule.iter().map(|(at, weight)| (middle + at * half, weight * half, section)));
                 start = end;
             }
         }

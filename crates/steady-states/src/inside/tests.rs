@@ -58,14 +58,6 @@ fn as_many_bind_as_unbind_in_any_flow() {
     assert!(gains.zip(lengths).map(|(gain, length)| gain * length).sum::<f64>().abs() < 1e-11);
 }
 
-#[test]
-fn quadrature_of_powers() {
-    for power in 0..20 {
-        let sum: f64 = gauss(10).iter().map(|(x, weight)| weight * x.powi(power)).sum();
-        assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-12, "{power}: {sum}");
-    }
-}
-
 /// At the activity at which mode 1 of a circle starts to grow, -(2 Sigma R/c0) (D/R^2 + k_off/(1 + k_on R/D_b)), the
 /// equations of a steady state are singular.
 #[test]

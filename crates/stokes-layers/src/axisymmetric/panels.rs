@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, ops::Range};
 
-use motile_base::Vec2;
+use motile_base::{Vec2, gauss_legendre};
 
 use super::{
     meridian::{Grid, Meridian, Point, Waves},
@@ -104,29 +104,9 @@ pub(super) struct Panels {
     nodes: Vec<(f64, f64)>,
 }
 
-/// Points and weights of the Gauss-Legendre rule on (0, 1), by Newton's method.
+/// Points and weights of the Gauss-Legendre rule on (0, 1).
 fn gauss(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    (0..count)
-        .map(|i| {
-            let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..100 {
-                let (mut before, mut value) = (1.0, x);
-                for k in 2..=count {
-                    let k = k as f64;
-                    (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-                }
-                slope = n * (x * value - before) / (x * x - 1.0);
-                let step = value / slope;
-                x -= step;
-                if step.abs() < 1e-16 {
-                    break;
-                }
-            }
-            (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
+    gauss_legendre(count).into_iter().map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight)).collect()
 }
 
 impl Panels {

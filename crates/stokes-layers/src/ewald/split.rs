@@ -18,6 +18,8 @@
 
 use std::f64::consts::PI;
 
+use motile_base::gauss_legendre;
+
 use super::{
     polynomial::{powers, value},
     prolate::Prolate,
@@ -96,7 +98,7 @@ impl Spectrum {
         let prolate = Prolate::new(c);
         let alpha = 0.5 * prolate.bend / (c * c);
         let mut spectrum = Self { tolerance, c, prolate, alpha, nodes: Vec::new() };
-        let nodes = gauss_legendre(QUADRATURE).into_iter().map(|[x, weight]| {
+        let nodes = gauss_legendre(QUADRATURE).into_iter().map(|(x, weight)| {
             let k = 0.5 * c * (1.0 + x);
             [k, 0.5 * c * weight * spectrum.phi(k)]
         });
@@ -148,29 +150,6 @@ fn bessel<const N: i32>(x: f64) -> f64 {
     let angle = |i: usize| 0.5 * PI * (i as f64 + 0.5) / TURN as f64;
     let sum: f64 = (0..TURN).map(angle).map(|t| (x * t.sin()).cos() * t.cos().powi(2 * N)).sum();
     sum / (odd * TURN as f64)
-}
-
-/// Nodes and weights of the Gauss-Legendre rule on -1 to 1, by Newton's method.
-fn gauss_legendre(count: usize) -> Vec<[f64; 2]> {
-    let n = count as f64;
-    let polynomial = |x: f64| {
-        let (mut before, mut now) = (1.0, x);
-        for k in 2..=count {
-            let k = k as f64;
-            (before, now) = (now, ((2.0 * k - 1.0) * x * now - (k - 1.0) * before) / k);
-        }
-        (now, n * (x * now - before) / (x * x - 1.0))
-    };
-    let node = |i: usize| {
-        let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-        for _ in 0..6 {
-            let (value, slope) = polynomial(x);
-            x -= value / slope;
-        }
-        let slope = polynomial(x).1;
-        [x, 2.0 / ((1.0 - x * x) * slope * slope)]
-    };
-    (0..count).map(node).collect()
 }
 
 #[cfg(test)]

@@ -81,6 +81,8 @@ pub(crate) struct WallModes {
     zero_flux: bool,
     /// Exponent of the decay beyond which modes are left out.
     exponent: f64,
+    /// Least distance of a source from a wall (length).
+    source_gap: f64,
     factors: Vec<Factors>,
     sums: [Vec<Sums>; 2],
     slips: [Vec<Slip>; 2],
@@ -97,9 +99,23 @@ impl WallModes {
     /// The walls of a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
         let (factors, sums, slips, coefficients, mean) = Default::default();
-        let (exponent, rise, modes, uncorrected) = (0.0, 0.0, 0, Uncorrected::Row);
+        let (exponent, source_gap, rise, modes, uncorrected) = (0.0, 0.0, 0.0, 0, Uncorrected::Row);
         let k = TAU / period;
-        Self { k, half, zero_flux, exponent, factors, sums, slips, coefficients, mean, rise, uncorrected, modes }
+        Self {
+            k,
+            half,
+            zero_flux,
+            exponent,
+            source_gap,
+            factors,
+            sums,
+            slips,
+            coefficients,
+            mean,
+            rise,
+            uncorrected,
+            modes,
+        }
     }
 
     /// Removes all sources and counts the modes for targets no closer to a wall than `target_gap` and sources no closer
@@ -107,6 +123,7 @@ impl WallModes {
     pub(crate) fn begin(&mut self, uncorrected: Uncorrected, source_gap: f64, target_gap: f64, accuracy: f64) {
         self.uncorrected = uncorrected;
         self.exponent = 2.5 - accuracy.ln();
+        self.source_gap = source_gap;
         self.modes = self.count(source_gap + target_gap);
         let chunks = self.modes.div_ceil(LANES);
         while self.factors.len() < chunks * LANES {
@@ -306,30 +323,34 @@ impl WallModes {
         }
     }
 
-    /// Computes the velocities of the correction at points; `source_gap` as in [`WallModes::begin`].
-    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, out: &mut Vec<[f64; 2]>) {
+    /// The coefficients near a wall that matter at this distance from it (length).
+    fn coefficients(&self, side: usize, distance: f64) -> &[Coefficients] {
+        let (all, needed) = (&self.coefficients[side], self.exponent / (self.k * (distance + self.source_gap)));
+        &all[..(needed.min(self.modes as f64) as usize / LANES + 1).min(all.len())]
+    }
+
+    /// Computes the velocities of the correction at points.
+    pub(crate) fn velocities(&self, points: &WallPoints, out: &mut Vec<[f64; 2]>) {
         out.resize(points.y.len(), [0.0; 2]);
         let len = shares::length(out.len());
         shares::each_of(out.len(), out.chunks_mut(len).enumerate(), |(piece, out)| {
-            self.write_velocities(points, source_gap, *piece * len, out);
+            self.write_velocities(points, *piece * len, out);
         });
     }
 
     /// Writes the velocities at the points from one on.
-    fn write_velocities(&self, points: &WallPoints, source_gap: f64, first: usize, out: &mut [[f64; 2]]) {
+    fn write_velocities(&self, points: &WallPoints, first: usize, out: &mut [[f64; 2]]) {
         for (i, out) in (first..).zip(out) {
             let (mut u, mut v) = (self.mean_velocity(points.y[i]), self.rise);
             for (side, sign) in [(0, 1.0), (1, -1.0)] {
                 let mut powers = points.sides[side][i];
                 let s = powers.distance;
-                let coefficients = &self.coefficients[side];
-                let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
-                let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
+                let coefficients = self.coefficients(side, s);
                 let [sum, plain, linear_re, linear_im] = widely(
                     #[inline(always)]
                     || {
                         let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
-                        for c in &coefficients[..chunks] {
+                        for c in coefficients {
                             for lane in 0..LANES {
                                 let (re, im) = (powers.re[lane], powers.im[lane]);
                                 sum[lane] += re * c.sum[0][lane] - im * c.sum[1][lane];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, within};
+use motile_base::{Vec2, gauss_legendre, within};
 use nalgebra::{DMatrix, DVector};
 
 use num_complex::Complex64;
@@ -22,17 +22,9 @@ const MOST_NODES: f64 = 3000.0;
 /// Distance over the spacing below which walls touch: a twelfth of the distance of fine nodes, far below the films that
 /// these resolve.
 const TOUCHING: f64 = 0.02;
-/// Intervals of the quadrature behind a wall, with [`GAUSS`] points each: a flow that varies over a tenth of the way is
-/// integrated to 3e-10.
-const INTERVALS: usize = 24;
-/// Points and weights of the Gauss-Legendre quadrature on (-1, 1).
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-];
+/// Gauss-Legendre points of the quadrature behind a wall: a flow that varies over a tenth of the way is integrated to
+/// round-off.
+const BEHIND: usize = 48;
 
 /// Rigid walls as a single layer whose forces cancel the velocity on them, with the matrix factorised once.
 ///
@@ -186,15 +178,15 @@ fn flux_behind(
     }
     layers.set_stored(unit.as_slice(), true);
     layers.set_gradient(1.0);
-    let mut flux = 0.0;
+    let (rule, mut flux) = (gauss_legendre(BEHIND), 0.0);
     for (place, wall) in ends {
-        let step = (wall - place.im) / INTERVALS as f64;
-        let at = |k: usize, s: f64| Vec2::new(place.re, place.im + step * (k as f64 + 0.5 + 0.5 * s));
-        let points: Vec<Vec2> = (0..INTERVALS).flat_map(|k| GAUSS.map(|(s, _)| at(k, s))).collect();
+        let half_way = 0.5 * (wall - place.im);
+        let points: Vec<Vec2> =
+            rule.iter().map(|(s, _)| Vec2::new(place.re, place.im + half_way * (1.0 + s))).collect();
         let mut samples = vec![FlowSample::default(); points.len()];
         sampler.sample(layers, Density::NONE, &points, &mut samples, |_| viscosity, |_| None)?;
-        let weights = GAUSS.iter().map(|(_, weight)| 0.5 * step.abs() * weight).cycle();
-        flux += samples.iter().zip(weights).map(|(sample, weight)| sample.velocity.x * weight).sum::<f64>();
+        let values = samples.iter().zip(&rule).map(|(sample, (_, weight))| sample.velocity.x * weight);
+        flux += half_way.abs() * values.sum::<f64>();
     }
     layers.set_gradient(0.0);
     Ok(flux)

@@ -215,7 +215,7 @@ impl Walls {
     /// Adds the flow of the modes at the nodes.
     fn add_modes(&mut self, out: &mut [Vectors]) {
         self.modes.solve();
-        self.modes.velocities(&self.nodes, self.gap, &mut self.flow);
+        self.modes.velocities(&self.nodes, &mut self.flow);
         for ([curve, i], [u, v]) in self.owners.iter().zip(&self.flow) {
             out[*curve].x[*i] += u;
             out[*curve].y[*i] += v;

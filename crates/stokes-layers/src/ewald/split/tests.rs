@@ -25,7 +25,7 @@ fn the_smooth_part_has_its_spectrum() {
     // do not depend on the divergence at k = 0.
     let split = Split::new(1e-12);
     let transform = |r: f64| {
-        let sum = |[x, weight]: [f64; 2]| {
+        let sum = |(x, weight): (f64, f64)| {
             let k = 0.5 * split.c * (1.0 + x);
             split.c * weight * split.phi(k) / k * (bessel::<0>(k * r) - bessel::<0>(0.0))
         };

@@ -20,7 +20,7 @@ impl WallModes {
             // Sums over modes of k R + B, k R and k B, and of the latter two times k.
             let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
             let [mut k_plain_re, mut k_plain_im, mut k_linear_re, mut k_linear_im] = [[0.0; LANES]; 4];
-            for c in &self.coefficients[side] {
+            for c in self.coefficients(side, s) {
                 for lane in 0..LANES {
                     let (re, im) = (powers.re[lane], powers.im[lane]);
                     let r =
