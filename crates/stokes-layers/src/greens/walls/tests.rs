@@ -19,7 +19,7 @@ fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], fo
     let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
     row.add_force(&GreensFunction::Row { k: modes.k }.at(d), force, 1.0);
     let mut fast = Vec::new();
-    modes.velocities(&to, from.gap(), &mut fast);
+    modes.velocities(&to, &mut fast);
     let fast = Complex64::new(fast[0][0], fast[0][1]);
     assert!((fast - walls.velocity).norm() < 1e-11, "{fast} {}", walls.velocity);
     (row.velocity + walls.velocity, walls)
