@@ -15,7 +15,7 @@ export async function packed(text) {
 
 /** Text of the scene in a part of an address; null where there is none. */
 export async function unpacked(hash) {
-  const found = /^#?s=([A-Za-z0-9_-]+)$/.exec(hash);
+  const found = /^#?s=(.*)$/.exec(hash);
   if (!found) return null;
   const binary = atob(found[1].replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));

@@ -330,6 +330,8 @@ function complain({ error, place, id }) {
   if (place === "load") {
     // The scene before is still there.
     number = previous;
+    // That of a link is not in the box yet.
+    $("scene").value = wanted.text;
     $("problem").textContent = said(error);
     note("This text is no scene that can be run; what is wrong stands below it.", true);
     $("loading").hidden = true;
@@ -662,8 +664,12 @@ async function copied(text, words) {
 }
 $("copy").addEventListener("click", () => copied($("code").textContent, "Copied."));
 $("link").addEventListener("click", async () => {
-  history.replaceState(null, "", "#" + (await packed(await ask({ kind: "ask", what: "scene" }))));
-  await copied(location.href, "A link with the whole scene is copied.");
+  try {
+    history.replaceState(null, "", "#" + (await packed(await ask({ kind: "ask", what: "scene" }))));
+    await copied(location.href, "A link with the whole scene is copied.");
+  } catch (error) {
+    note(error.message, true);
+  }
 });
 addEventListener("hashchange", fromAddress);
 

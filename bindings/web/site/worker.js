@@ -222,6 +222,7 @@ onmessage = async ({ data }) => {
   await ready;
   try {
     if (engine || ["load", "pace", "until", "look", "shown"].includes(data.kind)) acts[data.kind](data);
+    else if (data.id) throw new Error("There is no scene yet.");
   } catch (error) {
     postMessage({ kind: "error", number: data.id ?? number, error: problem(error), place: data.kind, id: data.id });
   }

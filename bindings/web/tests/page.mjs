@@ -3,6 +3,7 @@ import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import { packed } from "../site/link.js";
 import { FLAGS, serve } from "./serve.mjs";
 
 const [folder, shots] = process.argv.slice(2);
@@ -235,10 +236,14 @@ try {
   await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
-  // A link that was cut says so.
-  const cut = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#s=AAAA" });
+  // A link that was cut says so, and one that the library does not understand shows its text.
+  const cut = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#s=%AAAA" });
   await until(cut.page, "no word of the link", () =>
     document.getElementById("note").textContent.startsWith("The link is not complete"),
+  );
+  await cut.page.evaluate((hash) => (location.hash = hash), await packed("viscosty = 1.0\n"));
+  await until(cut.page, "no text of a link that is not understood", () =>
+    document.getElementById("scene").value.startsWith("viscosty"),
   );
   await cut.context.close();
   // Where the rest of the module does not come, the page says so and goes on.
