@@ -1,8 +1,8 @@
 //! Gain of several threads, which change no result.
 //!
 //! `cargo run --release -p studies --features rayon -- threads` times steps of a droplet in a box of 1024 x 1024 cells
-//! between elastic walls of 50,000 points, and of 4 to 144 droplets by integrals, on one thread and on more by turns, and
-//! compares the states bit by bit.
+//! and between elastic walls of 50,000 points, and of 4 to 144 droplets by integrals, on one thread and on more by
+//! turns, and compares the states bit by bit.
 
 use std::time::Instant;
 

@@ -49,6 +49,8 @@ pub enum Ending {
     NotConserved,
     /// An inverted triangle.
     Inverted,
+    /// The surface of a solid touched itself.
+    SelfContact,
     /// Values that are not finite.
     NonFinite,
     /// An iteration did not converge.
@@ -95,6 +97,7 @@ impl Ending {
             BodyError::NotConserved { .. } => Self::NotConserved,
             BodyError::Other(source) => match source.downcast_ref::<SolidError>() {
                 Some(SolidError::Inverted { .. }) => Self::Inverted,
+                Some(SolidError::SelfContact { .. }) => Self::SelfContact,
                 _ => match source.downcast_ref::<InterfaceError>() {
                     Some(InterfaceError::Collapse { .. }) => Self::Collapsed,
                     Some(InterfaceError::SelfCrossing { .. }) => Self::SelfCrossing,

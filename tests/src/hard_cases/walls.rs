@@ -7,7 +7,7 @@ use motile::ib_core::{BSpline, ImmersedBoundary};
 use motile::motile_base::Region;
 use motile::motile_base::{Drive, Vec2};
 use motile::motile_scene::Scene;
-use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup};
+use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SkinSetup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::hard_cases::drive::{by, held, run_way};
@@ -16,6 +16,8 @@ use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial,
 /// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle is
 /// inverted, adaptive steps shorten before the run ends.
 const SQUEEZED: &[Ending] = &[Ending::Finished, Ending::Inverted, Ending::Stagnated];
+/// Those of a material that is never inverted crease until they touch themselves.
+const CREASED: &[Ending] = &[Ending::Finished, Ending::SelfContact, Ending::Stagnated];
 
 /// A scene on a grid of spacing h between walls of Cowley's spring constant k, 1.5 thick, along a channel of width
 /// 2.
@@ -34,6 +36,16 @@ fn throat() -> Result<Setup, CaseError> {
     let shape = ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
     let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
     setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
+    Ok(setup)
+}
+
+/// The throat of a material whose energy grows without a bound as a triangle is flattened, and no contact.
+fn held_throat(skin: Option<SkinSetup>) -> Result<Setup, CaseError> {
+    let mut setup = Setup { repulsion: Some(held(0.2)), ..throat()? };
+    let shear = Moduli::from_thesis_spring_constant(1e4)?.shear();
+    for wall in &mut setup.solids {
+        (wall.material, wall.skin) = (Material::NeoHookean { shear, bulk: 2.0 * shear }, skin);
+    }
     Ok(setup)
 }
 
@@ -100,11 +112,13 @@ pub(crate) fn trials() -> Vec<Trial> {
         })
         .ending_in(SQUEEZED)
         .area_within(5e-3),
-        // A material whose energy grows without a bound as a triangle is flattened, and no contact.
         Recipe::new(8, "a throat of R0/4, neo-Hookean, held apart", both, |way, extent, look| {
-            let mut setup = Setup { repulsion: Some(held(0.2)), ..throat()? };
-            let shear = Moduli::from_thesis_spring_constant(1e4)?.shear();
-            setup.solids.iter_mut().for_each(|wall| wall.material = Material::NeoHookean { shear, bulk: 2.0 * shear });
+            run_way(way, by(way, &held_throat(None)?).build()?.scene, extent.pick(1.0, 40.0), look)
+        })
+        .ending_in(CREASED)
+        .area_within(5e-3),
+        Recipe::new(8, "a throat of R0/4, neo-Hookean with a skin, held apart", both, |way, extent, look| {
+            let setup = held_throat(Some(SkinSetup { stretching: 100.0, bending: 0.3 }))?;
             run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
         })
         .area_within(5e-3),

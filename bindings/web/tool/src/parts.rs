@@ -12,8 +12,8 @@ use wasmparser::{ElementItems, FunctionBody, Operator, Parser, Payload, TypeRef}
 
 use crate::order;
 
-/// Length of functions that are in the first part wherever that calls them: they weigh little more than what would stand
-/// for them, and ways that are not rehearsed lead through them (bytes).
+/// Length of functions that are in the first part wherever that calls them: they weigh little more than what would
+/// stand for them, and ways that are not rehearsed lead through them (bytes).
 const SMALL: usize = 128;
 
 type Error = Box<dyn std::error::Error>;
