@@ -14,7 +14,7 @@ use motile::motile_base::Region;
 use motile::setup::{MethodKind, Setup, SolidOutline, WallSetup};
 use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, mean_speed, not_negative, positive};
 
-/// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
+/// Distance of the straight walls of the region behind those of a case (R0): far enough that few of their modes matter.
 const BEHIND: f64 = 1.5;
 
 /// Shapes of rigid geometry.

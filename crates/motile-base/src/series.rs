@@ -84,7 +84,8 @@ impl PeriodicSeries {
         }
     }
 
-    /// Multiplies each coefficient by a factor of its own, in their order, such as [`PeriodicSeries::factors`].
+    /// Multiplies each coefficient by a factor of its own, in their order, such as [`PeriodicSeries::factors`]; those
+    /// beyond the last factor stay.
     pub fn multiply_each(&mut self, factors: &[Complex64]) {
         self.coefficients.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
     }

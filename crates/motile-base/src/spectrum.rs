@@ -56,7 +56,7 @@ pub fn differentiate(spectrum: &mut [Complex64]) {
 #[must_use]
 pub fn is_product(mut number: usize, primes: &[usize]) -> bool {
     for &prime in primes {
-        while number > 1 && number.is_multiple_of(prime) {
+        while prime > 1 && number > 1 && number.is_multiple_of(prime) {
             number /= prime;
         }
     }

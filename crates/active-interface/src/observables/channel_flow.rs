@@ -27,14 +27,14 @@ pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, Interface
 /// (length). In an incompressible fluid it does not depend on x, but for the error of the quadrature.
 ///
 /// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
-/// of second order in h), by 16 Gauss points a section where there is none.
+/// of second order in h), by 16 Gauss points between one interface and the next where there is none.
 ///
 /// # Errors
 /// A fluid without walls, those of an evaluation and of sampling.
 pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64, SceneError> {
     let (view, time) = (system.hydrodynamics().fluid_view(), system.time());
     let [bottom, top] = walls(&view, time)?;
-    let line = Line::new(&view, &[bottom, top]);
+    let line = Line::new(&view, &[bottom, top], &kinks(system, &view, x)?);
     let [flux] = line.integrals(system, x)?;
     Ok(flux)
 }
@@ -107,7 +107,7 @@ pub fn gap_flow<H: Hydrodynamics>(
     });
     let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
-    let line = Line::new(&view, &[bottom, low, high, top]);
+    let line = Line::new(&view, &[bottom, low, high, top], &kinks(system, &view, x)?);
     let [below, inside, above] = line.integrals(system, x)?;
     Ok(GapFlow {
         velocity,
@@ -144,8 +144,29 @@ fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
 }
 
-/// Gauss points of a section where there is no grid.
+/// Heights of kinks of the velocity along the vertical line at `x`, in order: of the rows of a grid, half a cell off
+/// the walls, between which it is linear, or of all interfaces where there is none.
+fn kinks<H: Hydrodynamics>(system: &mut System<H>, view: &FluidView, x: f64) -> Result<Vec<f64>, SceneError> {
+    let [bottom, top] = walls(view, system.time())?;
+    if let Some(h) = view.spacing {
+        return Ok((0..((top - bottom) / h).ceil() as usize).map(|j| bottom + (j as f64 + 0.5) * h).collect());
+    }
+    let (markers, periods) = (system.evaluate()?, view.domain.periods);
+    let curves = markers.groups().iter().filter(|group| group.kind.is_curve());
+    let sides = curves.flat_map(|group| edges(&markers.positions()[group.range.clone()]));
+    let crossed = sides.filter_map(|(a, b)| {
+        let (from, along) = (periods.wrap(Vec2::new(a.x - x, 0.0)).x, periods.wrap(b - a));
+        ((from < 0.0) != (from + along.x < 0.0)).then(|| a.y - along.y * from / along.x)
+    });
+    let mut heights: Vec<f64> = crossed.collect();
+    heights.sort_by(f64::total_cmp);
+    Ok(heights)
+}
+
+/// Gauss points between two kinks where there is no grid.
 const POINTS: usize = 16;
+/// Part of the channel's width below which a kink is at the end of a section.
+const AT_END: f64 = 1e-9;
 
 /// Points on a vertical line, and their weights, section by section.
 #[derive(Debug, Clone, PartialEq)]
@@ -155,23 +176,17 @@ struct Line {
 }
 
 impl Line {
-    /// Gauss points of the sections between the heights `ends`; on a grid two in each panel between the rows, where the
-    /// sampled velocity has kinks.
-    fn new(view: &FluidView, ends: &[f64]) -> Self {
+    /// Gauss points of the sections between the heights `ends`, in each between the kinks: on a grid two, which
+    /// are exact.
+    fn new(view: &FluidView, ends: &[f64], kinks: &[f64]) -> Self {
         let mut points = Vec::new();
         let rule = gauss_legendre(if view.spacing.is_some() { 2 } else { POINTS });
+        let apart = AT_END * (ends[ends.len() - 1] - ends[0]);
         for (section, pair) in ends.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
-            let mut kinks: Vec<f64> = view.spacing.map_or_else(Vec::new, |h| {
-                // Rows of u, half a cell off the walls.
-                let row = |j: f64| ends[0] + (j + 0.5) * h;
-                let first = ((from - row(0.0)) / h).ceil();
-                let count = ((to - row(first)) / h).ceil().max(0.0);
-                (0..count as usize).map(|j| row(first + j as f64)).filter(|&y| from < y && y < to).collect()
-            });
-            kinks.push(to);
+            let within = kinks.iter().copied().filter(|&y| from + apart < y && y < to - apart);
             let mut start = from;
-            for end in kinks {
+            for end in within.chain([to]) {
                 let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
                 points.extend(rule.iter().map(|(at, weight)| (middle + at * half, weight * half, section)));
                 start = end;
