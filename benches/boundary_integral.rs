@@ -6,9 +6,9 @@
 
 use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 
-use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
-use motile::motile_base::{Drive, FlowSample, Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::base::{Drive, FlowSample, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile_timing::PlainPair;
 
 /// How often each row is timed.

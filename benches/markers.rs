@@ -5,11 +5,11 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use motile::base::Vec2;
 use motile::elastic_solids::mesh::fitted_strip;
 use motile::elastic_solids::{NeoHookean, Solid};
 use motile::ib_core::{AnyKernel, ImmersedBoundary, Transfer};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, Hydrodynamics};
+use motile::scene::{Body, Hydrodynamics};
 use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField};
 use motile_timing::{PlainPair, print_ratios};

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use motile::base::Vec2;
 use motile::elastic_solids::{Interior, Mesher, Outline, SolidError};
-use motile::motile_base::Vec2;
 
 fn wall() -> Result<Interior, SolidError> {
     let wave = |x: f64| -1.0 + 0.4 * (std::f64::consts::PI * x / 3.0).cos();

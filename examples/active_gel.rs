@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::Parser;
-use motile::interior_fields::GelInDroplet;
+use motile::interior::GelInDroplet;
 use motile::setup::{GridMethod, Method, Setup};
 use motile_examples::{AnyRegionFlags, GelFlags, Preset, RegionKind, SceneFlags};
 

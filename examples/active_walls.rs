@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::Motion;
-use motile::motile_base::{Drive, Region};
+use motile::base::{Drive, Region};
 use motile::setup::{DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
 use motile_examples::{DropletFlags, MethodFlags, activity, pair, positive};
 use motile_output::Look;

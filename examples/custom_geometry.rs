@@ -11,7 +11,7 @@ use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::{Channel, SolidError};
-use motile::motile_scene::Scene;
+use motile::scene::Scene;
 use motile::setup::{Built, Setup};
 use motile_examples::{ElasticFlags, SceneFlags};
 use motile_output::run::say;

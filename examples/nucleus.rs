@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, Handle};
+use motile::base::Vec2;
+use motile::scene::{Body, Handle};
 use motile::setup::{
     Built, DropletShape, Hold, LayersMethod, Material, Method, RigidBodySetup, Setup, ShellSetup, SolidOutline,
     SolidSetup,

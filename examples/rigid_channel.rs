@@ -8,7 +8,8 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::active_interface::{observables::net_flux, trajectory::Evidence};
+use motile::active_interface::observables::net_flux;
+use motile::analysis::trajectory::Evidence;
 use motile_examples::{ChannelFlags, SceneFlags};
 
 /// An active droplet swims in a channel with rigid walls.

@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
+use motile::base::Region;
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::Region;
 use motile::setup::{MethodKind, Setup, SolidOutline, WallSetup};
 use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, mean_speed, not_negative, positive};
 

@@ -19,10 +19,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::suspension::rotational_diffusion;
-use motile::motile_base::{Drive, Region};
-use motile::motile_scene::Every;
-use motile::motile_scene::gap::Repulsion;
+use motile::analysis::suspension::rotational_diffusion;
+use motile::base::{Drive, Region};
+use motile::scene::Every;
+use motile::scene::gap::Repulsion;
 use motile::setup::{
     Arrangement, Built, Distribution, Headings, IntegralMethod, LayersMethod, Method, Setup, SuspensionSetup,
 };

@@ -17,9 +17,9 @@ use motile::active_interface::{
     observables::{InterfaceState, centroid_velocity},
     polygon_moments,
 };
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Handle, System};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Handle, System};
 use motile::setup::{AnyFlow, Built, DropletSetup, Particles};
 use motile_examples::{DropletFlags, MethodFlags, pair, positive};
 use motile_output::run::{Job, OutputFlags, Summary};

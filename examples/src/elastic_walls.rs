@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::Args;
 use motile::elastic_solids::ChannelShape;
-use motile::motile_scene::Body;
+use motile::scene::Body;
 use motile::setup::{ActiveSpringsSetup, MaxwellSetup, Setup};
 use motile_output::run::say;
 

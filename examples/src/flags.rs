@@ -5,8 +5,8 @@
 
 use anyhow::{Result, bail, ensure};
 use clap::Args;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::setup::{Built, DropletSetup, Exclusion, Setup, Start};
 use motile_output::run::{OutputFlags, View, WatchedRun};
 

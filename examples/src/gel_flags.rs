@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 use clap::Args;
-use motile::interior_fields::{Anchoring, DirectorStart, GelMaterial};
+use motile::interior::{Anchoring, DirectorStart, GelMaterial};
 use motile::setup::{DropletSetup, GelSetup};
 
 use crate::parse::{finite, not_negative, one_of, positive};

@@ -3,8 +3,8 @@
 use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::ib_core::AnyKernel;
-use motile::motile_scene::gap::Repulsion;
-use motile::motile_scene::{StepSize, integrator::IntegratorKind};
+use motile::scene::gap::Repulsion;
+use motile::scene::{StepSize, integrator::IntegratorKind};
 use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;

@@ -5,7 +5,7 @@ use std::{fmt::Display, ops::RangeInclusive, path::Path, str::FromStr};
 use anyhow::{Context as _, ensure};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use motile::ib_core::{AnyKernel, Kernel};
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{Distribution, IntegralMethod, Setup};
 
 /// Automatic time steps, as a fraction of the stability limit.

@@ -1,7 +1,7 @@
 //! Fate of a droplet that meets a constriction.
 
 use motile::active_interface::{ActiveDroplet, polygon_moments};
-use motile::motile_scene::{Hydrodynamics, Observer, System};
+use motile::scene::{Hydrodynamics, Observer, System};
 use serde::Serialize;
 use serde_json::json;
 

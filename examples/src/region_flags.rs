@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::Setup;
 
 use crate::flags::RADIUS;

@@ -12,12 +12,12 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 use motile_output::run::{Summary, make_directory, say};
 use motile_output::{CsvTable, Progress};
 use motile_steady_examples::SteadyFlags;
-use steady_states::{
+use motile_steady_states::{
     Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyError,
     SteadyState, Symmetry,
 };

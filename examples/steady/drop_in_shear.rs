@@ -17,13 +17,13 @@ use std::process::ExitCode;
 use anyhow::{Result, bail, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::ActiveDroplet;
-use motile::motile_base::Region;
-use motile::motile_scene::{Deformation, Handle, System, integrator::IntegratorKind};
+use motile::base::Region;
+use motile::scene::{Deformation, Handle, System, integrator::IntegratorKind};
 use motile::setup::{AnyFlow, Built, DropletSetup, FlowSetup, IntegralMethod, Method, PoiseuilleSetup, Setup};
 use motile_examples::{pair, positive};
 use motile_output::run::{CheckpointFlags, Job, OutputFlags, Summary, say};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
-use steady_states::SteadyState;
+use motile_steady_states::SteadyState;
 
 /// Imposed flows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

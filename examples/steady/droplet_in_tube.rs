@@ -15,11 +15,11 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
-use motile::motile_base::{Drive, Region, TubeShape};
+use motile::base::{Drive, Region, TubeShape};
 use motile::setup::{DropletShape, MethodKind, Setup};
 use motile_examples::{MethodFlags, Passage, RegionFlags, SceneFlags, positive};
 use motile_output::run::{Summary, say};
-use steady_states::{Measured, SteadyState};
+use motile_steady_states::{Measured, SteadyState};
 
 /// Shapes of tubes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -14,7 +14,7 @@ use motile_output::CsvTable;
 use motile_output::plot::{AxisScale, Figure, Plot, Series};
 use motile_output::run::{Summary, make_directory, say};
 use motile_steady_examples::SteadyFlags;
-use steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
+use motile_steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
 
 /// A steady swimmer and its stability, without a run.
 #[derive(Debug, Parser)]
@@ -98,7 +98,7 @@ fn figure(state: &SteadyState, spectrum: &Spectrum) -> Result<Figure> {
     if let Some(mode) = spectrum.leading() {
         let growing = state.mode_shape(mode)?;
         let title = format!("Leading mode: {:.4} + {:.4} i, {}", mode.value.re, mode.value.im, mode.symmetry.name());
-        let parts = |values: &[steady_states::Complex64]| {
+        let parts = |values: &[motile_steady_states::Complex64]| {
             let (re, im) = (values.iter().map(|z| z.re).collect(), values.iter().map(|z| z.im).collect());
             [Series::line("real part", over(re)), Series::line("imaginary part", over(im)).dashed()]
         };

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
-use motile::motile_scene::checkpoint::Checkpoint;
+use motile::scene::checkpoint::Checkpoint;
 use motile_output::run::Summary;
 
 /// Part of a run after which it is killed.

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use motile::motile_base::Region;
-use motile::motile_scene::Every;
+use motile::base::Region;
+use motile::scene::Every;
 use motile::setup::{Built, Setup};
 use motile_output::{Film, Look, Raster, run::say};
 use motile_tests::validation::Table;

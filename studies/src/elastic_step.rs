@@ -8,12 +8,12 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Args;
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{AnyKernel, Transfer};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::{Body, Hydrodynamics};
+use motile::scene::{Body, Hydrodynamics};
 use motile::setup::{Built, DropletSetup, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid, StaggeredField, StokesSolver};
 use motile_examples::positive;

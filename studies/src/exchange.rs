@@ -6,7 +6,7 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{Built, DropletSetup, ExchangeSetup, Exclusion, IntegralMethod, Method, Particles, Setup, Start};
 use motile_examples::positive;
 use motile_output::run::say;
@@ -90,7 +90,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             table.push(row.into_iter().chain(values));
         }
     }
-    let inputs = ["crates/interior-fields/src", "tests/src/validation/exchange.rs", "studies/src/exchange.rs"];
+    let inputs = ["crates/motile-interior/src", "tests/src/validation/exchange.rs", "studies/src/exchange.rs"];
     flags.keep.tables("exchange", "exchange", &inputs, &[table, errors()?])
 }
 

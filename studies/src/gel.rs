@@ -9,9 +9,9 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::interior_fields::{DirectorStart, GelInDroplet, GelMaterial};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, Guest, Hydrodynamics};
+use motile::base::Vec2;
+use motile::interior::{DirectorStart, GelInDroplet, GelMaterial};
+use motile::scene::{Body, Guest, Hydrodynamics};
 use motile::setup::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
 use motile_tests::validation::Table;
 
@@ -51,7 +51,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             cost.push([spacing.to_string(), part.to_owned(), format!("{time:.3}")]);
         }
     }
-    flags.keep.tables("gel", "gel", &["crates/interior-fields", "studies/src/gel.rs"], &[swimmers, cost])
+    flags.keep.tables("gel", "gel", &["crates/motile-interior", "studies/src/gel.rs"], &[swimmers, cost])
 }
 
 fn setup(alignment: f64, activity: f64, spacing: f64) -> Setup {

@@ -9,13 +9,13 @@ use std::{env, fs, hint::black_box, process::Command};
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use motile::active_interface::Curve;
-use motile::boundary_integral::{PeriodicCalculus, TensionPlacement};
+use motile::base::Vec2;
+use motile::boundary_integrals::{PeriodicCalculus, TensionPlacement};
 use motile::elastic_solids::mesh::fitted_strip;
 use motile::elastic_solids::{ChannelShape, NeoHookean, Solid};
 use motile::ib_core::{AnyKernel, ImmersedBoundary, Transfer};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, Hydrodynamics};
 use motile::prelude::*;
+use motile::scene::{Body, Hydrodynamics};
 use motile::setup::{FlowSetup, Material, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver};
 

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{
     Built, DropletSetup, GridMethod, Hold, IntegralMethod, LayersMethod, Material, Method, Setup, SolidOutline,
     SolidSetup,

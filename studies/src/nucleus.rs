@@ -7,16 +7,16 @@
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
+use motile::base::Region;
+use motile::base::Vec2;
 use motile::setup::{
     Built, DropletSetup, Hold, IntegralMethod, LayersMethod, Material, Method, RigidBodySetup, Setup, SolidOutline,
     SolidSetup,
 };
 use motile_examples::{positive, turning_rate};
 use motile_output::run::{explained, say};
+use motile_steady_states::{Parameter, Profile, SteadyState};
 use motile_tests::validation::Table;
-use steady_states::{Parameter, Profile, SteadyState};
 
 use crate::tables;
 

@@ -10,8 +10,8 @@ mod swimmers;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
 
 use crate::tables;

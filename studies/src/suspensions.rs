@@ -16,8 +16,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use motile::motile_base::Region;
-use motile::motile_scene::gap::Repulsion;
+use motile::base::Region;
+use motile::scene::gap::Repulsion;
 use motile::setup::{Distribution, DropletSetup, IntegralMethod, Method, Setup, SuspensionSetup};
 use rows::Rows;
 

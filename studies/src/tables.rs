@@ -35,7 +35,7 @@ use motile_tests::validation::Table;
 const RUNS: [&str; 8] = [
     "crates/motile-base",
     "crates/stokes-grid",
-    "crates/stokes-layers",
+    "crates/stokes-boundary-integrals",
     "crates/motile-scene",
     "crates/ib-core",
     "crates/boundary-integral",

@@ -8,11 +8,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::{Hydrodynamics, Scene, integrator::Dynamics as _};
+use motile::scene::{Hydrodynamics, Scene, integrator::Dynamics as _};
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile_output::run::say;
 

@@ -12,11 +12,11 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity, polygon_moments};
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::{
+use motile::scene::{
     Handle, Hydrodynamics, Scene, StepSize,
     checkpoint::Checkpoint,
     integrator::{Dynamics as _, Integrator, Midpoint, RungeKuttaChebyshev},

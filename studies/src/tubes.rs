@@ -8,7 +8,7 @@ mod cost;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
 
 use crate::tables;

@@ -21,9 +21,9 @@ mod viscoelastic;
 
 use clap::{Args, builder::PossibleValuesParser};
 use motile::active_interface::Motion;
+use motile::base::Region;
 use motile::ib_core::{AnyKernel, Kernel};
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, Method, Setup};
 use motile_output::run::say;
 use motile_tests::validation::growth::Mode;

@@ -6,8 +6,8 @@
 use anyhow::{Context, Result};
 use clap::Args;
 use motile::active_interface::observables::Observables;
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::{Every, Warnings};
+use motile::base::{Drive, Region, Vec2};
+use motile::scene::{Every, Warnings};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_examples::positive;
 use motile_tests::validation::Table;

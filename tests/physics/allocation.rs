@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::motile_scene::{Scene, integrator::RungeKuttaChebyshev};
+use motile::scene::{Scene, integrator::RungeKuttaChebyshev};
 use motile::setup::{AnyFlow, GelSetup, GridMethod, Material, Method, Setup, SolidSetup};
 use motile_tests::validation::scene::{by_layers, on_grid, open_channel, without_grid};
 

@@ -1,10 +1,10 @@
 //! Bending of fluid interfaces, and shells that start deformed.
 
 use motile::active_interface::{ActiveDroplet, Curve, Motion};
-use motile::boundary_integral::{BoundaryIntegral, RevolutionIntegral, Settings};
+use motile::base::{Region, Vec2};
+use motile::boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, Settings};
 use motile::elastic_solids::Shell;
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, Scene, StepSize};
+use motile::scene::{Hydrodynamics, Scene, StepSize};
 use motile::setup::{Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Setup, ShellSetup};
 use motile_tests::validation::order;
 
@@ -159,7 +159,7 @@ fn bending_is_refused_in_three_dimensions() {
     let last = droplet().of_revolution().and_then(|it| it.with_bending(MODULUS, 0.0)).expect("a droplet");
     for droplet in [first, last] {
         let settings = Settings { nodes: 32, ..Settings::default() };
-        let flow = RevolutionIntegral::new(Region::Space, 1.0, settings, std::f64::consts::TAU);
+        let flow = AxisymmetricIntegral::new(Region::Space, 1.0, settings, std::f64::consts::TAU);
         let mut scene = Scene::new(flow.expect("a flow"));
         scene.add(droplet);
         let error = scene.step(0.1).unwrap_err();

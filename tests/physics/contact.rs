@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{MarkerBody, MarkerKind, Scene, StepSize, gap::Repulsion};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{MarkerBody, MarkerKind, Scene, StepSize, gap::Repulsion};
 use motile::setup::{AnyFlow, Built, DropletSetup, IntegralMethod, Method, Setup};
 use motile_tests::validation::scene::{flow, open_channel};
 

@@ -3,10 +3,10 @@
 
 use allocation_counter::measure;
 use motile::active_interface::observables::{Convention, Frame, force_moments};
+use motile::base::Region;
+use motile::base::{Drive, FlowSample, InputError, Vec2};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, FlowSample, InputError, Vec2};
-use motile::motile_scene::{FlowError, Hydrodynamics, MarkerKind, Markers};
+use motile::scene::{FlowError, Hydrodynamics, MarkerKind, Markers};
 use motile::setup::{AnyFlow, DropletSetup, IntegralMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile_tests::validation::contrast::{Droplet, Exact};

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use motile::boundary_integral::{BoundaryIntegral, RigidWall, Settings};
-use motile::motile_base::{Drive, FlowSample, Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, Markers};
+use motile::base::{Drive, FlowSample, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, RigidWall, Settings};
+use motile::scene::{Hydrodynamics, Markers};
 use motile_tests::validation::{curved_walls, order};
 
 /// `curved_walls_*.csv`: droplets of fixed shape in a wavy channel; errors fall faster than any power of the nodes.

@@ -1,9 +1,8 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
-use motile::boundary_integral::LayerError;
-use motile::motile_base::Region;
-use motile::motile_base::{FlowSample, Vec2};
-use motile::motile_scene::{Body, FlowError, SceneError, StepSize};
+use motile::base::Region;
+use motile::base::{FlowSample, Vec2};
+use motile::scene::{Body, FlowError, SceneError, StepSize};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::scene::{by_layers, on_grid, open_channel};
 
@@ -97,9 +96,11 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
 #[test]
 fn errors_of_runs_print_no_more_digits_than_needed() {
     let time = (0..86).map(|_| 0.3).sum();
-    let residual = LayerError::NoConvergence { iterations: 40, residual: 2e-7 / 3.0, tolerance: 1e-9 };
-    let depth = LayerError::BeyondWall { curve: 0, node: 3, x: 1.0 / 3.0, y: 1.5, depth: 2e-9 / 3.0, allowed: 1e-11 };
-    let [residual, depth] = [residual, depth].map(|source| SceneError::Flow { time, source: source.into() });
+    let what = "the solution for a viscosity contrast";
+    let residual = FlowError::NoConvergence { what, iterations: 40, residual: 2e-7 / 3.0, tolerance: 1e-9 };
+    let (x, y, depth) = (1.0 / 3.0, 1.5, 2e-9 / 3.0);
+    let depth = FlowError::BeyondWall { body: 0, marker: 3, x, y, depth, allowed: 1e-11 };
+    let [residual, depth] = [residual, depth].map(|source| SceneError::Flow { time, source });
     let far = SceneError::TimeStepTooLarge { dt: 0.1 + 0.2, limit: 0.01, reason: "tension", body: "it".into() };
     let near = SceneError::TimeStepTooLarge { dt: 1.000_04, limit: 1.0, reason: "tension", body: "it".into() };
     let told = [SceneError::Stopped { time }, residual, depth, far, near].map(|error| error.to_string());

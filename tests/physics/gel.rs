@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use motile::active_interface::polygon_moments;
 use motile::elastic_solids::ChannelShape;
-use motile::interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial, GelObservables};
+use motile::interior::{Anchoring, DirectorStart, GelInDroplet, GelMaterial, GelObservables};
 use motile::prelude::*;
 use motile::setup::{AnyFlow, DropletShape, GelSetup, Material, SolidSetup};
 

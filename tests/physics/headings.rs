@@ -1,6 +1,6 @@
 //! Swimmers off the grid's axes: the grid neither turns them nor changes their speed.
 
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::Setup;
 use motile_tests::validation::headings::{Deviation, course, off_axis};
 use motile_tests::validation::scene::{on_grid, without_grid};

@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
+use motile::base::{FlowSample, ImposedFlow};
 use motile::elastic_solids::BendingMeasure;
-use motile::motile_base::{FlowSample, ImposedFlow};
-use motile::motile_scene::checkpoint::Checkpoint;
-use motile::motile_scene::integrator::IntegratorKind;
-use motile::motile_scene::{Deformation, Hydrodynamics, Imposed};
 use motile::prelude::*;
+use motile::scene::checkpoint::Checkpoint;
+use motile::scene::integrator::IntegratorKind;
+use motile::scene::{Deformation, Hydrodynamics, Imposed};
 use motile::setup::{DropletShape, PoiseuilleSetup, RigidBodySetup};
 use motile_tests::validation::imposed::{
     EXTENSION, SHEAR, Seen, capsule, drop_of, ellipse, fourth_order, plane, poiseuille, seen_at,

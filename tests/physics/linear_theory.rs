@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{DropletSetup, Setup};
 use motile_tests::validation::growth::{Mode, rate, rate_in_region};
 use motile_tests::validation::scene::{on_grid, without_grid};

@@ -3,8 +3,8 @@
 use motile::SetupError;
 use motile::active_interface::ActiveDroplet;
 use motile::elastic_solids::ChannelShape;
-use motile::motile_scene::{Handle, SceneError, integrator::Dynamics};
 use motile::prelude::*;
+use motile::scene::{Handle, SceneError, integrator::Dynamics};
 use motile::setup::{AnyFlow, DropletShape, Material, RigidBodySetup, SolidSetup, Start, WallSetup};
 
 /// Largest distance (length) of a marker from the mirror image of its counterpart, and the largest difference of

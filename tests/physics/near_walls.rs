@@ -1,9 +1,9 @@
 //! Droplets that meet walls: nothing tunnels, nothing is lost.
 
 use motile::active_interface::{ActiveDroplet, polygon_area, polygon_moments};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::{StepSize, gap::wall_gap};
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::{StepSize, gap::wall_gap};
 use motile::setup::{Built, DropletSetup, DropletShape, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use motile::base::Region;
+use motile::base::{FlowSample, Vec2};
 use motile::ib_core::{AnyKernel, ImmersedBoundary};
-use motile::motile_base::Region;
-use motile::motile_base::{FlowSample, Vec2};
-use motile::motile_scene::{FlowError, Hydrodynamics, Markers};
+use motile::scene::{FlowError, Hydrodynamics, Markers};
 use motile::setup::{AnyFlow, Built, DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile_tests::validation::contrast::Droplet;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use motile::motile_base::Region;
-use motile::motile_base::{FlowSample, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::base::Region;
+use motile::base::{FlowSample, Vec2};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::setup::{AnyFlow, IntegralMethod, LayersMethod, Method};
 use motile_tests::validation::contrast::Droplet;
 use motile_tests::validation::scene::{flow, open_channel};

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use motile::base::Region;
+use motile::base::{FlowSample, Vec2};
 use motile::elastic_solids::{BendingMeasure, Shell};
-use motile::motile_base::Region;
-use motile::motile_base::{FlowSample, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, checkpoint::Checkpoint};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, checkpoint::Checkpoint};
 use motile::setup::{
     Built, DropletSetup, DropletShape, Exclusion, Hold, IntegralMethod, LayersMethod, Material, Method, Particles,
     RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,

@@ -2,10 +2,10 @@
 
 use motile::active_interface::theory::{Stratum, StratumEnd};
 use motile::active_interface::{ActiveInterface, Motion, wave};
-use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::motile_base::{FlowSample, ImposedFlow};
-use motile::motile_scene::{Body, Hydrodynamics, Markers};
+use motile::base::{FlowSample, ImposedFlow};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::prelude::*;
+use motile::scene::{Body, Hydrodynamics, Markers};
 use motile::setup::{
     DropletShape, ElasticitySetup, Hold, InterfaceSetup, InterfaceShape, Material, RigidBodySetup, Side, SolidOutline,
     SolidSetup, Start,

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::Exchange;
-use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
-use motile::motile_scene::integrator::Dynamics as _;
-use motile::motile_scene::{Body as _, Hydrodynamics as _};
+use motile::interior::{InteriorObservables, ParticlesInDroplet};
 use motile::prelude::*;
+use motile::scene::integrator::Dynamics as _;
+use motile::scene::{Body as _, Hydrodynamics as _};
 use motile::setup::{AnyFlow, ExchangeSetup, Exclusion};
 use motile_tests::validation::exchange::{BINDING, DIFFUSION, MEAN, Mode, UNBINDING, bare_rate, rate};
 use motile_tests::validation::scene::{on_grid, without_grid};

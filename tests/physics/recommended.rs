@@ -1,7 +1,7 @@
 //! Recommended settings hold what they promise where they were not measured.
 
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::base::Region;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, Method, MethodKind, Setup};
 use motile::{Recommendation, SceneKind, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};

@@ -1,7 +1,7 @@
 //! Stresslets on a grid against boundary integrals: their order, and what runs say of their errors.
 
 use motile::active_interface::observables::Observables;
-use motile::motile_base::{Drive, Region};
+use motile::base::{Drive, Region};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 
 /// A droplet that is started across a region, at t = 6, and what is then said of its stresslet: the error told.

@@ -1,6 +1,6 @@
 //! Steady and transient swimmers against boundary-integral values.
 
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::scene::{on_grid, reference};
 use motile_tests::validation::swimmers::{SteadyErrors, long_run, steady, transient};

@@ -1,9 +1,9 @@
 //! The bits of a run do not depend on the number of threads (feature `rayon`).
 
+use motile::base::Region;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::motile_base::Region;
-use motile::motile_scene::{Scene, gap::Repulsion, integrator::Dynamics as _};
+use motile::scene::{Scene, gap::Repulsion, integrator::Dynamics as _};
 use motile::setup::{
     ActiveSpringsSetup, AnyFlow, Distribution, DropletSetup, GridMethod, IntegralMethod, Material, MaxwellSetup,
     Method, Setup, SolidSetup, SuspensionSetup,

@@ -3,14 +3,14 @@
 use motile::active_interface::{
     ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion, observables::centroid_velocity,
 };
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::mesh::equilateral_strip;
 use motile::elastic_solids::{Moduli, NeoHookean, Solid};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::{
+use motile::scene::{
     Body, Handle, Hydrodynamics, Scene, SceneError, StepSize,
     integrator::{Integrator, Midpoint, RungeKuttaChebyshev, SpectralEstimate},
 };

@@ -1,10 +1,10 @@
 //! Nothing depends on the units of length, time and force.
 
+use motile::base::Drive;
+use motile::base::Region;
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
-use motile::motile_scene::gap::Repulsion;
+use motile::scene::StepSize;
+use motile::scene::gap::Repulsion;
 use motile::setup::{Material, Method, Setup, SolidSetup};
 use motile_tests::units::Units;
 

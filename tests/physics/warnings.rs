@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Flux;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::{Every, Warnings};
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::{Every, Warnings};
 use motile::setup::{
     Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Particles, Setup, SolidOutline, WallSetup,
 };

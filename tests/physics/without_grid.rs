@@ -1,6 +1,6 @@
 //! Swimmers without a grid against independent values and against the grid.
 
-use motile::motile_scene::Hydrodynamics;
+use motile::scene::Hydrodynamics;
 use motile::setup::{Built, DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::scene::reference;
 use motile_tests::validation::swimmers::steady;

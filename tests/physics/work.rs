@@ -2,7 +2,7 @@
 
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_scene::{FlowWork, Hydrodynamics, Scene};
+use motile::scene::{FlowWork, Hydrodynamics, Scene};
 use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile_tests::validation::scene::on_grid;

@@ -3,13 +3,13 @@
 
 use std::path::PathBuf;
 
+use motile::base::Drive;
+use motile::base::Region;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::AnyKernel;
-use motile::interior_fields::{Anchoring, DirectorStart};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::{
+use motile::interior::{Anchoring, DirectorStart};
+use motile::scene::{
     Body, Hydrodynamics, Scene, SceneError, StepSize,
     checkpoint::{Checkpoint, CheckpointError},
     integrator::{Dynamics as _, RungeKuttaChebyshev},

@@ -1,14 +1,15 @@
 //! Copies of scenes go on by themselves.
 
 use motile::Recommendation;
-use motile::active_interface::trajectory::TrajectoryRecorder;
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus};
+use motile::analysis::trajectory::TrajectoryRecorder;
+use motile::base::Vec2;
+use motile::boundary_integrals::ImmersedLayers;
+use motile::boundary_integrals::{BoundaryIntegral, PeriodicCalculus};
 use motile::elastic_solids::mesh::TriangleMesh;
 use motile::elastic_solids::{Channel, Mesher, Outline, Solid};
-use motile::ib_core::{AnyKernel, ImmersedBoundary, ImmersedLayers, SmearedContrast, Transfer};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{
+use motile::ib_core::{AnyKernel, ImmersedBoundary, SmearedContrast, Transfer};
+use motile::scene::{
     Hydrodynamics, MarkerKind, Markers,
     checkpoint::Checkpoint,
     gap::{Boundary, SolidGap},

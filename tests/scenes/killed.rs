@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-use motile::motile_scene::{Scene, checkpoint::Checkpoint};
+use motile::scene::{Scene, checkpoint::Checkpoint};
 use motile::setup::{AnyFlow, GridMethod, Method, Setup};
 
 /// Where the program that is killed finds the path of its checkpoint.

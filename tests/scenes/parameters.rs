@@ -6,13 +6,13 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::base::{Drive, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::mesh::{equilateral_block, equilateral_strip, fitted_strip};
 use motile::elastic_solids::{Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, Solid};
 use motile::ib_core::{BSpline, ImmersedBoundary, SmearedContrast};
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::{Scene, StepSize, gap::Repulsion};
+use motile::scene::{Scene, StepSize, gap::Repulsion};
 use motile::setup::{
     Axis, Built, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, Material, Method,
     Particles, Setup, SolidOutline, SolidSetup, Squeezed, Start,

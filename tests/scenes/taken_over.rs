@@ -1,8 +1,8 @@
 //! Scenes that go on with other parameters, and bodies that are moved between steps.
 
+use motile::base::{Drive, Region, Vec2};
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::{Handle, SceneError, StepSize};
+use motile::scene::{Handle, SceneError, StepSize};
 use motile::setup::{
     Built, DropletSetup, FlowSetup, IntegralMethod, LayersMethod, Material, Method, RigidBodySetup, Setup,
     SolidOutline, SolidSetup,
@@ -86,7 +86,7 @@ fn other_bodies_are_refused_and_nothing_is_changed() {
 }
 
 fn scene_droplet(
-    scene: &motile::motile_scene::Scene<motile::setup::AnyFlow>,
+    scene: &motile::scene::Scene<motile::setup::AnyFlow>,
 ) -> Handle<motile::active_interface::ActiveDroplet> {
     scene.system().bodies().next().expect("a droplet").0
 }

@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
-use motile::motile_base::{FlowSample, Region, Vec2};
-use motile::motile_scene::{
+use motile::base::{FlowSample, Region, Vec2};
+use motile::scene::{
     Body, Every, Handle, Observer as _, SceneError, StepSize, System, Warnings, checkpoint::Checkpoint,
 };
 use motile::setup::{AnyFlow, Built, Setup as Description};
@@ -25,7 +25,7 @@ use crate::work::{BETWEEN_LOOKS, unless_interrupted};
 /// Fluid shown around the bodies of a region without an end, in units of length: those of the droplets' usual radius.
 const MARGIN: f64 = 2.0;
 
-type AnyScene = motile::motile_scene::Scene<AnyFlow>;
+type AnyScene = motile::scene::Scene<AnyFlow>;
 
 /// A scene and what has been recorded of it.
 struct State {

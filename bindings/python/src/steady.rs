@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
-use steady_states::{Continuation, Parameter, Spectrum, SteadyError};
+use motile_steady_states::{Continuation, Parameter, Spectrum, SteadyError};
 
 use crate::error::{failed, of_setup, refused};
 use crate::setup::Setup;
@@ -18,7 +18,7 @@ fn of_steady(error: &SteadyError) -> PyErr {
 #[pyclass(module = "motile", frozen)]
 #[derive(Debug)]
 pub(crate) struct SteadyState {
-    state: steady_states::SteadyState,
+    state: motile_steady_states::SteadyState,
 }
 
 #[pymethods]
@@ -104,7 +104,7 @@ impl SteadyState {
 #[pyfunction]
 pub(crate) fn steady(py: Python<'_>, setup: &Bound<'_, Setup>) -> PyResult<SteadyState> {
     let description = setup.get().description.clone();
-    let found = unless_interrupted(py, None, move |_| steady_states::SteadyState::find(&description))?;
+    let found = unless_interrupted(py, None, move |_| motile_steady_states::SteadyState::find(&description))?;
     Ok(SteadyState { state: found.map_err(|error| of_steady(&error))? })
 }
 
@@ -137,7 +137,7 @@ pub(crate) fn branch<'py>(
     let found = found.map_err(|error| of_steady(&error))?;
     let dict = PyDict::new(py);
     let speeds = found.points.iter().map(|point| Ok(point.state.measured()?.speed)).collect::<Result<Vec<_>, _>>();
-    let growth = |point: &steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
+    let growth = |point: &motile_steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
     let unstable = found.points.iter().map(|point| point.spectrum.unstable() as i64).collect();
     let special: Vec<(&str, f64)> = found.special.iter().map(|point| (point.kind.name(), point.value)).collect();
     dict.set_item("values", PyArray1::from_vec(py, found.points.iter().map(|point| point.value).collect()))?;

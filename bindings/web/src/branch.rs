@@ -1,8 +1,8 @@
 //! Branch of steady states over the activity, for the map of speeds.
 
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{Exclusion, IntegralMethod, Method, Setup};
-use steady_states::{BranchPoint, Continuation, Parameter, SteadyState};
+use motile_steady_states::{BranchPoint, Continuation, Parameter, SteadyState};
 
 use crate::Refusal;
 
@@ -15,7 +15,7 @@ const RANGE: [f64; 2] = [-8.0, -0.2];
 const START: f64 = -2.0;
 /// Longest step along it.
 const STEP: f64 = 0.12;
-/// Growth rate of a disturbance of a swimmer that counts as none, over [`steady_states::Spectrum::zero`], 1e-8 D/R^2:
+/// Growth rate of a disturbance of a swimmer that counts as none, over [`motile_steady_states::Spectrum::zero`], 1e-8 D/R^2:
 /// the error with these nodes.
 const NO_GROWTH: f64 = 6e6;
 /// Halvings of the range to the threshold at which rest is no longer stable.

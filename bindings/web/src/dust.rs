@@ -1,6 +1,6 @@
 //! Tracers that drift with the fluid.
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile_output::{Raster, Samples, Snapshot};
 
 use crate::Refusal;

@@ -1,6 +1,6 @@
 //! Drawing of a state, as flat lists of numbers.
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile_output::{OutputError, Samples, Snapshot, streamlines};
 
 /// Distance of streamlines over the shorter side of the picture.

@@ -1,6 +1,6 @@
 //! Parameters that are turned while a scene runs.
 
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{Distribution, DropletSetup, Exclusion, Setup};
 
 use crate::Refusal;

@@ -16,7 +16,7 @@ mod refusal;
 
 pub use refusal::Refusal;
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile::setup::Setup;
 use serde_json::json;
 use wasm_bindgen::prelude::*;

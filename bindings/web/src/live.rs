@@ -1,8 +1,8 @@
 //! A scene that runs on the page, step by step.
 
 use motile::active_interface::ActiveDroplet;
-use motile::motile_base::{Region, Vec2, boxes::nearest_image, polygon};
-use motile::motile_scene::{Body, Handle, SceneError, Warnings};
+use motile::base::{Region, Vec2, boxes::nearest_image, polygon};
+use motile::scene::{Body, Handle, SceneError, Warnings};
 use motile::setup::{Built, Setup};
 use motile_output::{CsvTable, DropletMeter, Look, Raster, Snapshot};
 
@@ -299,7 +299,7 @@ impl Live {
 
     /// Heights of the rigid walls, the periods and the corner of the region (length), as far as it has them.
     #[must_use]
-    pub fn domain(&self) -> motile::motile_scene::Domain {
+    pub fn domain(&self) -> motile::scene::Domain {
         self.built.scene.system().hydrodynamics().fluid_view().domain
     }
 }

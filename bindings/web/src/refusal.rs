@@ -3,10 +3,10 @@
 use std::fmt;
 
 use motile::SetupError;
-use motile::motile_scene::SceneError;
+use motile::scene::SceneError;
 use motile_output::OutputError;
 use serde::Serialize;
-use steady_states::SteadyError;
+use motile_steady_states::SteadyError;
 
 /// Error with the key, the value and the remedy where they are known.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -1,6 +1,6 @@
 //! Logic of the page, on the host.
 
-use motile::motile_base::{Region, Vec2};
+use motile::base::{Region, Vec2};
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
 use motile_web::code::Way;
 use motile_web::concise::concise;

@@ -1,6 +1,6 @@
 //! Errors of interfaces and of what is computed on them.
 
-use motile_base::{InputError, all_finite, told, told_apart};
+use motile_base::{InputError, told, told_apart};
 
 /// An error of this crate; its message has the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -154,16 +154,6 @@ pub enum InterfaceError {
         /// Sum of the particle numbers.
         total: f64,
     },
-    /// An entry that is not above the one before it in an increasing list.
-    #[error("entry {index} of {name} is {value}, not above the one before it: all entries must increase")]
-    NotIncreasing {
-        /// Name of the list.
-        name: &'static str,
-        /// Index of the entry.
-        index: usize,
-        /// Value of the entry.
-        value: f64,
-    },
     /// Points that do not determine what is fitted to them.
     #[error("{points} points that lie as these do determine no fit of {what}: give more of them, or a longer part")]
     NoFit {
@@ -175,15 +165,6 @@ pub enum InterfaceError {
 }
 
 motile_base::debug_as_explanation!(InterfaceError);
-
-/// Checks that all entries are finite and each is above the one before it.
-pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
-    all_finite(name, values)?;
-    match values.windows(2).position(|pair| pair[1] <= pair[0]) {
-        None => Ok(()),
-        Some(before) => Err(InterfaceError::NotIncreasing { name, index: before + 1, value: values[before + 1] }),
-    }
-}
 
 /// Checks that all entries are positive and finite.
 pub(crate) fn all_positive(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {

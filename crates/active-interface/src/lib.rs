@@ -19,8 +19,6 @@
 //! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_pool`].
 //! * [`observables`]: [`observables::observe`] for all of them at once, and a function for each; fluxes along a
 //!   channel.
-//! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for the
-//!   regime of its motion across a channel.
 //! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`Units`] converts to SI.
 //!
 //! # Conventions
@@ -75,10 +73,8 @@ mod error;
 mod exchange;
 mod interface;
 pub mod observables;
-pub mod suspension;
 mod tension;
 pub mod theory;
-pub mod trajectory;
 mod tridiagonal;
 mod units;
 

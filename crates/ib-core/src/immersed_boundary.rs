@@ -1,22 +1,30 @@
 //! The immersed boundary method: a grid between markers.
 
-pub(crate) mod sampling;
 mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;
 
 use motile_base::{Drive, FlowSample, SolveReport, Vec2, all_points_finite, positive, same_length};
 use motile_scene::{Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers};
-use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, sample_flow};
 
 use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
 use crate::{Kernel, Transfer};
 
 /// Distance beyond a wall up to which a marker may lie, in grid spacings.
-pub(crate) const WALL_TOLERANCE: f64 = 0.25;
+pub const WALL_TOLERANCE: f64 = 0.25;
 
-/// Extents, periods and walls of a grid.
-pub(crate) fn domain(grid: &Grid) -> Domain {
+/// Turns an error of a grid solver into an error of the flow.
+fn flow_error(error: StokesError) -> FlowError {
+    match error {
+        StokesError::Input(error) => FlowError::Input(error),
+        other => FlowError::solver(other),
+    }
+}
+
+/// Returns the extents, periods and walls (length) of a grid, as a flow on it reports them to a scene.
+#[must_use]
+pub fn grid_domain(grid: &Grid) -> Domain {
     let ([lx, ly], [_, bottom]) = (grid.lengths(), grid.origin());
     let walls = grid.has_walls().then_some([bottom, bottom + ly]);
     Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)].into(), walls }
@@ -30,7 +38,7 @@ pub(crate) fn domain(grid: &Grid) -> Domain {
 /// from interfaces, first order within it.
 ///
 /// All fluid has one viscosity: interfaces to another one are refused ([`SmearedContrast`] and
-/// [`crate::ImmersedLayers`] have them), and so are rigid bodies.
+/// boundary integrals have them), and so are rigid bodies.
 #[derive(Debug, Clone)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
@@ -116,7 +124,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     ///
     /// # Errors
     /// Those of the solver.
-    pub fn pressure_field(&mut self) -> Result<CentreField, FlowError> {
+    pub fn pressure_field(&mut self) -> Result<CentreField, StokesError> {
         let mut pressure = CentreField::zeros(*self.solver.grid());
         self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
         Ok(pressure)
@@ -126,9 +134,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     fn solve(&mut self, markers: &Markers) -> Result<SolveReport, FlowError> {
         self.transfer.locate(markers.positions());
         self.density.fill(0.0);
-        self.transfer.spread(markers.forces(), &mut self.density)?;
+        self.transfer.spread(markers.forces(), &mut self.density).map_err(flow_error)?;
         let before = self.solver.work();
-        let report = self.solver.solve(&self.density, &mut self.velocity)?;
+        let report = self.solver.solve(&self.density, &mut self.velocity).map_err(flow_error)?;
         let after = self.solver.work();
         let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
         self.work.stokes_solves += after.solves - before.solves;
@@ -146,7 +154,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             spacing: self.grid().spacing(),
             origin: self.grid().origin(),
             viscosity: self.solver.viscosity(),
-            walls: domain(self.grid()).walls,
+            walls: grid_domain(self.grid()).walls,
             variance: self.variance,
         };
         let group = &markers.groups()[index];
@@ -155,7 +163,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         {
             let range = group.range.clone();
             let [positions, forces, velocities] = markers.lists_mut().map(|list| &mut list[range.clone()]);
-            correction.apply(&setting, positions, forces, velocities)?;
+            correction.apply(&setting, positions, forces, velocities).map_err(flow_error)?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -164,7 +172,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Refuses markers that are not finite or too far beyond a wall, forces that are not finite, rigid bodies, and
     /// interfaces to another viscosity that the solver does not know.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
-        let walls = domain(self.grid()).walls;
+        let walls = grid_domain(self.grid()).walls;
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {
             if other_viscosities(group, self.solver.viscosity())?.is_some() && !self.varying {
@@ -197,7 +205,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     fn fluid_view(&self) -> FluidView {
         FluidView {
-            domain: domain(self.grid()),
+            domain: grid_domain(self.grid()),
             viscosity: self.solver.viscosity(),
             spacing: Some(self.grid().spacing()),
             second_order: self.correction.is_some(),
@@ -213,7 +221,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.check(markers)?;
         let report = self.solve(markers)?;
-        self.transfer.interpolate(&self.velocity, markers.velocities_mut())?;
+        self.transfer.interpolate(&self.velocity, markers.velocities_mut()).map_err(flow_error)?;
         self.work.evaluations += 1;
         for index in 0..markers.groups().len() {
             self.correct(index, markers)?;
@@ -226,9 +234,8 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         all_points_finite("the points to sample", points)?;
         self.check(markers)?;
         self.solve(markers)?;
-        let pressure = self.pressure_field()?;
-        sampling::sample(&self.velocity, &pressure, points, out);
-        Ok(())
+        let pressure = self.pressure_field().map_err(flow_error)?;
+        sample_flow(&self.velocity, &pressure, points, out).map_err(flow_error)
     }
 
     fn work(&self) -> FlowWork {

@@ -5,8 +5,8 @@
 //!        correct the mobility of interfaces --> velocities
 //! ```
 //!
-//! [`ImmersedBoundary`] is that; [`ImmersedLayers`] has interfaces and surfaces of solids as layers beside the grid.
-//! Both are [`Hydrodynamics`](motile_scene::Hydrodynamics), what the scenes of [`motile_scene`] take for a flow.
+//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`](motile_scene::Hydrodynamics), the trait of flows
+//! for the scenes of [`motile_scene`].
 //!
 //! A droplet of constant tension as the simplest body, three numbers a marker in, one number out:
 //!
@@ -37,25 +37,23 @@
 //! # Ok::<(), motile_scene::FlowError>(())
 //! ```
 //!
-//! Interfaces may have fluid of another viscosity inside, [`motile_scene::MarkerKind::Interface`]: with
-//! [`ImmersedLayers`] at any ratio of viscosities and with errors that do not grow with it, with [`SmearedContrast`] in
-//! Cowley's way, by a viscosity that varies on the grid.
+//! If the fluid inside an interface has another viscosity ([`motile_scene::MarkerKind::Interface`]), use
+//! [`SmearedContrast`], Cowley's scheme: a viscosity that varies on the grid. Boundary integrals
+//! (`motile-boundary-integrals`) are more accurate there, at any ratio of viscosities.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
-//! docs/grid.md and docs/layers.md in the repository.
+//! docs/grid.md in the repository.
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod immersed_boundary;
-mod immersed_layers;
 mod kernel;
 mod mobility;
 mod transfer;
 
-pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
-pub use immersed_layers::ImmersedLayers;
+pub use immersed_boundary::{ImmersedBoundary, SmearedContrast, WALL_TOLERANCE, grid_domain};
 pub use kernel::{AnyKernel, BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
 pub use mobility::{Deficit, MobilityDeficit};
 pub use transfer::Transfer;

@@ -16,7 +16,6 @@ use crate::Kernel;
 use general::GeneralTransfer;
 use locations::Locations;
 use motile_base::Vec2;
-use motile_scene::FlowError;
 use order::{Band, Markers, stride};
 use polynomial::{interpolate, spread};
 
@@ -79,7 +78,7 @@ impl<K: Kernel> Transfer<K> {
     ///
     /// # Errors
     /// Another number of forces than of markers, a field on another grid.
-    pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) -> Result<(), FlowError> {
+    pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) -> Result<(), StokesError> {
         self.check("the forces", forces.len(), "the force density", density)?;
         let (general, scale) = (self.general(), 1.0 / (self.grid.spacing() * self.grid.spacing()));
         let (fx, fy) = density.components_mut();
@@ -99,7 +98,7 @@ impl<K: Kernel> Transfer<K> {
     ///
     /// # Errors
     /// Another number of velocities than of markers, a field on another grid.
-    pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) -> Result<(), FlowError> {
+    pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) -> Result<(), StokesError> {
         self.check("the velocities", velocities.len(), "the velocity", velocity)?;
         let (general, Locations { all: locations, irregular, .. }) = (self.general(), &self.locations);
         #[cfg(feature = "rayon")]
@@ -117,8 +116,8 @@ impl<K: Kernel> Transfer<K> {
         entries: usize,
         name: &'static str,
         field: &StaggeredField,
-    ) -> Result<(), FlowError> {
+    ) -> Result<(), StokesError> {
         same_length(list, self.locations.all.len(), entries)?;
-        if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::GridMismatch { name }.into()) }
+        if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::GridMismatch { name }) }
     }
 }

@@ -2,7 +2,6 @@
 
 use ib_core::{AnyKernel, BSpline, Kernel, MAX_SUPPORT, Role, Transfer};
 use motile_base::{InputError, Vec2};
-use motile_scene::FlowError;
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField, StokesError};
 
@@ -266,20 +265,20 @@ fn fields_of_other_grids_and_lists_of_other_lengths_are_refused() {
         let mut field = StaggeredField::zeros(grid);
         assert!(matches!(
             transfer.spread(&list, &mut field),
-            Err(FlowError::Stokes(StokesError::GridMismatch { name: "the force density" }))
+            Err(StokesError::GridMismatch { name: "the force density" })
         ));
         assert!(matches!(
             transfer.interpolate(&field, &mut list),
-            Err(FlowError::Stokes(StokesError::GridMismatch { name: "the velocity" }))
+            Err(StokesError::GridMismatch { name: "the velocity" })
         ));
     }
     let mut field = StaggeredField::zeros(own);
     for count in [1, 3] {
         let mut list = vec![Vec2::ZERO; count];
         let expected = InputError::WrongLength { name: "the forces", expected: 2, found: count };
-        assert_eq!(transfer.spread(&list, &mut field), Err(FlowError::Input(expected)));
+        assert_eq!(transfer.spread(&list, &mut field), Err(StokesError::Input(expected)));
         let expected = InputError::WrongLength { name: "the velocities", expected: 2, found: count };
-        assert_eq!(transfer.interpolate(&field, &mut list), Err(FlowError::Input(expected)));
+        assert_eq!(transfer.interpolate(&field, &mut list), Err(StokesError::Input(expected)));
     }
 }
 

@@ -4,7 +4,7 @@ mod palette;
 
 use std::{fs::File, io, io::BufWriter, path::Path};
 
-use motile::motile_scene::{Hydrodynamics, Observer, System};
+use motile::scene::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
 use tiny_skia::Pixmap;
 

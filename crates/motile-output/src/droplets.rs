@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
-use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
+use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::trajectory::meter::DropletMeter;
 use crate::{CsvTable, OutputError};

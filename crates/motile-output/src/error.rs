@@ -3,8 +3,9 @@
 use std::{io, path::PathBuf};
 
 use motile::active_interface::InterfaceError;
+use motile::analysis::AnalysisError;
 use motile::elastic_solids::SolidError;
-use motile::motile_scene::SceneError;
+use motile::scene::SceneError;
 
 /// Error of drawing or writing, with the offending value and the remedy.
 #[derive(thiserror::Error)]
@@ -97,6 +98,9 @@ pub enum OutputError {
     /// Droplet that cannot be measured.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
+    /// A trajectory that cannot be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
     /// State that an observer cannot measure.
     #[error("the state cannot be measured: {0}")]
     Observer(#[source] Box<dyn std::error::Error + Send + Sync>),
@@ -105,7 +109,7 @@ pub enum OutputError {
     Solid(#[from] SolidError),
 }
 
-motile::motile_base::debug_as_explanation!(OutputError);
+motile::base::debug_as_explanation!(OutputError);
 
 impl OutputError {
     /// Conversion of errors of writing to `path` into ones that name the path.

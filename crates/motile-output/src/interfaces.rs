@@ -4,8 +4,8 @@ use std::error::Error;
 use std::path::Path;
 
 use motile::active_interface::ActiveInterface;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
+use motile::base::Vec2;
+use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError, snapshot::at_markers};
 

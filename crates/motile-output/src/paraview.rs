@@ -6,12 +6,12 @@ mod meshes;
 use std::path::Path;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface, observables::InterfaceState};
-use motile::motile_scene::{Hydrodynamics, Observer, System};
+use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::{
     OutputError, Raster, Snapshot, VtkFile, VtkSeries, interfaces::closed, snapshot::at_markers, solids::curves,
 };
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Name of the record with the times of the files in a system.
 const RECORD: &str = "files for ParaView";

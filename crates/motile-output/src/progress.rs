@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{InterfaceState, centroid_velocity};
-use motile::motile_scene::{Hydrodynamics, Observer, System, Warnings};
+use motile::scene::{Hydrodynamics, Observer, System, Warnings};
 
 /// Smallest time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);

@@ -2,10 +2,10 @@
 
 use std::ops::{Add, Mul};
 
-use motile::motile_scene::{Hydrodynamics, System};
+use motile::scene::{Hydrodynamics, System};
 
 use crate::OutputError;
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Largest number of cells in a direction.
 const MOST_CELLS: usize = 4096;

@@ -1,15 +1,15 @@
 //! State of all bodies of a scene and of the flow at one time, for pictures.
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface, polygon_moments};
-use motile::interior_fields::{Defect, GelInDroplet, ParticlesInDroplet};
-use motile::motile_base::FlowSample;
-use motile::motile_scene::{Hydrodynamics, System};
+use motile::base::FlowSample;
+use motile::interior::{Defect, GelInDroplet, ParticlesInDroplet};
+use motile::scene::{Hydrodynamics, System};
 
 use crate::{
     InterfaceLine, OutputError, Raster, SolidShape,
     solids::{curve_shapes, rigid_shape, solid_shape},
 };
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Distance over which forces are spread on a grid, in grid spacings.
 const SMEAR: f64 = 2.0;

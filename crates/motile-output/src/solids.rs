@@ -4,13 +4,13 @@ use std::any::Any;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::elastic_solids::{Deformation, Mat2, Solid, width_between};
-use motile::motile_scene::{
+use motile::scene::{
     Body, Handle, Hydrodynamics, System,
     gap::{Boundary, SolidGap},
 };
 
 use crate::{OutputError, SolidShape};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Solids of a system, in the order of addition.
 pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Solid> {

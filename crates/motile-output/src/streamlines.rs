@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 
 use crate::{OutputError, Raster, Samples};
 use mirrors::Mirrors;
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Smallest distances, in units of the spacing, of a line from others and from an earlier part of itself.
 const NEAREST_OTHER: f64 = 0.35;

@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, ValueEnum};
-use motile::motile_scene::SceneError;
+use motile::scene::SceneError;
 
 pub use plan::Plan;
 pub use run_pool::RunPool;

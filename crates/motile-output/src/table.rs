@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use motile::motile_scene::{Hydrodynamics, System};
+use motile::scene::{Hydrodynamics, System};
 
 use crate::OutputError;
 

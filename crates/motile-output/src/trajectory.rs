@@ -5,10 +5,10 @@ pub(crate) mod meter;
 use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
-use motile::active_interface::trajectory::{Trajectory, TrajectoryRecord};
-use motile::interior_fields::ParticlesInDroplet;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
+use motile::analysis::trajectory::{Trajectory, TrajectoryRecord};
+use motile::base::Vec2;
+use motile::interior::ParticlesInDroplet;
+use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError, SolidMeter, Track};
 use meter::DropletMeter;

@@ -1,24 +1,21 @@
 //! Errors of scenes, bodies and flows.
 
+use std::sync::Arc;
+
 use motile_base::{InputError, told, told_apart};
-use stokes_grid::StokesError;
-use stokes_layers::LayerError;
 
 use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
-#[derive(Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {
-    /// The grid solver refused.
-    #[error(transparent)]
-    Stokes(#[from] StokesError),
     /// A number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The layer potentials refused.
+    /// The solver behind the flow failed. Its crate documents the error inside.
     #[error(transparent)]
-    Layers(LayerError),
+    Solver(Arc<dyn std::error::Error + Send + Sync>),
     /// A body with a curve of too few or too many nodes or points.
     #[error("a curve of body {body} has {found} {what}: give it {least} to {most}")]
     Count {
@@ -97,37 +94,19 @@ pub enum FlowError {
 motile_base::debug_as_explanation!(FlowError);
 
 impl FlowError {
-    /// The error with the number of the body in place of that of its curve.
-    pub(crate) fn of_body(mut self, number: impl Fn(usize) -> usize) -> Self {
+    /// Wraps an error of a solver, such as a grid solver of your own.
+    #[must_use]
+    pub fn solver(error: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self::Solver(Arc::new(error))
+    }
+
+    /// Returns the error with the number of the body in place of the number of its curve.
+    #[must_use]
+    pub fn of_body(mut self, number: impl Fn(usize) -> usize) -> Self {
         if let Self::Count { body, .. } | Self::NonFinite { body, .. } | Self::BeyondWall { body, .. } = &mut self {
             *body = number(*body);
         }
         self
-    }
-}
-
-impl From<LayerError> for FlowError {
-    fn from(error: LayerError) -> Self {
-        match error {
-            LayerError::NonFinite { what, curve, point, x, y } => {
-                Self::NonFinite { what, body: curve, marker: point, x, y }
-            }
-            LayerError::BeyondWall { curve, node, x, y, depth, allowed } => {
-                Self::BeyondWall { body: curve, marker: node, x, y, depth, allowed }
-            }
-            LayerError::NoConvergence { iterations, residual, tolerance } => {
-                Self::NoConvergence { what: "the solution for a viscosity contrast", iterations, residual, tolerance }
-            }
-            LayerError::Count { kind: "curve", curve, what, found, least, most } => {
-                Self::Count { body: curve, what, found, least, most }
-            }
-            LayerError::Input(error) => Self::Input(error),
-            LayerError::Clockwise { .. } => Self::Unsupported {
-                what: "an interface whose markers run clockwise or that crosses itself",
-                remedy: "give its markers in counter-clockwise order",
-            },
-            other => Self::Layers(other),
-        }
     }
 }
 

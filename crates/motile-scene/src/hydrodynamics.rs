@@ -3,13 +3,11 @@
 mod body_flow;
 #[cfg(test)]
 pub(crate) mod drag_box;
-mod interface_groups;
 mod markers;
 mod substrate;
 
 pub(crate) use body_flow::Everything;
 pub use body_flow::{BodyFlow, Enclosed};
-pub use interface_groups::InterfaceGroups;
 pub use markers::{MarkerGroup, MarkerKind, Markers};
 pub use substrate::Substrate;
 

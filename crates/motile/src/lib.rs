@@ -28,18 +28,20 @@
 //!
 //! # Crates
 //!
-//! | crate | what it is |
-//! |---|---|
-//! | [`motile_base`] | points of the plane, Fourier series, checks of input, words of flows |
-//! | [`stokes_grid`] | Stokes solvers on staggered grids: periodic boxes, channels with no-slip walls |
-//! | [`motile_scene`] | bodies and scenes, the trait of flows, gaps, integrators, runs, observers, checkpoints |
-//! | [`ib_core`] | the immersed boundary method: kernels, transfer, mobility correction, interfaces as layers |
-//! | [`boundary_integral`] | flow of interfaces alone, without a grid, any viscosity ratio |
-//! | [`active_interface`] | the droplet: curve, particles, tension, observables, linear theory, SI units |
-//! | [`elastic_solids`] | elastic materials and meshes |
-//! | [`interior_fields`] | what fills droplets: an active polar gel |
+//! | module | crate | what it is |
+//! |---|---|---|
+//! | [`stokes_grid`] | `stokes-grid` | Stokes solvers on staggered grids, for periodic boxes and channels |
+//! | [`ib_core`] | `ib-core` | the immersed boundary method: kernels, spreading, interpolation, mobility correction |
+//! | [`active_interface`] | `active-interface` | the droplet: curve, particles, tension, observables, SI units |
+//! | [`elastic_solids`] | `elastic-solids` | elastic solids, their materials and meshes; shells and rigid bodies |
+//! | [`boundary_integrals`] | `motile-boundary-integrals` | flows of scenes by boundary integrals |
+//! | [`interior`] | `motile-interior` | bodies inside droplets: an active polar gel, diffusing particles |
+//! | [`scene`] | `motile-scene` | bodies and scenes, the trait of flows, gaps, integrators, runs, checkpoints |
+//! | [`analysis`] | `motile-analysis` | trajectories and regimes of a droplet, order and correlations of many |
+//! | [`base`] | `motile-base` | vectors, regions, Fourier transforms, checks of input |
 //!
-//! Each can be used by itself; this crate re-exports them and adds the description of scenes.
+//! You can use each crate by itself. This crate re-exports them and adds the description of scenes. Steady states and
+//! branches are in `motile-steady-states`, files and pictures in `motile-output`.
 //!
 //! # Units
 //!
@@ -59,6 +61,6 @@ mod setup_error;
 pub use recommend::{Recommendation, SceneKind, cheapest, recommend};
 pub use setup_error::SetupError;
 pub use {
-    active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, motile_base, motile_scene,
-    stokes_grid,
+    active_interface, elastic_solids, ib_core, motile_analysis as analysis, motile_base as base,
+    motile_boundary_integrals as boundary_integrals, motile_interior as interior, motile_scene as scene, stokes_grid,
 };

@@ -1,9 +1,9 @@
 //! Errors of descriptions, from which no scene can be built.
 
 use active_interface::InterfaceError;
-use boundary_integral::LayerError;
 use elastic_solids::SolidError;
-use interior_fields::InteriorError;
+use motile_boundary_integrals::LayerError;
+use motile_interior::InteriorError;
 use motile_scene::FlowError;
 use stokes_grid::StokesError;
 

@@ -1,11 +1,11 @@
 //! Walls that relax, twitch or differ from place to place.
 
 use motile::active_interface::ActiveDroplet;
+use motile::base::{Drive, Region};
 use motile::elastic_solids::{ChannelShape, Solid};
-use motile::motile_base::{Drive, Region};
-use motile::motile_scene::checkpoint::Checkpoint;
-use motile::motile_scene::integrator::IntegratorKind;
-use motile::motile_scene::{Body as _, Scene};
+use motile::scene::checkpoint::Checkpoint;
+use motile::scene::integrator::IntegratorKind;
+use motile::scene::{Body as _, Scene};
 use motile::setup::{
     ActiveSpringsSetup, AnyFlow, Axis, Built, DropletSetup, DropletShape, Grading, GridMethod, Material, MaxwellSetup,
     Method, Setup, SolidSetup,

@@ -6,9 +6,9 @@ use motile::active_interface::{
     ActiveDroplet, ContractileTension, ExcludedVolume,
     theory::{RoundDroplet, Sphere},
 };
-use motile::motile_base::{TubeShape, Vec2};
-use motile::motile_scene::{Scene, StepSize, checkpoint::Checkpoint, gap::Repulsion};
+use motile::base::{TubeShape, Vec2};
 use motile::prelude::*;
+use motile::scene::{Scene, StepSize, checkpoint::Checkpoint, gap::Repulsion};
 use motile::setup::{DropletShape, Exclusion, RigidBodySetup, Squeezed};
 
 fn scene(region: Region, [nodes, cells]: [usize; 2]) -> Setup {

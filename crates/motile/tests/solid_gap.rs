@@ -1,11 +1,11 @@
 //! Gaps between droplets and elastic walls.
 
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::mesh::equilateral_strip;
 use motile::elastic_solids::{NeoHookean, Solid, Springs};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::{
+use motile::scene::{
     Observer,
     gap::{SolidEntered, SolidGap},
 };

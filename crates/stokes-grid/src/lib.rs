@@ -86,6 +86,7 @@ mod field;
 mod grid;
 mod kinematics;
 mod periodic;
+mod sampling;
 mod solver;
 mod stencil;
 mod transform;
@@ -100,6 +101,7 @@ pub use kinematics::{
     divergence, flux, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 pub use periodic::PeriodicStokes;
+pub use sampling::{sample_flow, sample_pressure};
 pub use solver::{StokesSolver, Work};
 pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;

@@ -1,9 +1,9 @@
 use super::*;
 use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, Preset};
 use clap::CommandFactory as _;
+use motile::base::Region;
 use motile::ib_core::AnyKernel;
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
 use motile_output::run::OutputFlags;
 
@@ -43,7 +43,7 @@ fn all_flags_with_their_values() {
     assert_eq!(particles.excluded_volume, Exclusion::Step(8.0));
     assert_eq!(particles.start, Start::Perturbed { amplitude: 0.05, seed: 7 });
     flags.channel.apply(&mut setup).unwrap();
-    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::motile_base::Drive::ZeroFlux });
+    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::base::Drive::ZeroFlux });
     assert_eq!(setup.droplets[0].centre, [0.0, -0.2]);
 }
 

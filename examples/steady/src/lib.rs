@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail, ensure};
 use clap::Args;
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{ExchangeSetup, IntegralMethod, Method, RigidBodySetup, Setup};
 use motile_examples::{AlongFlags, DropletFlags, RegionKind, positive};
 

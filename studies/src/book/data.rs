@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use motile::motile_base::{FlowSample, Region, Vec2};
-use motile::motile_scene::SceneError;
-use motile::motile_scene::checkpoint::Checkpoint;
+use motile::base::{FlowSample, Region, Vec2};
+use motile::scene::SceneError;
+use motile::scene::checkpoint::Checkpoint;
 use motile::setup::{Built, Setup};
 use motile_output::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
+use motile_steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
 use serde::Deserialize;
 use serde_json::Value;
-use steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
 use toml::Table;
 
 mod bisection;

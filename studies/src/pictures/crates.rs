@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use anyhow::{Context, Result};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use toml::Table;
 
 use super::svg::{BLUE, Drawing, INK};

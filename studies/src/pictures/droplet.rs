@@ -1,10 +1,10 @@
 //! The model: a steady swimmer with its particles, forces and flow.
 
 use anyhow::{Context, Result};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile::prelude::*;
 use motile_output::{Raster, Samples, streamlines};
-use steady_states::SteadyState;
+use motile_steady_states::SteadyState;
 
 use super::svg::{BLUE, Drawing, GREEN, GREY, INK, RED};
 

@@ -1,6 +1,6 @@
 //! Which method a scene takes, and what it does.
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 use motile::setup::{Method, MethodKind};
 
 use super::svg::{BLUE, Drawing, GREEN, INK, RED};

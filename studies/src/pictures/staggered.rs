@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use motile::active_interface::Curve;
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 use super::svg::{BLUE, Drawing, GREEN, GREY, INK, RED};
 

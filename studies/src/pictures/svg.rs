@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 pub(super) const INK: &str = "#222222";
 pub(super) const GREY: &str = "#9a9a9a";

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Context, Result};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::setup::{DropletSetup, Setup};
-use motile_tests::validation::Table;
-use steady_states::{
+use motile_steady_states::{
     Continuation, Critical, Eigenmode, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry,
 };
+use motile_tests::validation::Table;
 
 use super::{channel, nodes};
 

@@ -1,11 +1,11 @@
 //! Steady swimmers over the length of a channel and over viscosities.
 
 use anyhow::{Context, Result, bail};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::setup::{DropletSetup, Setup};
+use motile_steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 use motile_tests::validation::Table;
-use steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 
 use super::{channel, nodes};
 

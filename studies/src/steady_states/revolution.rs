@@ -4,12 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use anyhow::{Context, Result, bail};
 use motile::active_interface::ActiveDroplet;
-use motile::motile_base::{Drive, Region, TubeShape, Vec2};
-use motile::motile_scene::Scene;
+use motile::base::{Drive, Region, TubeShape, Vec2};
+use motile::scene::Scene;
 use motile::setup::{DropletSetup, Particles, Setup};
 use motile_output::run::say;
+use motile_steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 use motile_tests::validation::Table;
-use steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 
 use super::bifurcations::{activity, digits, polarisation};
 use super::nodes;

@@ -5,11 +5,11 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
+use motile::base::Drive;
+use motile::base::Region;
 use motile::setup::{Built, DropletSetup, Setup};
+use motile_steady_states::{Complex64, Continuation, Cost, Parameter, SteadyState, Symmetry};
 use motile_tests::validation::Table;
-use steady_states::{Complex64, Continuation, Cost, Parameter, SteadyState, Symmetry};
 
 use super::{channel, nodes};
 

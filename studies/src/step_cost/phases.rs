@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use motile::base::Vec2;
 use motile::ib_core::{AnyKernel, Transfer};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{FlowWork, Hydrodynamics, Scene};
+use motile::scene::{FlowWork, Hydrodynamics, Scene};
 use motile::stokes_grid::{Grid, RealFft2, StaggeredField, Symbol};
 use motile_output::run::Summary;
 use motile_timing::{PlainPair, median};

@@ -1,12 +1,12 @@
 //! The scenes whose steps are measured.
 
 use anyhow::Result;
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
 use motile::elastic_solids::Solid;
 use motile::elastic_solids::mesh::fitted_strip;
 use motile::ib_core::{ImmersedBoundary, SmearedContrast};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::{Body, Hydrodynamics, Scene};
+use motile::scene::{Body, Hydrodynamics, Scene};
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile_output::run::Summary;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use motile::motile_base::{FlowSample, SolveReport, Vec2};
-use motile::motile_scene::{
+use motile::base::{FlowSample, SolveReport, Vec2};
+use motile::scene::{
     Body, BodyError, FlowError, FlowWork, FluidView, Guest, Hydrodynamics, MarkerKind, Markers, StepInfo, StepLimit,
 };
 use motile::stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, WallMotion, Work};

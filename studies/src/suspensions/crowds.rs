@@ -1,8 +1,8 @@
 //! Behaviour of many droplets together, over activity, fraction and ratio of viscosities.
 
 use anyhow::Result;
-use motile::active_interface::suspension::rotational_diffusion;
-use motile::motile_scene::Every;
+use motile::analysis::suspension::rotational_diffusion;
+use motile::scene::Every;
 use motile::setup::Built;
 use motile_output::run::say;
 use motile_output::suspension::SuspensionCsv;

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use motile::active_interface::suspension::Member;
-use motile::motile_base::{Region, Vec2};
+use motile::analysis::suspension::Member;
+use motile::base::{Region, Vec2};
 use motile::setup::{Built, GridMethod, LayersMethod, Method, Setup};
 use motile_tests::validation::Table;
 use motile_timing::{PlainPair, Turns};

@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use anyhow::{Context, Result};
-use motile::active_interface::suspension::Member;
-use motile::motile_base::Region;
+use motile::analysis::suspension::Member;
+use motile::base::Region;
 use motile::setup::{Built, DropletSetup, Setup};
 use motile_output::run::say;
 use motile_tests::validation::Table;

@@ -1,9 +1,9 @@
 //! When the trajectories of a hundred droplets part that are computed by sums over pairs, or with more nodes.
 
 use anyhow::{Context, Result};
-use motile::active_interface::suspension::Member;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Every, Hydrodynamics, SceneError, System};
+use motile::analysis::suspension::Member;
+use motile::base::Vec2;
+use motile::scene::{Every, Hydrodynamics, SceneError, System};
 use motile::setup::{Built, Setup};
 use motile_tests::validation::Table;
 

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use anyhow::Result;
+use motile::base::{Drive, Region, Vec2};
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{
     Built, DropletSetup, ExchangeSetup, GridMethod, LayersMethod, Material, Method, Particles, RigidBodySetup, Setup,
     SolidSetup,

@@ -3,8 +3,8 @@
 use std::thread::ScopedJoinHandle;
 
 use anyhow::{Context, Result, bail};
-use motile::motile_base::{Drive, Region, TubeShape};
-use motile::motile_scene::{Every, SceneError};
+use motile::base::{Drive, Region, TubeShape};
+use motile::scene::{Every, SceneError};
 use motile::setup::{DropletSetup, Setup};
 use motile_examples::{Passage, Verdict};
 use motile_output::run::{Decided, say};

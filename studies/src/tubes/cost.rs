@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
-use motile::motile_base::Region;
-use motile::motile_scene::{Scene, SceneError};
+use motile::base::Region;
+use motile::scene::{Scene, SceneError};
 use motile::setup::{AnyFlow, DropletSetup};
 use motile_output::run::say;
 use motile_tests::validation::Table;

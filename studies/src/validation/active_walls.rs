@@ -1,6 +1,6 @@
 //! Active walls: interfaces that are periodic along x.
 
-use motile::motile_base::{Drive, Region};
+use motile::base::{Drive, Region};
 use motile::setup::{Built, DropletSetup, IntegralMethod, InterfaceSetup, Method, Particles, Setup, Side, Start};
 use motile_tests::validation::flat::{Flat, PERIOD, difference, half_space, wall};
 use motile_tests::validation::{StudyError, Table};

@@ -1,8 +1,8 @@
 //! Studies of channels.
 
+use motile::base::Region;
 use motile::ib_core::AnyKernel;
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};

@@ -1,7 +1,7 @@
 //! Droplets of another viscosity than the exterior fluid, by layers and smeared over the grid.
 
 use motile::active_interface::Flux;
-use motile::motile_base::Region;
+use motile::base::Region;
 use motile::setup::{DropletSetup, GridMethod, LayersMethod, Method, Particles, Setup};
 use motile_tests::validation::contrast::{
     CostScene, Droplet, Errors, Exact, cold_iterations, iterations_in_a_run, layer_errors,

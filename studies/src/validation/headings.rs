@@ -1,7 +1,7 @@
 //! Swimmers off the grid's axes.
 
 use motile::ib_core::{AnyKernel, Kernel};
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{GridMethod, Method, Setup};
 use motile_tests::validation::Table;
 use motile_tests::validation::headings::{course, off_axis};

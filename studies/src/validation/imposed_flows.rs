@@ -3,15 +3,15 @@
 
 use std::f64::consts::PI;
 
+use motile::base::{Drive, ImposedFlow, Region, Vec2};
 use motile::elastic_solids::BendingMeasure;
-use motile::motile_base::{Drive, ImposedFlow, Region, Vec2};
-use motile::motile_scene::{Every, StepSize, System};
+use motile::scene::{Every, StepSize, System};
 use motile::setup::{AnyFlow, Built, DropletSetup, FlowSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile_steady_states::{Continuation, Parameter, SpecialKind, SteadyError, SteadyState};
 use motile_tests::validation::imposed::{
     EXTENSION, SHEAR, Seen, capsule, drop_of, ellipse, fourth_order, plane, poiseuille, reference, seen_at,
 };
 use motile_tests::validation::{StudyError, Table};
-use steady_states::{Continuation, Parameter, SpecialKind, SteadyError, SteadyState};
 
 use super::Tables;
 
@@ -346,7 +346,7 @@ fn swimmers() -> Result<Table, StudyError> {
         let mut look = |system: &mut System<AnyFlow>| {
             let viscosity = system.stress()?.effective_viscosity().unwrap_or(f64::NAN);
             seen.push(viscosity / setup.viscosity - 1.0);
-            Ok::<(), motile::motile_scene::SceneError>(())
+            Ok::<(), motile::scene::SceneError>(())
         };
         scene.run(ONSET + 2.0 * turn).observe(Every::Time(turn / 200.0), &mut look).go()?;
         let bounds = seen.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);

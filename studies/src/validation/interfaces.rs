@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::base::Region;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, Method, Setup};
 use motile_tests::validation::growth::{Mode, rate_in_plane, rate_in_plane_limit};
 use motile_tests::validation::interfaces::{Several, passing, relax, ten_in_a_box};

@@ -1,8 +1,8 @@
 //! The speed of swimmers by settings from coarse to fine, which `motile::recommend` chooses from.
 
 use motile::SceneKind;
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::base::Region;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 use motile_tests::validation::headings::{course, off_axis};

@@ -1,7 +1,7 @@
 //! Soft walls: how their forces are put on the fluid, and which part of the resolution their error comes from.
 
 use motile::elastic_solids::ChannelShape;
-use motile::motile_scene::{StepSize, integrator::IntegratorKind};
+use motile::scene::{StepSize, integrator::IntegratorKind};
 use motile::setup::{DropletSetup, LayersMethod, Material, MeshKind, Method, Setup, SkinSetup, SolidSetup};
 use motile_tests::validation::Table;
 use motile_tests::validation::scene::open_channel;

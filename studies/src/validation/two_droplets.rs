@@ -1,8 +1,8 @@
 //! Two droplets that meet.
 
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::gap::Repulsion;
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::gap::Repulsion;
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::{StudyError, Table};
 

@@ -1,7 +1,7 @@
 //! Viscoelastic layers against exact solutions, and droplets between walls that twitch.
 
+use motile::base::{Drive, Region};
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::{Drive, Region};
 use motile::setup::{ActiveSpringsSetup, Built, DropletSetup, LayersMethod, Material, Method, Setup, SolidSetup};
 use motile_tests::validation::viscoelastic::{Layers, Motion};
 use motile_tests::validation::{StudyError, Table, order};

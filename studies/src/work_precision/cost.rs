@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use motile::motile_scene::{Every, Hydrodynamics, Scene, System, integrator::RungeKuttaChebyshev};
+use motile::scene::{Every, Hydrodynamics, Scene, System, integrator::RungeKuttaChebyshev};
 use motile_output::run::Summary;
 use motile_timing::{PlainPair, median};
 

@@ -1,7 +1,7 @@
 //! Which settings are tried in which scene.
 
 use motile::ib_core::AnyKernel;
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 
 use crate::work_precision::settings::{Flow, Settings, Stepper};
 use crate::work_precision::studies::Study;

@@ -1,7 +1,7 @@
 //! One way of computing a scene.
 
 use motile::ib_core::{AnyKernel, Kernel};
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{GridMethod, IntegralMethod, Method, Setup};
 use motile_output::run::Summary;
 use serde_json::Value;

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, Motion, polygon_moments};
-use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
+use motile::base::{Region, Vec2};
+use motile::boundary_integrals::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
 use motile::elastic_solids::mesh::fitted_strip;
 use motile::elastic_solids::{NeoHookean, Solid};
 use motile::ib_core::{AnyKernel, ImmersedBoundary};
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers, Scene};
 use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes, solids::slide};
@@ -29,7 +29,7 @@ fn grid_flow(settings: &Settings, h: f64) -> Result<ImmersedBoundary<PeriodicSto
 
 fn integral_flow(nodes: usize) -> Result<BoundaryIntegral> {
     let region = Region::Box { lengths: [6.0, 6.0] };
-    let settings = boundary_integral::Settings { nodes, ..boundary_integral::Settings::default() };
+    let settings = boundary_integrals::Settings { nodes, ..boundary_integrals::Settings::default() };
     Ok(BoundaryIntegral::new(region, 1.0, settings)?)
 }
 

@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use anyhow::{Result, anyhow};
 use motile::active_interface::ActiveDroplet;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::{StepSize, System};
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::{StepSize, System};
 use motile::setup::{AnyFlow, DropletSetup, Exclusion, Particles, Setup};
 use motile_tests::validation::{Reference, ReferenceFile};
 

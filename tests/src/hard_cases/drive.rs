@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use motile::active_interface::{ActiveDroplet, Flux, Motion, polygon_area};
-use motile::motile_base::Vec2;
-use motile::motile_scene::gap::Repulsion;
-use motile::motile_scene::{Hydrodynamics, Scene, StepSize, System, integrator::RungeKuttaChebyshev};
+use motile::base::Vec2;
+use motile::scene::gap::Repulsion;
+use motile::scene::{Hydrodynamics, Scene, StepSize, System, integrator::RungeKuttaChebyshev};
 use motile::setup::{AnyFlow, GridMethod, IntegralMethod, Method, Particles, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
@@ -75,7 +75,7 @@ pub(crate) fn run(mut scene: Scene<AnyFlow>, until: f64, step: StepSize, look: L
 pub(crate) fn measured(
     scene: &mut Scene<AnyFlow>,
     look: Look<'_>,
-    body: impl FnOnce(&mut Scene<AnyFlow>) -> Result<(), motile::motile_scene::SceneError>,
+    body: impl FnOnce(&mut Scene<AnyFlow>) -> Result<(), motile::scene::SceneError>,
 ) -> Outcome {
     let start = contents(scene.system());
     let clock = Instant::now();

@@ -1,9 +1,9 @@
 //! Single droplets: strong activity, contrasts of viscosity, coarse and odd grids, narrow places.
 
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::Body;
-use motile::motile_scene::gap::Repulsion;
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::Body;
+use motile::scene::gap::Repulsion;
 use motile::setup::{Built, DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
 
 use crate::hard_cases::drive::{ADAPTIVE, by, held, run, run_way};

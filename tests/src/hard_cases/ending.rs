@@ -2,9 +2,9 @@
 
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
+use motile::base::InputError;
 use motile::elastic_solids::SolidError;
-use motile::motile_base::InputError;
-use motile::motile_scene::{BodyError, FlowError, SceneError};
+use motile::scene::{BodyError, FlowError, SceneError};
 
 /// A case that could not be made.
 #[derive(Debug, thiserror::Error)]

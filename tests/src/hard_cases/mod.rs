@@ -20,7 +20,7 @@ pub use weight::Weight;
 
 use std::fmt;
 
-use motile::motile_scene::System;
+use motile::scene::System;
 use motile::setup::AnyFlow;
 
 /// How long runs are.

@@ -1,8 +1,8 @@
 //! Two droplets.
 
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::gap::Repulsion;
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::gap::Repulsion;
 use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
 
 use crate::hard_cases::drive::{by, held, run_way};

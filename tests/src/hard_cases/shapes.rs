@@ -1,10 +1,10 @@
 //! Droplets without particles of difficult shapes, and some that are carried far.
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::base::{Drive, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, Scene};
+use motile::scene::{Hydrodynamics, Scene};
 use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 

@@ -1,6 +1,6 @@
 //! Time steps that are far too large.
 
-use motile::motile_scene::{Scene, StepSize};
+use motile::scene::{Scene, StepSize};
 use motile::setup::{AnyFlow, GridMethod, Method, Setup};
 
 use crate::hard_cases::drive::{by, measured, run};

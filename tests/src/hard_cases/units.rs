@@ -1,8 +1,8 @@
 //! Scenes in other units.
 
 use motile::active_interface::ActiveDroplet;
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
+use motile::base::Region;
+use motile::base::Vec2;
 use motile::setup::Setup;
 
 use crate::hard_cases::drive::{by, run_way};

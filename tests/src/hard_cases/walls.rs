@@ -1,12 +1,12 @@
 //! Elastic walls: stiff, narrow, badly meshed.
 
+use motile::base::Region;
+use motile::base::{Drive, Vec2};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::mesh::TriangleMesh;
 use motile::elastic_solids::{Mesher, Moduli, Solid, Springs};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_base::Region;
-use motile::motile_base::{Drive, Vec2};
-use motile::motile_scene::Scene;
+use motile::scene::Scene;
 use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SkinSetup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid};
 

@@ -1,7 +1,7 @@
 //! A body that is pulled by a constant force.
 
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, BodyError, FluidView, MarkerKind};
+use motile::base::Vec2;
+use motile::scene::{Body, BodyError, FluidView, MarkerKind};
 
 /// Points on a circle about the origin that move with the fluid, with a constant force on the fluid shared among them.
 #[derive(Debug, Clone)]

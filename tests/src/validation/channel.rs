@@ -1,8 +1,8 @@
 //! Channels with no-slip walls, against boundary-integral values.
 
+use motile::base::{Drive, FlowSample, Vec2};
 use motile::ib_core::Kernel;
-use motile::motile_base::{Drive, FlowSample, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{ChannelStokes, Grid, Wall, WallMotion, flux, wall_shear_stress};
 
 use crate::validation::fixed_shapes::{Errors, Shape, couple};

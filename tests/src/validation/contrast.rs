@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::setup::{AnyFlow, GridMethod, IntegralMethod, LayersMethod, Method};
 
 use crate::validation::StudyError;

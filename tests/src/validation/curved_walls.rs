@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
+use motile::base::{Drive, FlowSample, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
 use motile::elastic_solids::ChannelShape;
-use motile::motile_base::{Drive, FlowSample, Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::setup::{Built, DropletSetup, Setup, WallSetup};
 
 use super::scene::{open_channel, without_grid};

@@ -4,10 +4,10 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::{ActiveDroplet, ConstantTension, ContractileTension, Curve, Exchange, ExcludedVolume};
-use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::interior_fields::ParticlesInDroplet;
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Scene, integrator::Dynamics as _};
+use motile::base::{Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
+use motile::interior::ParticlesInDroplet;
+use motile::scene::{Scene, integrator::Dynamics as _};
 use motile::setup::{Built, ExchangeSetup, Particles, Setup};
 
 use super::{StudyError, scene::without_grid};

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::motile_base::{Drive, Region, Vec2};
-use motile::motile_scene::{Hydrodynamics, Markers};
+use motile::base::{Drive, Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
+use motile::scene::{Hydrodynamics, Markers};
 
 use super::contrast::Droplet;
 use crate::validation::StudyError;

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
+use motile::base::Vec2;
 use motile::ib_core::{ImmersedBoundary, Kernel};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{Grid, PeriodicStokes, StokesSolver};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};

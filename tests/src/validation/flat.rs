@@ -7,9 +7,9 @@ use motile::active_interface::{
     theory::{FlatInterface, Stratum, StratumEnd},
     wave,
 };
-use motile::boundary_integral::{BoundaryIntegral, Settings};
-use motile::motile_base::Region;
-use motile::motile_scene::{Body, Hydrodynamics, Markers, StepInfo};
+use motile::base::Region;
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
+use motile::scene::{Body, Hydrodynamics, Markers, StepInfo};
 
 use super::StudyError;
 

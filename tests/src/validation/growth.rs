@@ -7,9 +7,9 @@ use motile::active_interface::{
     ActiveDroplet, ContractileTension, Curve, ExcludedVolume, polygon_moments,
     theory::{LinearTheory, RoundDroplet},
 };
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Scene, StepSize};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Scene, StepSize};
 use motile::setup::{AnyFlow, IntegralMethod, Method, Particles, Setup};
 
 use crate::validation::StudyError;

@@ -1,8 +1,8 @@
 //! Drops, capsules and rigid bodies in flows that are imposed from outside, against `reference/imposed_flows.csv`.
 
+use motile::base::Region;
 use motile::elastic_solids::{BendingMeasure, ShellStrains};
-use motile::motile_base::Region;
-use motile::motile_scene::{Deformation, StepSize, integrator::IntegratorKind};
+use motile::scene::{Deformation, StepSize, integrator::IntegratorKind};
 use motile::setup::{
     Built, DropletSetup, DropletShape, FlowSetup, IntegralMethod, Method, PoiseuilleSetup, RigidBodySetup, Setup,
     ShellSetup,

@@ -1,6 +1,6 @@
 //! Fate of a lateral offset of a swimmer in a channel.
 
-use motile::active_interface::trajectory::{LinearMode, extrema, fit_linear_mode};
+use motile::analysis::trajectory::{LinearMode, extrema, fit_linear_mode};
 use motile::setup::{Built, Setup};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};

@@ -47,28 +47,31 @@ pub enum StudyError {
     Setup(#[from] motile::SetupError),
     /// The scene could not be run.
     #[error(transparent)]
-    Scene(#[from] motile::motile_scene::SceneError),
+    Scene(#[from] motile::scene::SceneError),
     /// The flow could not be computed.
     #[error(transparent)]
-    Flow(#[from] motile::motile_scene::FlowError),
+    Flow(#[from] motile::scene::FlowError),
     /// A body.
     #[error(transparent)]
-    Body(#[from] motile::motile_scene::BodyError),
+    Body(#[from] motile::scene::BodyError),
     /// The grid.
     #[error(transparent)]
     Stokes(#[from] motile::stokes_grid::StokesError),
     /// The droplet.
     #[error(transparent)]
     Interface(#[from] motile::active_interface::InterfaceError),
+    /// The analysis of a trajectory.
+    #[error(transparent)]
+    Analysis(#[from] motile::analysis::AnalysisError),
     /// The particles inside.
     #[error(transparent)]
-    Interior(#[from] motile::interior_fields::InteriorError),
+    Interior(#[from] motile::interior::InteriorError),
     /// The solid.
     #[error(transparent)]
     Solid(#[from] motile::elastic_solids::SolidError),
     /// The boundary integrals.
     #[error(transparent)]
-    BoundaryIntegral(#[from] motile::boundary_integral::LayerError),
+    BoundaryIntegral(#[from] motile::boundary_integrals::LayerError),
     /// The reference values.
     #[error("the reference values are not readable: {0}")]
     Reference(String),

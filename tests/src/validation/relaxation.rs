@@ -2,7 +2,7 @@
 
 use motile::active_interface::{ActiveDroplet, Curve, polygon_moments};
 use motile::ib_core::{BSpline, ImmersedBoundary};
-use motile::motile_scene::{Scene, StepSize};
+use motile::scene::{Scene, StepSize};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};

@@ -1,6 +1,6 @@
 //! The threshold of swimming, and what the marker spacing has to resolve.
 
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
 
 use crate::validation::StudyError;

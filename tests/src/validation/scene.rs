@@ -1,9 +1,9 @@
 //! Scenes that the studies start from.
 
-use motile::boundary_integral::{BoundaryIntegral, Settings};
+use motile::base::Drive;
+use motile::base::Region;
+use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::ib_core::SmearedContrast;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
 use motile::setup::{AnyFlow, Exclusion, GridMethod, IntegralMethod, LayersMethod, Method, Setup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 

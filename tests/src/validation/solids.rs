@@ -1,14 +1,15 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
+use motile::base::Vec2;
+use motile::boundary_integrals::ImmersedLayers;
 use motile::elastic_solids::{
     DeformationGradient, ElasticForces, EnergyDensity, Hyperelastic, Interior, Mat2, Mesher, MooneyRivlin, NeoHookean,
     Outline, SaintVenantKirchhoff, Solid, SolidError, Springs,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
     mesh::{TriangleMesh, equilateral_block, equilateral_strip, fitted_strip},
 };
-use motile::ib_core::{BSpline, ImmersedBoundary, ImmersedLayers};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, Scene};
+use motile::ib_core::{BSpline, ImmersedBoundary};
+use motile::scene::{Hydrodynamics, Scene};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::observables::{Observables, net_flux};
-use motile::motile_base::Region;
-use motile::motile_scene::{Every, Hydrodynamics, Scene, System, gap::wall_gap};
+use motile::base::Region;
+use motile::scene::{Every, Hydrodynamics, Scene, System, gap::wall_gap};
 use motile::setup::{AnyFlow, Built, Method, Setup};
 use motile::stokes_grid::flux;
 

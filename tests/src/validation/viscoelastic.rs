@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use motile::base::Vec2;
+use motile::boundary_integrals::ImmersedLayers;
 use motile::elastic_solids::{Maxwell, NeoHookean, Solid, mesh::fitted_strip};
-use motile::ib_core::{BSpline, ImmersedBoundary, ImmersedLayers};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Body, BodyError, FluidView, Hydrodynamics, MarkerKind, Scene};
+use motile::ib_core::{BSpline, ImmersedBoundary};
+use motile::scene::{Body, BodyError, FluidView, Hydrodynamics, MarkerKind, Scene};
 use motile::stokes_grid::{ChannelStokes, Grid, WallMotion};
 
 use crate::validation::{StudyError, solids::slide};

@@ -133,7 +133,7 @@ pub fn settling_speed(force: f64, radius: f64, [inside, outside]: [f64; 2]) -> R
 /// Drag on a rigid sphere along the axis of a closed tube over that in unbounded fluid, for a radius of the sphere over
 /// that of the tube up to 0.6, to 1e-4 at 0.1, 2e-4 at 0.3, 1.4e-2 at 0.5 (Haberman and Sayre, Motion of rigid and
 /// fluid spheres in stationary and moving liquids inside cylindrical tubes, 1958, their approximation); tighter tubes
-/// and more digits are computed by `stokes_layers::axisymmetric`.
+/// and more digits are computed by `stokes_boundary_integrals::axisymmetric`.
 ///
 /// # Errors
 /// A ratio below 0 or above 0.6.

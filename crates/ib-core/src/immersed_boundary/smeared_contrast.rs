@@ -1,9 +1,11 @@
 //! Interfaces between different viscosities by a viscosity that is smeared over the kernel, Cowley's way.
 
 use motile_base::Drive;
-use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes};
+use stokes_grid::{
+    CentreField, Grid, NodeField, RealFft2, StaggeredField, StokesError, StokesSolver, Symbol, TwoPhaseStokes,
+};
 
-use super::other_viscosities;
+use super::{flow_error, other_viscosities};
 use crate::{ImmersedBoundary, Kernel, Transfer};
 use motile_base::{FlowSample, SolveReport, Vec2};
 use motile_scene::{FlowError, FlowWork, FluidView, Hydrodynamics, Markers, Warning, checkpoint::SavedState};
@@ -21,7 +23,7 @@ const UNCORRECTED_ERROR: f64 = 3.1;
 /// them.
 ///
 /// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
-/// as viscous as the exterior fluid is 25 to 40 per cent too fast. [`crate::ImmersedLayers`] do better at a fraction of
+/// as viscous as the exterior fluid is 25 to 40 per cent too fast. Boundary integrals (`motile_boundary_integrals::ImmersedLayers`) do better at a fraction of
 /// the cost; this is here to reproduce Cowley. There is no mobility correction. Where all viscosities are equal this is
 /// [`ImmersedBoundary::uncorrected`].
 #[derive(Debug, Clone)]
@@ -48,7 +50,7 @@ struct Indicator {
 }
 
 impl Indicator {
-    fn new(grid: &Grid) -> Result<Self, FlowError> {
+    fn new(grid: &Grid) -> Result<Self, StokesError> {
         let (nx, h) = (grid.nx(), grid.spacing());
         let rows = if grid.has_walls() { 2 * grid.ny() } else { grid.ny() };
         let difference = |m: usize, n: usize| (2.0 * (std::f64::consts::PI * m as f64 / n as f64).sin()).powi(2);
@@ -91,7 +93,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
     ///
     /// # Errors
     /// Those of the solver.
-    pub fn new(solver: S, kernel: K) -> Result<Self, FlowError> {
+    pub fn new(solver: S, kernel: K) -> Result<Self, StokesError> {
         Self::with_tolerance(solver, kernel, 1e-6)
     }
 
@@ -99,7 +101,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
     ///
     /// # Errors
     /// A tolerance that is not positive and finite; those of the solver.
-    pub fn with_tolerance(solver: S, kernel: K, tolerance: f64) -> Result<Self, FlowError> {
+    pub fn with_tolerance(solver: S, kernel: K, tolerance: f64) -> Result<Self, StokesError> {
         let grid = *solver.grid();
         let solver = TwoPhaseStokes::new(solver)?.with_tolerance(tolerance)?;
         let (centres, nodes) = solver.viscosity_fields();
@@ -156,7 +158,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
         self.varies = !self.spread.is_empty();
         self.normals.fill(0.0);
         self.transfer.locate(&self.positions);
-        self.transfer.spread(&self.spread, &mut self.normals)?;
+        self.transfer.spread(&self.spread, &mut self.normals).map_err(flow_error)?;
         let (nx, ny) = (grid.nx(), grid.ny());
         let centres = self.centres.values_mut();
         self.indicator.solve(&self.normals, centres);
@@ -176,7 +178,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
                 + centres[here * nx + i];
             *node = 0.25 * sum;
         }
-        self.flow.solver_mut().set_viscosity_fields(&self.centres, &self.nodes)?;
+        self.flow.solver_mut().set_viscosity_fields(&self.centres, &self.nodes).map_err(flow_error)?;
         Ok(())
     }
 }

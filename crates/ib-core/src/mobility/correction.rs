@@ -5,7 +5,7 @@ use num_complex::Complex;
 
 use super::{MobilityDeficit, normal_taper};
 use motile_base::Vec2;
-use motile_scene::FlowError;
+use stokes_grid::StokesError;
 
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
 /// (docs/grid.md):
@@ -98,7 +98,7 @@ impl MobilityCorrection {
         positions: &[Vec2],
         forces: &[Vec2],
         velocities: &mut [Vec2],
-    ) -> Result<(), FlowError> {
+    ) -> Result<(), StokesError> {
         let count = positions.len();
         if count < 3 {
             return Ok(());
@@ -211,7 +211,7 @@ impl Plan {
         setting: &Setting,
         perimeter: f64,
         positions: &[Vec2],
-    ) -> Result<(), FlowError> {
+    ) -> Result<(), StokesError> {
         self.modulate(setting, positions);
         let count = self.places.len();
         // Wave numbers in units of 1/h; the inverse transforms are unnormalised.

@@ -10,7 +10,7 @@ use std::{
 };
 
 use crate::{OutputError, Raster, drawing::svg::base64};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Named array of values, one for each point or each cell, as they are stored.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl Array {
 /// third component; values are stored in single, positions in double precision.
 ///
 /// ```
-/// use motile::motile_base::Vec2;
+/// use motile::base::Vec2;
 /// use motile_output::VtkFile;
 ///
 /// let line = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use motile::active_interface::ActiveDroplet;
+use motile::base::Vec2;
 use motile::elastic_solids::{Mat2, Solid};
-use motile::interior_fields::{GelInDroplet, ParticlesInDroplet};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, System};
+use motile::interior::{GelInDroplet, ParticlesInDroplet};
+use motile::scene::{Hydrodynamics, System};
 
 use super::file::revolved;
 use crate::VtkFile;

@@ -1,7 +1,7 @@
 //! Contents of a picture: state, colour scales, size.
 
 use crate::{ColourScale, Look, Snapshot};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Size and detail of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

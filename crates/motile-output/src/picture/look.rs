@@ -7,7 +7,7 @@ use super::paint::paint;
 use super::solid_shape::SolidColour;
 use crate::colour::PressureColours;
 use crate::{ColourScale, OutputError, Snapshot, drawing::Drawing};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Distance of streamlines over the smaller side of the picture, by default.
 const STREAMLINES: f64 = 0.05;

@@ -15,7 +15,7 @@ use crate::{
     interfaces::closed,
     streamlines,
 };
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);

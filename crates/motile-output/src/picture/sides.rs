@@ -1,7 +1,7 @@
 //! Pressure on either side of interfaces, across which it jumps.
 
 use crate::{OutputError, Raster, Samples};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Field that is smooth on either side of closed curves.
 pub(crate) struct Sides {

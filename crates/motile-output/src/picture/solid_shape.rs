@@ -1,6 +1,6 @@
 //! Shapes of solids in pictures.
 
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Quantity shown by the colour of solids.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -27,7 +27,7 @@ fn rasters_that_cannot_be_are_refused() {
 fn a_raster_around_bodies_holds_them_and_the_margin() {
     use motile::setup::{DropletSetup, Setup};
     let droplets = [[-3.0, 0.0], [2.0, 1.0]].map(|centre| DropletSetup { centre, ..DropletSetup::active(-2.0) });
-    let region = motile::motile_base::Region::Plane;
+    let region = motile::base::Region::Plane;
     let mut scene = Setup { region, droplets: droplets.to_vec(), ..Setup::default() }.build().unwrap().scene;
     scene.system_mut().evaluate().unwrap();
     let raster = Raster::around(scene.system(), 0.5, 0.1).unwrap();

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use motile::motile_scene::{Run, Scene, SceneError, checkpoint::Checkpoint};
+use motile::scene::{Run, Scene, SceneError, checkpoint::Checkpoint};
 use motile::setup::{AnyFlow, Setup};
 
 use super::places::{Places, are_one};

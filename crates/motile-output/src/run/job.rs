@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::{flags::OutputFlags, summary::Summary, words::say};
 use crate::RunProgress;
 use anyhow::{Result, ensure};
-use motile::motile_scene::{Every, Observer, Scene, SceneError, StepSize, System};
+use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
 use motile::setup::{AnyFlow, Setup};
 
 /// Most steps of a run: more would take weeks.

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use anyhow::Result;
 use motile::active_interface::observables::PeriodicObservables;
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Handle, Scene};
+use motile::base::{Region, Vec2};
+use motile::scene::{Handle, Scene};
 use motile::setup::{AnyFlow, Built, Setup};
 
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};

@@ -3,10 +3,11 @@
 mod results;
 
 use anyhow::{Context, Result, bail};
+use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
-use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
+use motile::analysis::trajectory::TrajectoryRecord;
+use motile::base::Vec2;
+use motile::scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
 use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Numbers, Particles, Setup};
 
 use super::scene_run::view as view_of;

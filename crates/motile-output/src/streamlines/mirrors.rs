@@ -1,7 +1,7 @@
 //! Mirror lines of flows.
 
 use crate::{Raster, Samples};
-use motile::motile_base::Vec2;
+use motile::base::Vec2;
 
 /// Largest difference of a flow from its mirror image, relative to the flow (root mean square of the samples).
 const DIFFERENCE: f64 = 5e-3;

@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
-use motile::active_interface::suspension::Member;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, Observer, System};
+use motile::analysis::suspension::Member;
+use motile::base::Vec2;
+use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::animation::Frames;
 use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle};

@@ -1,6 +1,6 @@
 //! Plots of what many droplets do together.
 
-use motile::active_interface::suspension::PairCorrelations;
+use motile::analysis::suspension::PairCorrelations;
 
 use super::SuspensionCsv;
 use crate::OutputError;

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::error::Error;
 use std::path::Path;
 
-use motile::active_interface::suspension::{
+use motile::analysis::suspension::{
     Member, PairAverages, PairCorrelations, cluster_sizes, heading_correlation, mean_square_displacement,
     nematic_order, polar_order,
 };
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Body, Handle, Hydrodynamics, Observer, System};
+use motile::base::{Region, Vec2};
+use motile::scene::{Body, Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError};
 

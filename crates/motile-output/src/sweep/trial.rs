@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
-use motile::motile_scene::{SceneError, checkpoint::Checkpoint};
+use motile::scene::{SceneError, checkpoint::Checkpoint};
 use motile::setup::Setup;
 use serde_json::Value;
 

@@ -3,8 +3,8 @@
 use std::error::Error;
 
 use motile::active_interface::ActiveDroplet;
-use motile::active_interface::trajectory::{TrajectoryRecord, TrajectoryRecorder};
-use motile::motile_scene::{Handle, Hydrodynamics, Observer, System};
+use motile::analysis::trajectory::{TrajectoryRecord, TrajectoryRecorder};
+use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{OutputError, SolidMeter};
 

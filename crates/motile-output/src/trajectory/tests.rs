@@ -1,6 +1,6 @@
 use super::*;
-use motile::motile_scene::checkpoint::Checkpoint;
 use motile::prelude::*;
+use motile::scene::checkpoint::Checkpoint;
 use motile::setup::{AnyFlow, ExchangeSetup};
 
 #[test]

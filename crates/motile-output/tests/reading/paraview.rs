@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
+use motile::base::Vec2;
 use motile::elastic_solids::{ChannelShape, Solid};
-use motile::motile_base::Vec2;
-use motile::motile_scene::Observer;
 use motile::prelude::*;
+use motile::scene::Observer;
 use motile::setup::{Material, SolidSetup};
 use motile_output::{ParaView, Raster, Snapshot, VtkFile, VtkSeries};
 use roxmltree::{Document, Node};

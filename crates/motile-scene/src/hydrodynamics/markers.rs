@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use crate::gap::SurfaceCurve;
 use motile_base::{InputError, Vec2, all_finite, positive, within};
-use stokes_layers::Interface;
 
 /// Kind of a group of markers, which decides how the flow treats it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,20 +92,6 @@ impl MarkerGroup {
     /// The curves of the surface that can carry layers: those of which markers trace all.
     pub fn layers(&self) -> impl Iterator<Item = &SurfaceCurve> {
         self.surfaces.iter().filter(|curve| curve.markers().count() == curve.points.len())
-    }
-
-    /// The group as an interface of layers, where the viscosity of the exterior fluid is `exterior`.
-    #[must_use]
-    pub fn interface<'a>(&self, positions: &'a [Vec2], forces: &'a [Vec2], exterior: f64) -> Interface<'a> {
-        let (positions, forces) = (&positions[self.range.clone()], &forces[self.range.clone()]);
-        let viscosities = self.viscosities(exterior);
-        match self.kind {
-            MarkerKind::Rigid => Interface::rigid(positions, forces, viscosities[1]),
-            kind => {
-                let period = Vec2::new(kind.advance().unwrap_or(0.0), 0.0);
-                Interface { period, ..Interface::closed(positions, forces, viscosities) }
-            }
-        }
     }
 
     /// Viscosities of the fluid inside and right outside of an interface (stress times time), where that of the
@@ -250,6 +235,11 @@ impl Markers {
     /// Positions, forces and velocities to be changed, at once.
     pub fn lists_mut(&mut self) -> [&mut [Vec2]; 3] {
         [&mut self.positions, &mut self.forces, &mut self.velocities]
+    }
+
+    /// Returns the groups, the positions (length), and the velocities (length per time) to be changed, at once.
+    pub fn groups_and_lists(&mut self) -> (&[MarkerGroup], &[Vec2], &mut [Vec2]) {
+        (&self.groups, &self.positions, &mut self.velocities)
     }
 
     /// The groups, one a body.

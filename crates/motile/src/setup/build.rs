@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
-use boundary_integral::{BoundaryIntegral, RevolutionIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
-use ib_core::{ImmersedBoundary, ImmersedLayers, SmearedContrast};
-use interior_fields::{GelInBox, ParticlesInDroplet};
+use ib_core::{ImmersedBoundary, SmearedContrast};
 use motile_base::{Region, Vec2, polygon, spectrum::is_product};
+use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
+use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
@@ -270,7 +270,7 @@ impl Setup {
         let settings = Settings { nodes, tolerance: self.tolerance.unwrap_or(usual.tolerance), ..usual };
         if self.region.is_of_revolution() {
             let perimeter = self.shortest_perimeter()?.unwrap_or(TAU);
-            return Ok(Box::new(RevolutionIntegral::new(self.region, self.viscosity, settings, perimeter)?));
+            return Ok(Box::new(AxisymmetricIntegral::new(self.region, self.viscosity, settings, perimeter)?));
         }
         let mut flow = BoundaryIntegral::new(self.region, self.viscosity, settings)?;
         if !self.walls.is_empty() {

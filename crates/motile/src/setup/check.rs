@@ -1,9 +1,9 @@
 //! Checks of descriptions before any work.
 
 use active_interface::Motion;
-use boundary_integral::Settings;
 use ib_core::AnyKernel;
 use motile_base::{Drive, Region, TubeShape};
+use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
 use super::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked};

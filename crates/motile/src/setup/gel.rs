@@ -1,8 +1,8 @@
 //! Descriptions of gels inside droplets.
 
 use active_interface::Motion;
-use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
 use motile_base::polygon::contains;
+use motile_interior::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ use crate::SetupError;
 /// the methods [`crate::setup::Method::Layers`] and [`crate::setup::Method::Grid`].
 ///
 /// ```
-/// use motile::interior_fields::GelMaterial;
+/// use motile::interior::GelMaterial;
 /// use motile::prelude::*;
 /// use motile::setup::GelSetup;
 ///
@@ -26,7 +26,7 @@ use crate::SetupError;
 ///     ..Setup::default()
 /// };
 /// let mut scene = setup.build()?.scene;
-/// let (gel, _) = scene.system().bodies::<motile::interior_fields::GelInDroplet>().next().ok_or("no gel")?;
+/// let (gel, _) = scene.system().bodies::<motile::interior::GelInDroplet>().next().ok_or("no gel")?;
 /// println!("{:.3}", scene.observe(gel)?.polarisation[0]); // 1.000
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,7 +1,7 @@
 //! Descriptions of gels that fill periodic boxes.
 
-use interior_fields::{DirectorStart, GelInBox, GelMaterial};
 use motile_base::{Region, Vec2};
+use motile_interior::{DirectorStart, GelInBox, GelMaterial};
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -16,7 +16,7 @@ use crate::SetupError;
 /// [`crate::setup::Method::Grid`]; its viscosity is that of the fluid.
 ///
 /// ```
-/// use motile::interior_fields::GelMaterial;
+/// use motile::interior::GelMaterial;
 /// use motile::prelude::*;
 /// use motile::setup::GelInBoxSetup;
 ///

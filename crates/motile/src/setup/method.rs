@@ -1,7 +1,7 @@
 //! Methods of computing the flow of a scene.
 
-use boundary_integral::Settings;
 use ib_core::AnyKernel;
+use motile_boundary_integrals::Settings;
 use serde::{Deserialize, Serialize};
 
 use super::checked::Checked;
@@ -25,10 +25,10 @@ pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_CELLS as f64];
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
-    /// Boundary integrals ([`boundary_integral`]): no grid, spectrally accurate.
+    /// Boundary integrals ([`motile_boundary_integrals`]): no grid, spectrally accurate.
     Integral(IntegralMethod),
     /// Interfaces and the surfaces of solids as layers, which are exact among each other, and the inner points of
-    /// solids on a grid ([`ib_core::ImmersedLayers`]). Without solids the same as boundary integrals.
+    /// solids on a grid ([`motile_boundary_integrals::ImmersedLayers`]). Without solids the same as boundary integrals.
     Layers(LayersMethod),
     /// The immersed boundary method on a grid ([`ib_core::ImmersedBoundary`], [`ib_core::SmearedContrast`]).
     Grid(GridMethod),

@@ -2,7 +2,7 @@ use active_interface::{Motion, polygon_moments};
 use motile_base::{Drive, Vec2};
 use motile_scene::{Body, Handle, Scene, StepSize};
 
-use interior_fields::{DirectorStart, GelInBox, GelMaterial};
+use motile_interior::{DirectorStart, GelInBox, GelMaterial};
 
 use super::*;
 use elastic_solids::{ChannelShape, Outline};
@@ -715,7 +715,7 @@ mod file {
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
         let start = DirectorStart::Uniform { angle: 0.3, noise: 0.2, seed: 9 };
         setup.droplets[2].gel =
-            Some(GelSetup { anchoring: interior_fields::Anchoring::Planar, start, ..GelSetup::default() });
+            Some(GelSetup { anchoring: motile_interior::Anchoring::Planar, start, ..GelSetup::default() });
         setup.droplets[3].gel = Some(GelSetup { start: DirectorStart::Aster, ..GelSetup::default() });
         setup.droplets[2..4].iter_mut().for_each(|droplet| droplet.motion = Motion::default());
         setup.solids.push(SolidSetup {

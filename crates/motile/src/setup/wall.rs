@@ -1,8 +1,8 @@
 //! Descriptions of rigid walls and obstacles.
 
-use boundary_integral::{RigidWall, Settings};
 use elastic_solids::{ChannelShape, Outline};
 use motile_base::{Region, Vec2};
+use motile_boundary_integrals::{RigidWall, Settings};
 use motile_scene::{Hydrodynamics, gap::Boundary};
 use serde::{Deserialize, Serialize};
 

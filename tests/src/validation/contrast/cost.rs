@@ -3,9 +3,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{RealFft2, Symbol};
 
 use super::{Droplet, layers, smeared};

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize};
 use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 
 use super::smeared;

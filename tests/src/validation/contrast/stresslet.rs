@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::observables::{Convention, observe};
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Hydrodynamics, Markers};
+use motile::base::Vec2;
+use motile::scene::{Hydrodynamics, Markers};
 
 use super::{Exact, layers};
 use crate::validation::StudyError;

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, PeriodicCalculus, Settings};
-use motile::motile_base::{Region, Vec2};
-use motile::motile_scene::{Scene, StepSize};
+use motile::base::{Region, Vec2};
+use motile::boundary_integrals::{BoundaryIntegral, PeriodicCalculus, Settings};
+use motile::scene::{Scene, StepSize};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};
 

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::{ActiveDroplet, polygon_moments};
-use motile::motile_base::Region;
-use motile::motile_base::Vec2;
-use motile::motile_scene::{Handle, Hydrodynamics, Scene, gap::Boundary};
+use motile::base::Region;
+use motile::base::Vec2;
+use motile::scene::{Handle, Hydrodynamics, Scene, gap::Boundary};
 use motile::setup::{AnyFlow, Built, DropletSetup, Setup};
 
 use crate::validation::StudyError;

@@ -1,7 +1,7 @@
 use super::*;
 use crate::drawing::raster::colours;
 use crate::{DropletOutline, InteriorField, Raster, Rgb, SolidShape};
-use motile::motile_base::FlowSample;
+use motile::base::FlowSample;
 
 const STILL: Format =
     Format { width: 1200.0, em: 21.0, per_cm: None, levels: 256, streamline_spacing: 1.0, follows: true };

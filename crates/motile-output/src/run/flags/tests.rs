@@ -1,5 +1,5 @@
 use super::*;
-use motile::motile_scene::StepSize;
+use motile::scene::StepSize;
 use motile::setup::{GridMethod, Method, Setup};
 
 #[test]

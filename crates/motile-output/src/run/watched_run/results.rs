@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::observables::{Convention, Observables, observe};
-use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+use motile::analysis::trajectory::{Evidence, RegimeCriteria};
 
 use super::WatchedRun;
 use crate::SolidMeter;

@@ -1,9 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use motile::motile_base::Drive;
-use motile::motile_base::Region;
-use motile::motile_scene::StepSize;
+use motile::base::Drive;
+use motile::base::Region;
+use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 
 fn directory(name: &str) -> PathBuf {

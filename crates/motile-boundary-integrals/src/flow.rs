@@ -1,0 +1,182 @@
+//! Hydrodynamics of a scene of interfaces by boundary integrals.
+
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, positive, told_apart};
+use motile_scene::{
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Warning,
+    checkpoint::SavedState, gap::Boundary,
+};
+use stokes_boundary_integrals::{InterfaceFlow, LayerError, Settings};
+
+use crate::{RigidWall, error::of_layers, interface_groups::InterfaceGroups};
+
+/// Angle by which a wall may turn within the distance of two nodes (radians): that of a right corner which is rounded
+/// over this distance. A sharp corner makes speeds beside it a per cent wrong at nodes 0.1 radii apart.
+const SHARPEST_TURN: f64 = 0.7;
+
+/// Stokes flow of closed interfaces and rigid bodies in the plane, a periodic box or a channel, without a grid:
+/// [`InterfaceFlow`], which has the equations, for the markers of bodies.
+///
+/// Every interface is a group of markers, [`MarkerKind::Interface`], [`MarkerKind::UnevenInterface`] or
+/// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers.
+/// Positions and forces are truncated to the modes that the nodes carry, and velocities have these modes alone. Points
+/// without forces ([`MarkerKind::Points`]) move with the flow.
+#[derive(Debug, Clone)]
+pub struct BoundaryIntegral {
+    interfaces: InterfaceGroups,
+    work: FlowWork,
+    walls: Boundary,
+    /// Largest angle by which a wall turns within the distance of two nodes (radians).
+    sharpest_turn: f64,
+}
+
+impl BoundaryIntegral {
+    /// A solver for exterior fluid of the given viscosity (stress times time).
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, or a region or settings out of their range.
+    pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        let interfaces = InterfaceGroups::new(InterfaceFlow::new(region, viscosity, settings)?);
+        Ok(Self { interfaces, work: FlowWork::default(), walls: Boundary::default(), sharpest_turn: 0.0 })
+    }
+
+    /// Sets the perimeter (length) of the smallest interface, which [`Hydrodynamics::fluid_view`] assumes before
+    /// the first evaluation; 2 pi by default.
+    ///
+    /// # Errors
+    /// A perimeter that is not positive and finite.
+    pub fn with_reference_perimeter(mut self, perimeter: f64) -> Result<Self, LayerError> {
+        positive("the reference perimeter", perimeter)?;
+        self.interfaces.set_reference_perimeter(perimeter);
+        Ok(self)
+    }
+
+    /// Adds rigid walls and obstacles at rest ([`InterfaceFlow::with_walls`]) to a channel wider than they are. Time
+    /// and memory grow with the third and second power of the number of their nodes.
+    ///
+    /// # Errors
+    /// Another region than a channel; more than 3000 nodes in all; walls beyond those of the channel; walls that cross
+    /// or touch.
+    pub fn with_walls(mut self, walls: &[RigidWall]) -> Result<Self, LayerError> {
+        self.interfaces.flow = self.interfaces.flow.with_walls(walls.iter().map(RigidWall::curve))?;
+        let mut boundary = Boundary::default();
+        walls.iter().for_each(|wall| wall.add_to(&mut boundary));
+        boundary.sort();
+        let sharpest_turn = walls.iter().map(RigidWall::sharpest_turn).fold(0.0, f64::max);
+        Ok(Self { walls: boundary, sharpest_turn, ..self })
+    }
+
+    /// Forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
+    pub fn wall_forces(&self) -> impl Iterator<Item = Vec2> {
+        self.interfaces.flow.wall_forces()
+    }
+
+    /// Region of the flow.
+    #[must_use]
+    pub fn region(&self) -> &Region {
+        self.interfaces.flow.region()
+    }
+
+    /// Resolution and accuracy.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        self.interfaces.flow.settings()
+    }
+
+    /// Refuses forces on points.
+    fn check(markers: &Markers) -> Result<(), FlowError> {
+        let forced = |group: &MarkerGroup| {
+            let forces = &markers.forces()[group.range.clone()];
+            group.kind == MarkerKind::Points && forces.iter().any(|force| *force != Vec2::ZERO)
+        };
+        if markers.groups().iter().any(forced) {
+            return Err(FlowError::Unsupported {
+                what: "force on points that do not belong to an interface",
+                remedy: "use layers or the immersed boundary method for scenes with solids or gels",
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Hydrodynamics for BoundaryIntegral {
+    /// A wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`. The stiffness is
+    /// `q/4` (1/length) with the largest q that the nodes carry on the shortest interface of the last evaluation;
+    /// before the first one with the reference perimeter.
+    fn fluid_view(&self) -> FluidView {
+        FluidView {
+            domain: Domain { periods: self.interfaces.flow.periods(), ..Domain::from(*self.region()) },
+            viscosity: self.interfaces.flow.viscosity(),
+            spacing: None,
+            second_order: true,
+            shape_modes: Some(self.settings().nodes),
+            interface_stiffness: self.interfaces.stiffness(),
+        }
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.region().drive()
+    }
+
+    fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
+        self.interfaces.flow.impose(flow, strain).map_err(of_layers)
+    }
+
+    fn imposed(&self) -> ImposedFlow {
+        self.interfaces.flow.imposed()
+    }
+
+    fn strain(&self) -> f64 {
+        self.interfaces.flow.strain()
+    }
+
+    fn walls(&self) -> Option<&Boundary> {
+        if self.walls.is_empty() { None } else { Some(&self.walls) }
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        if self.sharpest_turn <= SHARPEST_TURN {
+            return Vec::new();
+        }
+        let [turn, limit] = told_apart([self.sharpest_turn, SHARPEST_TURN]);
+        let message = format!(
+            "they turn by {turn} (radians) within the distance of two nodes, above {limit}: speeds beside such \
+             a corner are off by about a per cent at nodes 0.1 radii apart; give a rounding of 1.25 times the distance \
+             of the nodes, or more"
+        );
+        let (body, cause) = ("rigid walls".to_owned(), "corners not resolved".into());
+        vec![Warning { body, cause, excess: self.sharpest_turn / SHARPEST_TURN, message }]
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        Self::check(markers)?;
+        self.interfaces.velocities(markers, &mut self.work)
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        Self::check(markers)?;
+        self.interfaces.sample(markers, points, out)
+    }
+
+    fn work(&self) -> FlowWork {
+        self.work
+    }
+
+    fn save(&self) -> SavedState {
+        let (mut saved, strain) = (self.interfaces.save(), self.strain());
+        if strain != 0.0 {
+            saved.reals.push(strain);
+            saved.counts.push(1);
+        }
+        saved
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        let (reals, counts, strain) = match (saved.reals.as_slice(), saved.counts.as_slice()) {
+            ([reals @ .., strain], [counts @ .., 1]) if !counts.is_empty() => (reals, counts, *strain),
+            (reals, counts) => (reals, counts, 0.0),
+        };
+        self.interfaces.restore(reals, counts);
+        // A strain that is no number stays away.
+        let _ = self.interfaces.flow.impose(self.imposed(), strain);
+    }
+}

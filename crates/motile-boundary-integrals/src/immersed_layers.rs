@@ -1,0 +1,329 @@
+//! Interfaces and surfaces of solids as layers, the inner points of solids on a grid.
+
+mod contrast;
+mod curves;
+
+use motile_base::{Drive, Region, SolveReport, all_points_finite, same_length};
+use stokes_boundary_integrals::gmres::Outcome;
+use stokes_boundary_integrals::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver, sample_flow, sample_pressure};
+
+use crate::{
+    error::{of_grid, of_layers},
+    interface_groups::InterfaceGroups,
+};
+use contrast::LayerContrast;
+use curves::LayerCurves;
+use ib_core::{Kernel, Transfer, WALL_TOLERANCE, grid_domain};
+use motile_base::{FlowSample, Vec2};
+use motile_scene::{
+    FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState,
+};
+
+/// Velocities of markers where interfaces and the surfaces of solids are layers ([`SingleLayer`]), exact among each
+/// other at any distance, and the inner points of solids are coupled to them and to one another through a grid.
+///
+/// With L the layers' single layer, G the grid's solution, and S and J = S^T spreading and interpolation of layers (l)
+/// and of inner points (v),
+///
+/// ```text
+/// V_l = L F_l + J_l G S_v F_v
+/// V_v = J_v G (S_v F_v + S_l F_l)
+/// ```
+///
+/// The two mixed parts are transposes of each other, so that the whole is as symmetric as L. It is the mobility of the
+/// immersed boundary method and what regularisation takes from the layers, L - J_l G S_l, which is not negative: the
+/// whole takes energy in any state. Layers are spread and interpolated at nodes no more than a grid spacing apart,
+/// their Fourier series in between, so that the grid has the layers' long waves. The velocity of a surface is that of a
+/// flow without divergence through all of it, so that solids keep their volume, and nothing has to be corrected or set
+/// back beside them. Two solutions on the grid an evaluation.
+///
+/// Where there is neither a solid nor a force on a point, interfaces alone move the fluid: then the grid has no part in
+/// it, and all is as in boundary integrals ([`InterfaceFlow`]), at points too.
+///
+/// Groups of interfaces are layers, and of other groups the markers on their surfaces
+/// ([`motile_scene::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings
+/// apart: what lies closer to a surface is hardly seen by the grid beside it.
+#[derive(Debug, Clone)]
+pub struct ImmersedLayers<S, K> {
+    solver: S,
+    layer: SingleLayer,
+    curves: LayerCurves,
+    interfaces: InterfaceGroups,
+    contrast: LayerContrast,
+    /// For inner points and for grid nodes of layers.
+    inner: Transfer<K>,
+    nodes: Transfer<K>,
+    density: StaggeredField,
+    velocity: StaggeredField,
+    /// Of the inner points.
+    positions: Vec<Vec2>,
+    values: Vec<Vec2>,
+    /// Of all markers, where points lie in fluid of another viscosity.
+    scaled: Vec<Vec2>,
+    work: FlowWork,
+}
+
+impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
+    /// The method on the grid of `solver`, with that number of nodes of an interface and layers that are right to the
+    /// tolerance (without dimension).
+    ///
+    /// # Errors
+    /// Fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel whose middle is not at
+    /// y = 0.
+    pub fn new(solver: S, kernel: K, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
+        let grid = *solver.grid();
+        let [length, width] = grid.lengths();
+        let region = if grid.has_walls() {
+            if (grid.origin()[1] + 0.5 * width).abs() > 1e-9 * width {
+                return Err(FlowError::Unsupported {
+                    what: "a channel of layers whose middle is not at y = 0",
+                    remedy: "leave the origin of the grid as it is made",
+                });
+            }
+            // Where the grid has a part, the flow that is driven comes from there.
+            Region::Channel { length, width, drive: solver.drive() }
+        } else {
+            Region::Box { lengths: [length, width] }
+        };
+        let settings = Settings { nodes, tolerance, ..Settings::default() };
+        Ok(Self {
+            layer: SingleLayer::new(region, tolerance, Symmetry::ToRoundOff).map_err(of_layers)?,
+            interfaces: InterfaceGroups::new(
+                InterfaceFlow::new(region, solver.viscosity(), settings).map_err(of_layers)?,
+            ),
+            contrast: LayerContrast::new(nodes, tolerance)?,
+            curves: LayerCurves::new(length, grid.spacing(), nodes),
+            inner: Transfer::new(grid, kernel.clone()),
+            nodes: Transfer::new(grid, kernel),
+            density: StaggeredField::zeros(grid),
+            velocity: StaggeredField::zeros(grid),
+            positions: Vec::new(),
+            values: Vec::new(),
+            scaled: Vec::new(),
+            work: FlowWork::default(),
+            solver,
+        })
+    }
+
+    /// The grid.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        self.solver.grid()
+    }
+
+    fn solve(&mut self) -> Result<SolveReport, FlowError> {
+        let before = self.solver.work();
+        let report = self.solver.solve(&self.density, &mut self.velocity).map_err(of_grid)?;
+        let after = self.solver.work();
+        let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
+        self.work.stokes_solves += after.solves - before.solves;
+        self.work.transforms += transforms(after) - transforms(before);
+        Ok(report)
+    }
+
+    /// The flow on the grid of the forces on inner points alone, and what drives it.
+    fn solve_inner(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
+        if self.curves.inner.is_empty() && matches!(self.solver.drive(), Drive::ZeroGradient | Drive::ZeroFlux) {
+            self.density.fill(0.0);
+            self.velocity.fill(0.0);
+            return Ok(SolveReport::default());
+        }
+        self.values.clear();
+        self.values.extend(self.curves.inner.iter().map(|marker| forces[*marker]));
+        self.density.fill(0.0);
+        self.inner.spread(&self.values, &mut self.density).map_err(of_grid)?;
+        self.work.markers_spread += self.values.len();
+        self.solve()
+    }
+
+    /// The flow on the grid of all forces, after [`ImmersedLayers::solve_inner`].
+    fn solve_all(&mut self) -> Result<SolveReport, FlowError> {
+        let forces = &self.curves.grid[1];
+        self.nodes.spread(forces, &mut self.density).map_err(of_grid)?;
+        self.work.markers_spread += forces.len();
+        self.solve()
+    }
+
+    /// Refuses inner points too far beyond a wall; layers see to their own.
+    fn check_walls(&self, markers: &Markers) -> Result<(), FlowError> {
+        let grid = self.grid();
+        let (bottom, allowed) = (grid.origin()[1], WALL_TOLERANCE * grid.spacing());
+        let top = bottom + grid.lengths()[1];
+        for &marker in self.curves.inner.iter().filter(|_| grid.has_walls()) {
+            let Vec2 { x, y } = markers.positions()[marker];
+            let depth = (bottom - y).max(y - top);
+            if depth > allowed {
+                let body = markers.groups().iter().position(|group| group.range.contains(&marker)).unwrap_or(0);
+                let marker = marker - markers.groups()[body].range.start;
+                return Err(FlowError::BeyondWall { body, marker, x, y, depth, allowed });
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over positions and forces.
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        self.curves.load(markers)?;
+        self.check_walls(markers)?;
+        self.nodes.locate(&self.curves.grid[0]);
+        self.positions.clear();
+        self.positions.extend(self.curves.inner.iter().map(|marker| markers.positions()[*marker]));
+        self.inner.locate(&self.positions);
+        self.layer.load(self.curves.layers()).map_err(of_layers)?;
+        Ok(())
+    }
+
+    /// Velocities at the nodes of layers: viscosity times those of layers, and those of inner points on the grid.
+    fn solve_layers(&mut self, forces: &[Vec2]) -> Result<(), FlowError> {
+        let curves = &mut self.curves;
+        self.layer.apply(&curves.forces, &mut curves.velocities).map_err(of_layers)?;
+        self.solve_inner(forces)?;
+        let curves = &mut self.curves;
+        self.nodes.interpolate(&self.velocity, &mut curves.grid[2]).map_err(of_grid)?;
+        curves.add_grid(self.solver.viscosity())
+    }
+
+    /// True if forces are on interfaces alone and there are no solids.
+    fn is_of_interfaces(markers: &Markers) -> bool {
+        let at_rest =
+            |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().all(|force| *force == Vec2::ZERO);
+        let mut groups = markers.groups().iter();
+        groups.all(|group| group.kind.is_curve() || group.layers().next().is_none() && at_rest(group))
+    }
+
+    /// True if all fluid has one viscosity.
+    fn is_uniform(&self, markers: &Markers) -> bool {
+        let viscosity = self.solver.viscosity();
+        let same = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);
+        let uniform = |group: &MarkerGroup| group.kind != MarkerKind::Rigid && same(group);
+        markers.groups().iter().all(uniform)
+    }
+
+    /// The flow of layers and inner points at the nodes of layers, where viscosities differ with the forces on layers
+    /// that take their place.
+    fn solve_nodes(&mut self, markers: &Markers) -> Result<Outcome, FlowError> {
+        self.load(markers)?;
+        self.solve_layers(markers.forces())?;
+        if self.is_uniform(markers) {
+            return Ok(Outcome::default());
+        }
+        let (viscosity, entries) = (self.solver.viscosity(), self.curves.interface_entries());
+        self.interfaces.load(markers)?;
+        let flow = &mut self.interfaces.flow;
+        let Solution { iterations, residual, .. } = self.contrast.solve(flow, &self.curves.velocities[..entries])?;
+        let points = || markers.groups().iter().filter(|group| !group.kind.is_curve());
+        if points().any(|group| group.viscosity_outside.is_some_and(|outside| outside != viscosity)) {
+            let mut scaled = std::mem::take(&mut self.scaled);
+            scaled.clear();
+            scaled.extend_from_slice(markers.forces());
+            for group in points() {
+                let factor = viscosity / group.viscosity_outside.unwrap_or(viscosity);
+                scaled[group.range.clone()].iter_mut().for_each(|force| *force *= factor);
+            }
+            self.curves.load_forces(&scaled)?;
+            self.solve_layers(&scaled)?;
+            self.scaled = scaled;
+        }
+        let LayerCurves { forces, velocities, .. } = &mut self.curves;
+        let found = self.contrast.add_forces(&self.interfaces.flow, &mut self.layer, forces, velocities)?;
+        self.curves.refine_forces()?;
+        let iterations = iterations + found.iterations;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
+        Ok(Outcome { iterations, residual: residual.max(found.residual) })
+    }
+
+    /// Takes the pressure (force per length) from the interfaces' own layers and, on the grid, from all other forces.
+    fn sample_pressure(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        let mut others = markers.forces().to_vec();
+        for group in markers.groups().iter().filter(|group| group.kind.is_curve()) {
+            others[group.range.clone()].fill(Vec2::ZERO);
+        }
+        self.curves.load_forces(&others)?;
+        self.solve_inner(&others)?;
+        self.solve_all()?;
+        let pressure = self.pressure()?;
+        let mut own = vec![FlowSample::default(); points.len()];
+        self.interfaces.flow.sample(points, &mut own).map_err(of_layers)?;
+        for ((out, own), point) in out.iter_mut().zip(own).zip(points) {
+            out.pressure = own.pressure + sample_pressure(&pressure, *point);
+        }
+        Ok(())
+    }
+
+    fn pressure(&mut self) -> Result<CentreField, FlowError> {
+        let mut pressure = CentreField::zeros(*self.grid());
+        self.solver.pressure(&self.density, &self.velocity, &mut pressure).map_err(of_grid)?;
+        Ok(pressure)
+    }
+}
+
+impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> {
+    fn fluid_view(&self) -> FluidView {
+        let grid = self.grid();
+        FluidView {
+            domain: grid_domain(grid),
+            viscosity: self.solver.viscosity(),
+            spacing: Some(grid.spacing()),
+            second_order: true,
+            shape_modes: Some(self.interfaces.flow.settings().nodes),
+            interface_stiffness: self.interfaces.stiffness(),
+        }
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.grid().has_walls().then(|| self.solver.drive())
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
+        if Self::is_of_interfaces(markers) {
+            return self.interfaces.velocities(markers, &mut self.work);
+        }
+        let Outcome { iterations, residual } = self.solve_nodes(markers)?;
+        self.work.evaluations += 1;
+        self.interfaces.set_lengths(self.curves.interface_lengths());
+        self.interfaces.tell_dipoles(markers)?;
+        let viscosity = self.solver.viscosity();
+        self.curves.write(1.0 / viscosity, markers.velocities_mut())?;
+        let report = self.solve_all()?;
+        self.inner.interpolate(&self.velocity, &mut self.values).map_err(of_grid)?;
+        for (&marker, velocity) in self.curves.inner.iter().zip(&self.values) {
+            markers.velocities_mut()[marker] = *velocity;
+        }
+        Ok(SolveReport { iterations, residual, ..report })
+    }
+
+    /// Interpolates bilinearly between grid points; where viscosities differ the interfaces' pressure is that of their
+    /// layers. The flow of interfaces alone is exact anywhere.
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        same_length("the samples", points.len(), out.len())?;
+        if Self::is_of_interfaces(markers) {
+            return self.interfaces.sample(markers, points, out);
+        }
+        all_points_finite("the points to sample", points)?;
+        self.solve_nodes(markers)?;
+        self.solve_all()?;
+        let pressure = self.pressure()?;
+        sample_flow(&self.velocity, &pressure, points, out).map_err(of_grid)?;
+        if self.is_uniform(markers) { Ok(()) } else { self.sample_pressure(markers, points, out) }
+    }
+
+    fn work(&self) -> FlowWork {
+        self.work
+    }
+
+    fn save(&self) -> SavedState {
+        let [contrast, interfaces] = [self.contrast.save(), self.interfaces.save()];
+        let (reals, counts) = ([contrast.reals, interfaces.reals], [contrast.counts, interfaces.counts]);
+        SavedState { reals: reals.concat(), counts: counts.concat() }
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        let Some(reals) = self.contrast.restore(saved) else { return };
+        self.interfaces.restore(reals, &saved.counts[LayerContrast::LISTS..]);
+    }
+}
+
+#[cfg(test)]
+mod tests;

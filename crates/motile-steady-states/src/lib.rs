@@ -1,0 +1,93 @@
+//! Steady swimmers and drops in imposed flows, their stability and bifurcations, without a run.
+//!
+//! A swimmer's speed takes hundreds of time units to settle and a growth rate of 1e-4 takes thousands to show. Here the
+//! equations of the steady state are solved by Newton's method, and the eigenvalues of their derivative say whether it
+//! is stable:
+//!
+//! ```
+//! use motile::prelude::*;
+//! use motile_steady_states::{SteadyState, Symmetry};
+//!
+//! let method = Method::Integral(IntegralMethod { nodes: 72, cells: 288 });
+//! let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
+//! let setup = Setup { method, region, ..Setup::default() };
+//! let swimmer = SteadyState::find(&setup)?;
+//! println!("speed {:.6}, residual {:.0e}", swimmer.measured()?.speed, swimmer.residual()); // 0.137445, 1e-9
+//! assert!((swimmer.measured()?.speed - 0.137_444_855).abs() < 3e-6);
+//!
+//! let spectrum = swimmer.spectrum()?;
+//! let slowest = spectrum.leading().ok_or("no modes")?; // damped swings across the channel
+//! assert_eq!(slowest.symmetry, Symmetry::Antisymmetric);
+//! assert!(slowest.value.re < 0.0 && (slowest.value.im - 0.0336).abs() < 2e-4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Equations
+//!
+//! Those of Cowley (chapter 2), for a droplet in a frame that moves with the velocity V:
+//!
+//! ```text
+//! gamma = gamma0 - zeta_dmu c - Pi(c)                            (2.39)
+//! F     = d(gamma tau)/ds, the force on the fluid                (2.5)
+//! v     = Stokes flow of F in the region                         stokes_boundary_integrals::InterfaceFlow
+//! dx/dt = v - V  along the normal
+//! dc/dt = -d(c V_t)/ds + ... + D d^2c/ds^2                       (2.3)
+//! ```
+//!
+//! The shape is an offset h(a) along the normals of a fixed curve, the concentration a number of particles m(a) per
+//! parameter a. So the equations have no freedom of parametrisation, are smooth, and their eigenvalues are those of the
+//! droplet. Both fields are trigonometric polynomials on the nodes of the description, which crowd where the
+//! concentration is steep; errors fall faster than any power of their number, about a thousandfold from 64 to 128.
+//!
+//! Area and number of particles are conserved and rigid motions of the region change nothing, so the derivative is
+//! singular; bordered by these it is regular, and V comes out with the state. The derivative is taken by central
+//! differences (errors of 1e-9), with one solution of the flow a difference. A state that is its own mirror image is
+//! solved for among such states, and its eigenvalues come sorted by symmetry.
+//!
+//! In an imposed flow (`Setup::flow`) a droplet may be without particles: its state is the shape alone, and a drop that
+//! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are
+//! looked for among all.
+//!
+//! Particles that are exchanged with the inside count with those there: in a well-mixed inside are those that the
+//! interface lacks. A field inside that diffuses and is carried along is the steady one of the same flow, so that
+//! states are exact but their growth rates are not known.
+//!
+//! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
+//! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
+//! parameter; [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
+//! of `docs/steady-states.md` are computed with this crate.
+mod azimuthal;
+mod branch;
+mod continuation;
+mod critical;
+mod crossings;
+mod cycle;
+mod elimination;
+mod error;
+mod floquet;
+mod flow;
+mod inside;
+mod iteration;
+mod model;
+mod modes;
+mod newton;
+mod parameter;
+mod profile;
+mod revolution;
+mod settling;
+mod spectrum;
+mod state;
+mod system;
+
+pub use branch::{Branch, BranchEnd, BranchPoint, SpecialKind, SpecialPoint};
+pub use continuation::Continuation;
+pub use critical::Critical;
+pub use cycle::LimitCycle;
+pub use error::SteadyError;
+pub use floquet::Multipliers;
+/// Complex number: growth rate and angular frequency, or amplitude and phase.
+pub use num_complex::Complex64;
+pub use parameter::Parameter;
+pub use profile::Profile;
+pub use spectrum::{Eigenmode, ModeShape, Spectrum, Symmetry};
+pub use state::{Cost, Measured, SteadyState};

@@ -1,0 +1,497 @@
+//! Rates of change of a droplet as a function of its state.
+
+use std::f64::consts::{PI, TAU};
+
+use motile::active_interface::{ContractileTension, ExcludedVolume, Tension};
+use motile::base::{FlowSample, ImposedFlow, Region};
+use motile::setup::{DropletSetup, DropletShape, Method, Particles, RigidBodySetup, Setup};
+use motile_base::{PeriodicSeries, Vec2};
+use stokes_boundary_integrals::{Interface, Settings, TensionPlacement};
+
+use crate::flow::Flow;
+use crate::inside::{Inside, Wall};
+use crate::profile::analyse;
+use crate::revolution::Rings;
+use crate::{Profile, SteadyError};
+
+/// Relative accuracy to which the flow is solved for, near round-off, so that differences of rates keep their digits.
+pub(crate) const TOLERANCE: f64 = 1e-13;
+
+/// Capillary number below which the deformation is round-off.
+const LEAST_CAPILLARY: f64 = 1e-7;
+
+/// Velocity over D/R that counts as none: far above round-off, which the tension over D times the viscosity magnifies.
+const NO_FLOW: f64 = 1e-8;
+
+/// Base curve, by its points and outward unit normals: shapes are offsets from it along these.
+#[derive(Debug, Clone)]
+pub(crate) struct Base {
+    pub(crate) positions: Vec<Vec2>,
+    pub(crate) normals: Vec<Vec2>,
+}
+
+impl Base {
+    pub(crate) fn new(profile: &Profile) -> Result<Self, SteadyError> {
+        let normals = profile.tangents()?.iter().map(|t| outward(*t)).collect();
+        Ok(Self { positions: profile.positions.clone(), normals })
+    }
+
+    /// Points at offsets along the normals (length).
+    pub(crate) fn displaced(&self, offsets: &[f64]) -> impl Iterator<Item = Vec2> {
+        self.positions.iter().zip(&self.normals).zip(offsets).map(|((x, n), h)| *x + *h * *n)
+    }
+
+    /// Curve turned about the origin by an angle, then shifted.
+    pub(crate) fn moved(&self, shift: Vec2, angle: f64) -> Self {
+        let turn = Vec2::from_angle(angle);
+        Self {
+            positions: self.positions.iter().map(|x| turn.rotate(*x) + shift).collect(),
+            normals: self.normals.iter().map(|n| turn.rotate(*n)).collect(),
+        }
+    }
+}
+
+/// Unit normal to the right of a tangent, outward for a counter-clockwise curve.
+fn outward(tangent: Vec2) -> Vec2 {
+    -tangent.perp().normalize()
+}
+
+/// Motion of the frame of a droplet: velocity in x and y (length per time) and rate of turning about the origin
+/// (1/time), counter-clockwise.
+pub(crate) type FrameMotion = [f64; 3];
+
+/// Velocity of a point that moves with a frame (length per time).
+fn frame_velocity([ux, uy, turn]: FrameMotion, x: Vec2) -> Vec2 {
+    Vec2::new(ux, uy) + turn * x.perp()
+}
+
+/// Rigid disc inside a droplet, free of force and torque.
+#[derive(Debug)]
+struct Nucleus {
+    radius: f64,
+    centre: Vec2,
+    velocity: Vec2,
+    surface: Vec<Vec2>,
+}
+
+/// Droplet of a description at N nodes.
+///
+/// Its state is the offset h of the shape along the normals n0 of a base curve x0(a), a the parameter, and the number
+/// of particles per parameter, m. In a frame that moves with the velocity V
+///
+/// ```text
+/// x = x0 + h n0,   c = m/|x_a|,   F = d(gamma(c) tau)/ds
+/// dh/dt = (v - V).n/(n0.n),   q = (v - V - dh/dt n0).tau,   dm/dt = -d(q c - D dc/ds)/da
+/// ```
+///
+/// from Cowley (2.3), (2.5), (2.39) and an interface that moves with the fluid, on points that slide along fixed lines:
+/// q is the speed of the fluid past such a point. In three dimensions the curve is the meridian of a body of revolution
+/// about the x axis with its mirror image, m = c |x_a| all the same, and with the distance y from the axis
+///
+/// ```text
+/// dm/dt = -d(q c - D dc/ds)/da - (y_a (q c - D dc/ds) + m dy/dt)/y
+/// ```
+///
+/// Where particles are exchanged with the inside, dm/dt gains `(k_on b - k_off c) |x_a|`, b the density inside beside
+/// the interface: uniform, of the particles that the interface lacks, or the field that is steady with the flow and c
+/// ([`Inside`]).
+///
+/// The centres of rigid discs inside move with the fluid; their coordinates x stand after the offsets and y after the
+/// densities, and so do the rates of these.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) setup: Setup,
+    pub(crate) radius: f64,
+    pub(crate) concentration: f64,
+    pub(crate) viscosities: [f64; 2],
+    pub(crate) diffusion: f64,
+    /// Rate of change in units of which rates are small or large (1/time): D/R^2 with particles, without them that
+    /// at which the tension restores the circle or the imposed flow deforms it, whichever is faster.
+    rate: f64,
+    pub(crate) law: ContractileTension,
+    inside: Option<Inside>,
+    pub(crate) flow: Flow,
+    /// Quadrature over rings, in three dimensions.
+    rings: Option<Rings>,
+    series: PeriodicSeries,
+    pub(crate) positions: Vec<Vec2>,
+    tangents: Vec<Vec2>,
+    pub(crate) concentrations: Vec<f64>,
+    tensions: Vec<f64>,
+    pub(crate) forces: Vec<Vec2>,
+    pub(crate) velocities: Vec<Vec2>,
+    nuclei: Vec<Nucleus>,
+    /// Forces on the discs: none.
+    zeros: Vec<Vec2>,
+    /// dh/dt and dm/dt of the last rates, and the flux q c - D dc/ds.
+    offset_rates: Vec<f64>,
+    density_rates: Vec<f64>,
+    flux: Vec<f64>,
+}
+
+impl Model {
+    /// Model of a description, at an even number of nodes.
+    pub(crate) fn new(setup: &Setup) -> Result<Self, SteadyError> {
+        let refuse = |what: &str, remedy| Err(SteadyError::Unsupported { what: what.to_owned(), remedy });
+        setup.check()?;
+        let Method::Integral(method) = setup.method else {
+            return refuse("the scene is computed on a grid", "give the method of boundary integrals");
+        };
+        if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
+            return refuse(
+                "the scene has a shell or an interface that is periodic along x, whose points go on moving along it",
+                "run it until its deformation no longer changes (System::deformation)",
+            );
+        }
+        let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
+            return refuse("the scene is not of one droplet", "give one droplet");
+        };
+        if !setup.flow.is_none() && matches!(setup.region, Region::Box { .. }) {
+            return refuse("the images of a sheared box move for ever", "give the plane or a channel, or run it");
+        }
+        if !(setup.solids.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some() {
+            return refuse("the scene has solids, shaped walls or a repulsion", "leave them out");
+        }
+        if setup.region.half_length().is_some() {
+            return refuse("nothing is steady in a tube that is not straight", "give a straight one");
+        }
+        if *bending > 0.0 {
+            return refuse("the interface resists bending", "leave the bending out");
+        }
+        let disc = |body: &RigidBodySetup| match body.shape {
+            DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),
+            _ => None,
+        };
+        let Some(discs) = setup.rigid_bodies.iter().map(disc).collect::<Option<Vec<f64>>>() else {
+            return refuse("a rigid body is no disc or has a force or torque", "give a round one, free of both");
+        };
+        let (DropletShape::Round { radius } | DropletShape::Squeezed { radius, .. }) = *shape else {
+            return refuse("the droplet is neither round nor a squeezed circle", "give a round one");
+        };
+        let nodes = method.nodes - method.nodes % 2;
+        let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };
+        if setup.region.is_of_revolution() && !discs.is_empty() {
+            return refuse(
+                "a droplet of revolution has a rigid body inside",
+                "leave it out, or give a region of the plane",
+            );
+        }
+        let exchange = particles.and_then(|particles| particles.exchange);
+        if exchange.is_some_and(|exchange| exchange.diffusion_inside.is_some()) && !discs.is_empty() {
+            return refuse("particles diffuse around a rigid body inside", "leave out one of them");
+        }
+        let viscosities = [viscosity.unwrap_or(setup.viscosity), setup.viscosity];
+        let imposed = setup.flow.imposed(&setup.region)?;
+        let inside = particles.map_or(Ok(None), |particles| Inside::new(&particles, radius, nodes))?;
+        let (law, [diffusion, concentration, rate]) = match particles {
+            Some(particles) => {
+                let &Particles { diffusion, concentration, .. } = particles;
+                motile_base::positive("the diffusion constant", diffusion)?;
+                let at_rest = inside.as_ref().map_or(concentration, |inside| inside.at_rest);
+                (particles.law(*tension)?, [diffusion, at_rest, diffusion / (radius * radius)])
+            }
+            None => {
+                let relaxation = tension / ((viscosities[0] + viscosities[1]) * radius);
+                let rate = relaxation.max(imposed.rate());
+                motile_base::positive("the rate at which the droplet relaxes or is deformed", rate)?;
+                // The rate of strain, that of a Poiseuille flow a radius from its middle.
+                let [[along, up], [down, _]] = imposed.gradient;
+                let strain = along.abs().max((up + down).abs()).max(imposed.bend.abs() * radius);
+                let capillary = strain * setup.viscosity * radius / tension;
+                if capillary > 0.0 && capillary < LEAST_CAPILLARY {
+                    let what = format!("the capillary number is {capillary:.1e}");
+                    let remedy = "the deformation is lost in round-off: give at least 1e-7, or take D from the first \
+                                  order, once the capillary number in shear and twice in extension";
+                    return Err(SteadyError::Unsupported { what, remedy });
+                }
+                (ContractileTension::new(*tension, 0.0, ExcludedVolume::None)?, [0.0, 0.0, rate])
+            }
+        };
+        let mut flow = Flow::new(setup.region, setup.viscosity, settings)?;
+        flow.impose(imposed)?;
+        let nucleus =
+            |radius| Nucleus { radius, centre: Vec2::ZERO, velocity: Vec2::ZERO, surface: vec![Vec2::ZERO; nodes] };
+        Ok(Self {
+            setup: setup.clone(),
+            radius,
+            concentration,
+            viscosities,
+            diffusion,
+            rate,
+            law,
+            inside,
+            flow,
+            rings: setup.region.is_of_revolution().then(|| Rings::new(nodes)),
+            series: PeriodicSeries::new(nodes)?,
+            positions: vec![Vec2::ZERO; nodes],
+            tangents: vec![Vec2::ZERO; nodes],
+            concentrations: vec![0.0; nodes],
+            tensions: vec![0.0; nodes],
+            forces: vec![Vec2::ZERO; nodes],
+            velocities: vec![Vec2::ZERO; nodes],
+            offset_rates: vec![0.0; nodes + discs.len()],
+            density_rates: vec![0.0; nodes + discs.len()],
+            nuclei: discs.into_iter().map(nucleus).collect(),
+            zeros: vec![Vec2::ZERO; nodes],
+            flux: vec![0.0; nodes],
+        })
+    }
+
+    /// True where the flow of the loaded state is round-off.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let speed = self.rate * self.radius;
+        self.velocities.iter().all(|velocity| velocity.length() < NO_FLOW * speed)
+    }
+
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Number of rigid discs inside.
+    pub(crate) fn nuclei(&self) -> usize {
+        self.nuclei.len()
+    }
+
+    /// Weight of a node in an integral over the interface: of the parameter in the plane, of the parameter and the
+    /// azimuth in three dimensions (length).
+    pub(crate) fn weight(&self, node: usize) -> f64 {
+        let step = TAU / self.nodes() as f64;
+        self.rings.as_ref().map_or(step, |rings| rings.weights[node] * TAU * self.positions[node].y.abs())
+    }
+
+    /// Area (length squared) or volume (length cubed) of the droplet at rest, and the number of particles on it.
+    fn conserved(&self) -> [f64; 2] {
+        let radius = self.radius;
+        let [size, surface] = match self.rings {
+            None => [PI * radius * radius, TAU * radius],
+            Some(_) => [4.0 / 3.0 * PI * radius.powi(3), 4.0 * PI * radius * radius],
+        };
+        [size, surface * self.concentration]
+    }
+
+    /// Area or volume and number of particles that the loaded state lacks, over those of the droplet at rest.
+    pub(crate) fn lacks(&self) -> [f64; 2] {
+        let dimensions = if self.rings.is_some() { 3.0 } else { 2.0 };
+        let curve = self.positions.iter().zip(&self.tangents).enumerate();
+        let size: f64 = curve.map(|(k, (x, t))| x.perp_dot(*t) / dimensions * self.weight(k)).sum();
+        let [size_at_rest, number_at_rest] = self.conserved();
+        let all = self.inside.as_ref().map_or(number_at_rest, |inside| inside.total);
+        let lacking = || (all - self.number()) / number_at_rest - self.diffusing();
+        let particles = if self.keeps_number() { lacking() } else { 0.0 };
+        [1.0 - size / size_at_rest, particles]
+    }
+
+    /// Unit of rates: D/R^2 with particles (1/time).
+    pub(crate) fn rate_unit(&self) -> f64 {
+        self.rate
+    }
+
+    /// True where the number of particles is an equation of its own: that on the interface, or that of all where those
+    /// inside diffuse. In a well-mixed inside are those that the interface lacks.
+    pub(crate) fn keeps_number(&self) -> bool {
+        self.carries() && self.inside.as_ref().is_none_or(|inside| inside.field.is_some())
+    }
+
+    /// True where particles diffuse inside.
+    pub(crate) fn has_field(&self) -> bool {
+        self.inside.as_ref().is_some_and(|inside| inside.field.is_some())
+    }
+
+    /// Number of particles inside the state of the last rates and the rate at which they bind less that at which they
+    /// unbind (1/time); `None` without an exchange.
+    pub(crate) fn inside(&self) -> Option<(f64, f64)> {
+        let (inside, on) = (self.inside.as_ref()?, self.number());
+        let gains = (0..self.nodes()).map(|k| self.gain(inside, on, k) * self.weight(k));
+        Some((inside.number(on), gains.sum()))
+    }
+
+    /// Number of particles inside over that on the interface of the circle at rest, where they diffuse; else zero.
+    pub(crate) fn diffusing(&self) -> f64 {
+        let field = self.inside.as_ref().and_then(|inside| inside.field.as_ref());
+        field.map_or(0.0, |field| field.number / self.conserved()[1])
+    }
+
+    /// Number of particles on the loaded interface.
+    fn number(&self) -> f64 {
+        (0..self.nodes()).map(|k| self.concentrations[k] * self.tangents[k].length() * self.weight(k)).sum()
+    }
+
+    /// Rate at which the density m of a node grows by exchange (1/time), with so many particles on the interface.
+    fn gain(&self, inside: &Inside, on: f64, node: usize) -> f64 {
+        let bound = inside.exchange.binding() * inside.density(on, node);
+        (bound - inside.exchange.unbinding() * self.concentrations[node]) * self.tangents[node].length()
+    }
+
+    /// True with particles on the interface.
+    pub(crate) fn carries(&self) -> bool {
+        self.concentration > 0.0
+    }
+
+    /// Imposed flow, without what the drive of a channel drives.
+    pub(crate) fn imposed(&self) -> ImposedFlow {
+        self.flow.imposed()
+    }
+
+    /// True where the imposed flow is its own mirror image at the x axis.
+    pub(crate) fn is_mirror_symmetric(&self) -> bool {
+        let ImposedFlow { velocity: [_, v], gradient: [[_, uy], [vx, _]], .. } = self.imposed();
+        v == 0.0 && uy == 0.0 && vx == 0.0
+    }
+
+    pub(crate) fn in_plane(&self) -> bool {
+        self.setup.region == Region::Plane
+    }
+
+    pub(crate) fn in_channel(&self) -> bool {
+        matches!(self.setup.region, Region::Channel { .. })
+    }
+
+    /// True for bodies of revolution in three dimensions.
+    pub(crate) fn is_of_revolution(&self) -> bool {
+        self.rings.is_some()
+    }
+
+    /// Takes over a state and solves for its flow.
+    pub(crate) fn load(&mut self, base: &Base, offsets: &[f64], density: &[f64]) -> Result<(), SteadyError> {
+        self.positions.iter_mut().zip(base.displaced(offsets)).for_each(|(position, x)| *position = x);
+        self.series.analyse_vectors(&self.positions)?;
+        self.series.differentiate();
+        self.series.write_vectors(&mut self.tangents)?;
+        for ((c, m), tangent) in self.concentrations.iter_mut().zip(density).zip(&self.tangents) {
+            *c = m / tangent.length();
+        }
+        self.law.values(&self.concentrations, &mut self.tensions);
+        let Self { flow, positions, tensions, forces, .. } = self;
+        flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
+        if flow.approximate(positions, forces, &mut self.velocities)? {
+            return Ok(());
+        }
+        let viscosity = self.viscosities[0];
+        let viscosities = [viscosity, self.viscosities[1]];
+        for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
+            *centre = Vec2::new(offsets[positions.len() + k], density[positions.len() + k]);
+            let step = TAU / surface.len() as f64;
+            for (j, point) in surface.iter_mut().enumerate() {
+                *point = *centre + *radius * Vec2::from_angle(step * j as f64);
+            }
+        }
+        let discs = self.nuclei.iter().map(|disc| Interface::rigid(&disc.surface, &self.zeros, viscosity));
+        self.flow.solve(std::iter::once(Interface::closed(positions, forces, viscosities)).chain(discs))?;
+        for (k, nucleus) in self.nuclei.iter_mut().enumerate() {
+            nucleus.velocity = self.flow.rigid_velocity(1 + k);
+        }
+        Ok(self.flow.velocities(0, &mut self.velocities)?)
+    }
+
+    /// Takes the flow of all states for linear about the loaded one, until [`Model::release`], where that is quicker.
+    pub(crate) fn linearise(&mut self) -> Result<(), SteadyError> {
+        Ok(self.flow.linearise(&self.positions, &self.forces, &self.velocities)?)
+    }
+
+    pub(crate) fn release(&mut self) {
+        self.flow.release();
+    }
+
+    /// Force dipoles (force times length) of what keeps the discs rigid in the loaded state.
+    pub(crate) fn rigid_dipoles(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        (1..=self.nuclei()).filter_map(|disc| self.flow.rigid_dipole(disc))
+    }
+
+    /// Flow of the loaded state at points (length).
+    pub(crate) fn sample(&mut self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
+        let mut samples = vec![FlowSample::default(); points.len()];
+        self.flow.sample(points, &mut samples)?;
+        Ok(samples)
+    }
+
+    /// Derivatives of area or volume and of the number of particles, over those of the droplet at rest, by the offset
+    /// and by the density of each node.
+    pub(crate) fn conserved_gradients(&self, base: &Base) -> [(Vec<f64>, Vec<f64>); 2] {
+        let [size, number] = self.conserved();
+        let gradients = (0..self.nodes()).map(|k| {
+            let (weight, n0) = (self.weight(k), base.normals[k]);
+            let density = self.concentrations[k] * self.tangents[k].length();
+            let by_radius = self
+                .rings
+                .as_ref()
+                .map_or(0.0, |rings| rings.weights[k] * TAU * n0.y * self.positions[k].y.signum() * density / number);
+            ((-self.tangents[k].perp()).dot(n0) * weight / size, (by_radius, weight / number))
+        });
+        let (by_offset, of_number): (Vec<f64>, (Vec<f64>, Vec<f64>)) = gradients.unzip();
+        [(by_offset, vec![0.0; self.nodes()]), of_number]
+    }
+
+    /// dh/dt and dm/dt of the loaded state in a moving frame.
+    pub(crate) fn rates(&mut self, base: &Base, frame: FrameMotion) -> Result<(&[f64], &[f64]), SteadyError> {
+        let velocities = std::mem::take(&mut self.velocities);
+        self.transport(base, |k, x| velocities[k] - frame_velocity(frame, x));
+        self.velocities = velocities;
+        self.carry(|nucleus| nucleus.velocity - frame_velocity(frame, nucleus.centre));
+        analyse(&mut self.series, self.concentrations.iter())?;
+        self.series.differentiate();
+        for ((flux, slope), tangent) in self.flux.iter_mut().zip(self.series.values()).zip(&self.tangents) {
+            *flux -= self.diffusion * slope.re / tangent.length();
+        }
+        self.divergence(base)?;
+        self.exchange(frame)?;
+        Ok((&self.offset_rates, &self.density_rates))
+    }
+
+    /// Adds the exchange with the inside to dm/dt.
+    fn exchange(&mut self, frame: FrameMotion) -> Result<(), SteadyError> {
+        let on = self.number();
+        let Self { inside, flow, positions, tangents, concentrations, .. } = self;
+        if let Some(field) = inside.as_mut().and_then(|inside| inside.field.as_mut()) {
+            field.solve(Wall { positions, tangents, concentrations }, flow, |x| frame_velocity(frame, x))?;
+        }
+        let Some(inside) = &self.inside else { return Ok(()) };
+        let gains: Vec<f64> = (0..self.nodes()).map(|node| self.gain(inside, on, node)).collect();
+        self.density_rates.iter_mut().zip(gains).for_each(|(rate, gain)| *rate += gain);
+        Ok(())
+    }
+
+    /// dh/dt and dm/dt that a rigid motion alone causes.
+    pub(crate) fn rigid_rates(&mut self, base: &Base, motion: FrameMotion) -> Result<(&[f64], &[f64]), SteadyError> {
+        self.transport(base, |_, x| frame_velocity(motion, x));
+        self.carry(|nucleus| frame_velocity(motion, nucleus.centre));
+        self.divergence(base)
+    }
+
+    /// dh/dt and the flux q c of a velocity.
+    fn transport(&mut self, base: &Base, velocity: impl Fn(usize, Vec2) -> Vec2) {
+        for (k, tangent) in self.tangents.iter().enumerate() {
+            let (n0, n) = (base.normals[k], -tangent.perp());
+            let w = velocity(k, self.positions[k]);
+            let rate = w.dot(n) / n0.dot(n);
+            self.offset_rates[k] = rate;
+            self.flux[k] = (w - rate * n0).dot(tangent.normalize()) * self.concentrations[k];
+        }
+    }
+
+    /// Velocities of the discs as rates.
+    fn carry(&mut self, velocity: impl Fn(&Nucleus) -> Vec2) {
+        let nodes = self.nodes();
+        for (k, nucleus) in self.nuclei.iter().enumerate() {
+            let Vec2 { x, y } = velocity(nucleus);
+            (self.offset_rates[nodes + k], self.density_rates[nodes + k]) = (x, y);
+        }
+    }
+
+    /// dm/dt as the divergence of the flux; returns both rates.
+    fn divergence(&mut self, base: &Base) -> Result<(&[f64], &[f64]), SteadyError> {
+        if let Some(rings) = &self.rings {
+            let densities = self.concentrations.iter().zip(&self.tangents).map(|(c, t)| c * t.length());
+            let widening = self.offset_rates.iter().zip(&base.normals).map(|(rate, n0)| rate * n0.y);
+            let nodes = self.positions.iter().zip(&self.tangents);
+            rings.divergence(&mut self.series, nodes, densities.zip(widening), &self.flux, &mut self.density_rates)?;
+        } else {
+            analyse(&mut self.series, self.flux.iter())?;
+            self.series.differentiate();
+            for (rate, value) in self.density_rates.iter_mut().zip(self.series.values()) {
+                *rate = -value.re;
+            }
+        }
+        Ok((&self.offset_rates, &self.density_rates))
+    }
+}

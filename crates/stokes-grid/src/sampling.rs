@@ -1,0 +1,88 @@
+//! Values of grid fields between grid points.
+
+use motile_base::{FlowSample, Vec2, all_points_finite, same_length};
+
+use crate::{CentreField, Grid, StaggeredField, StokesError};
+
+/// A field on a shifted lattice of a grid, continued beyond walls by symmetry.
+struct Lattice<'a> {
+    values: &'a [f64],
+    grid: &'a Grid,
+    /// Position of entry (0, 0) in cells from the grid's lower left corner.
+    shift: [f64; 2],
+    /// Sign of the continuation beyond a wall.
+    parity: f64,
+}
+
+impl<'a> Lattice<'a> {
+    /// The components of a velocity.
+    fn of_velocity(velocity: &'a StaggeredField) -> [Self; 2] {
+        let lattice = |values, shift| Lattice { values, grid: velocity.grid(), shift, parity: -1.0 };
+        [lattice(velocity.x(), [0.0, 0.5]), lattice(velocity.y(), [0.5, 0.0])]
+    }
+
+    fn value(&self, column: i64, row: i64) -> f64 {
+        let (nx, ny) = (self.grid.nx() as i64, self.grid.ny() as i64);
+        let (row, sign) = if self.grid.has_walls() {
+            let row = row.rem_euclid(2 * ny);
+            // About rows of nodes or between rows of cells.
+            let mirrored = 2 * ny - i64::from(self.shift[1] != 0.0) - row;
+            if row <= mirrored { (row, 1.0) } else { (mirrored, self.parity) }
+        } else {
+            (row.rem_euclid(ny), 1.0)
+        };
+        sign * self.values[(row * nx + column.rem_euclid(nx)) as usize]
+    }
+
+    /// The entry below and to the left of a point, and how far beyond it the point is, in cells.
+    fn cell(&self, point: Vec2) -> ([i64; 2], [f64; 2]) {
+        let (h, origin) = (self.grid.spacing(), self.grid.origin());
+        let place = [0, 1].map(|k| (point[k] - origin[k]) / h - self.shift[k]);
+        let first = place.map(f64::floor);
+        (first.map(|entry| entry as i64), [place[0] - first[0], place[1] - first[1]])
+    }
+
+    /// Value and gradient at a point by bilinear interpolation.
+    fn bilinear(&self, point: Vec2) -> (f64, [f64; 2]) {
+        let ([i, j], [s, t]) = self.cell(point);
+        let [a, b, c, d] = [self.value(i, j), self.value(i + 1, j), self.value(i, j + 1), self.value(i + 1, j + 1)];
+        let value = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
+        let gradient = [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)];
+        (value, gradient.map(|step| step / self.grid.spacing()))
+    }
+}
+
+/// Returns the pressure (force per length) at a point (length), bilinear between the centres of grid cells.
+///
+/// The point may lie anywhere: a periodic field repeats, and beyond a wall the pressure continues symmetrically. A
+/// coordinate that is not finite gives a meaningless value.
+#[must_use]
+pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
+    Lattice { values: pressure.values(), grid: pressure.grid(), shift: [0.5; 2], parity: 1.0 }.bilinear(point).0
+}
+
+/// Fills `out` with the flow at `points` (length): velocity (length per time) and pressure (force per length), bilinear
+/// between grid points, and the gradient of this velocity (1/time).
+///
+/// Errors are of second order in the spacing where the flow is smooth. Beyond a wall the velocity continues
+/// antisymmetrically, so that it vanishes on a wall at rest.
+///
+/// # Errors
+/// Returns [`StokesError::Input`] if the numbers of samples and points differ or a point is not finite, and
+/// [`StokesError::GridMismatch`] if the fields belong to two grids.
+pub fn sample_flow(
+    velocity: &StaggeredField,
+    pressure: &CentreField,
+    points: &[Vec2],
+    out: &mut [FlowSample],
+) -> Result<(), StokesError> {
+    same_length("the samples", points.len(), out.len())?;
+    all_points_finite("the points to sample", points)?;
+    velocity.grid().check([("the pressure", pressure.grid())])?;
+    for (&point, out) in points.iter().zip(out) {
+        let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity).map(|component| component.bilinear(point));
+        let velocity = Vec2::new(ux, uy);
+        *out = FlowSample { velocity, pressure: sample_pressure(pressure, point), gradient: [du, dv] };
+    }
+    Ok(())
+}
