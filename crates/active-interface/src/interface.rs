@@ -354,7 +354,9 @@ impl ActiveInterface {
         diffusivities.resize(count, 0.0);
         diffusivities.fill(self.law.diffusion);
         stabiliser.clear();
-        if transport.is_none() || !(self.law.stabilised && stabilised) {
+        // In a flow that does not respond to forces, there is nothing to stabilise.
+        let responds = view.interface_stiffness > 0.0;
+        if transport.is_none() || !(self.law.stabilised && stabilised && responds) {
             return Ok(());
         }
         stabiliser.resize(count, 0.0);

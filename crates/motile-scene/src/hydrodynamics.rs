@@ -4,11 +4,13 @@ mod body_flow;
 #[cfg(test)]
 pub(crate) mod drag_box;
 mod markers;
+mod prescribed_flow;
 mod substrate;
 
 pub(crate) use body_flow::Everything;
 pub use body_flow::{BodyFlow, Enclosed};
 pub use markers::{MarkerGroup, MarkerKind, Markers};
+pub use prescribed_flow::PrescribedFlow;
 pub use substrate::Substrate;
 
 use std::borrow::Cow;

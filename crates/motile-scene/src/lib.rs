@@ -43,7 +43,8 @@ mod threads;
 pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{
-    BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Substrate,
+    BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,
+    Substrate,
 };
 pub use observables::{Deformation, Stress};
 pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

@@ -1,6 +1,6 @@
 //! Scalars and vectors on a staggered grid.
 
-use motile_base::same_length;
+use motile_base::{Vec2, same_length};
 
 use crate::{Grid, StokesError};
 
@@ -77,6 +77,20 @@ impl StaggeredField {
     pub fn zeros(grid: Grid) -> Self {
         let (x, y) = (vec![0.0; grid.nx() * grid.centre_rows()], vec![0.0; grid.nx() * grid.node_rows()]);
         Self { grid, x, y }
+    }
+
+    /// Returns a field with the components of a vector function of the place (length), each where it belongs on the
+    /// grid. Places are measured from the grid's origin of coordinates.
+    #[must_use]
+    pub fn from_fn(grid: Grid, function: impl Fn(Vec2) -> Vec2) -> Self {
+        let (mut field, [x0, y0], h) = (Self::zeros(grid), grid.origin(), grid.spacing());
+        let place = |index: usize, shift: [f64; 2]| {
+            let (i, j) = ((index % grid.nx()) as f64, (index / grid.nx()) as f64);
+            Vec2::new(x0 + (i + shift[0]) * h, y0 + (j + shift[1]) * h)
+        };
+        field.x.iter_mut().enumerate().for_each(|(k, value)| *value = function(place(k, [0.0, 0.5])).x);
+        field.y.iter_mut().enumerate().for_each(|(k, value)| *value = function(place(k, [0.5, 0.0])).y);
+        field
     }
 
     /// A field of these components, each row after row.

@@ -253,11 +253,15 @@ impl Body for Solid {
     /// move together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
-        let coarseness = view.spacing.map_or(0.0, |spacing| self.spacing / spacing);
+        // The fluid of a grid resists changes of area that it resolves. Without a grid, nothing says that it does.
+        let bulk = view.spacing.map_or(moduli.bulk(), |spacing| {
+            let coarseness = self.spacing / spacing;
+            BULK_SHARE * moduli.bulk() * coarseness * coarseness
+        });
         let skin = self.skin.as_ref().map_or(0.0, Skin::stiffness);
         let relaxing = self.relaxation.as_ref().map_or(0.0, Relaxation::stiffest);
         let active = self.bonds.as_ref().map_or(0.0, |bonds| bonds.stiffness(self.spacing));
-        let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin + relaxing + active;
+        let elastic = moduli.shear() + bulk + skin + relaxing + active;
         if let Some(bonds) = &self.bonds {
             let dt = bonds.resolved_step();
             limits(StepLimit { dt, reason: "the rates of the active springs", cause: StepCause::Accuracy });

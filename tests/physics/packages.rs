@@ -1,0 +1,34 @@
+//! What each of the four crates builds: the number of packages behind it, and packages that it does without.
+
+use std::{collections::BTreeSet, path::Path, process::Command};
+
+/// Crate, number of packages that `cargo tree` lists for it (its own included), and packages that are not among them.
+const CRATES: [(&str, usize, &[&str]); 4] = [
+    ("stokes-grid", 28, &["nalgebra", "motile-scene"]),
+    ("ib-core", 33, &["nalgebra", "stokes-boundary-integrals"]),
+    ("active-interface", 32, &["nalgebra", "stokes-grid", "stokes-boundary-integrals"]),
+    ("elastic-solids", 39, &["nalgebra", "stokes-grid", "stokes-boundary-integrals"]),
+];
+
+/// Returns the names of the packages that a crate of the workspace builds.
+fn packages(name: &str) -> BTreeSet<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let flags = ["tree", "--offline", "--package", name, "--edges", "normal", "--prefix", "none", "--no-dedupe"];
+    let target = ["--target", "x86_64-unknown-linux-gnu"];
+    let output = Command::new(env!("CARGO")).args(flags).args(target).current_dir(root).output().expect("cargo runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "cargo tree failed: {errors}");
+    let lines = String::from_utf8(output.stdout).expect("text");
+    lines.lines().filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn each_crate_builds_no_more_than_it_uses() {
+    for (name, count, without) in CRATES {
+        let found = packages(name);
+        assert_eq!(found.len(), count, "{name} builds {found:?}");
+        for package in without {
+            assert!(!found.contains(*package), "{name} builds {package}");
+        }
+    }
+}
