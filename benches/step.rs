@@ -67,7 +67,7 @@ fn scenes(c: &mut Criterion) {
     let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
     measure(c, "elastic channel", &Setup { solids, ..setup }, cells);
     for nodes in [24, 64] {
-        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
         let integrals = Setup { method, ..Setup::default() };
         measure(c, &format!("{nodes} nodes"), &integrals, [120, 120]);
         measure(c, &format!("{nodes} nodes, ratio 100"), &viscous(&integrals), [120, 120]);

@@ -128,7 +128,7 @@ impl Flags {
         let flags = &self.scene;
         ensure!(
             flags.method.method.is_none_or(|kind| kind == MethodKind::Integral),
-            "rigid walls of any shape have no grid: leave --method out or give boundary-integral"
+            "rigid walls of any shape have no grid: leave --method out or give integral"
         );
         let (amplitude, width) = (self.amplitude(), flags.region.width);
         ensure!(

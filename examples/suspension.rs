@@ -28,7 +28,9 @@ use motile::setup::{
 };
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
 use motile_output::run::{Job, OutputFlags, Summary};
-use motile_output::suspension::{Crowd, CrowdColour, CrowdFilm, SuspensionCsv, suspension_plots};
+use motile_output::suspension::{
+    SuspensionAnimation, SuspensionColour, SuspensionCsv, SuspensionPicture, suspension_plots,
+};
 use motile_output::{CsvTable, ParaView, Raster};
 
 /// Region of the suspension.
@@ -49,7 +51,7 @@ enum Colour {
     Concentration,
 }
 
-impl From<Colour> for CrowdColour {
+impl From<Colour> for SuspensionColour {
     fn from(colour: Colour) -> Self {
         match colour {
             Colour::Heading => Self::Heading,
@@ -150,7 +152,7 @@ fn simulate(flags: &Flags) -> Result<()> {
     // The run, observed.
     let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "suspension")?;
     let mut tables = SuspensionCsv::create(&job.directory, scene.system_mut(), flags.contact)?;
-    let mut film = CrowdFilm::new(flags.colour.into(), FILM);
+    let mut film = SuspensionAnimation::new(flags.colour.into(), FILM);
     let mut observers: Vec<motile_output::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut tables)];
     if job.draws() {
         observers.push((Every::StepAfter(job.end / FRAMES), &mut film));
@@ -221,7 +223,7 @@ fn simulate(flags: &Flags) -> Result<()> {
     let [picture, animation] = ["final.png", "swim.gif"].map(|name| job.directory.join(name));
     job.finish(&summary, || {
         if draws {
-            Crowd::take(scene.system_mut())?.write_picture(flags.colour.into(), PICTURE, picture)?;
+            SuspensionPicture::take(scene.system_mut())?.write_picture(flags.colour.into(), PICTURE, picture)?;
             film.write(animation)?;
             suspension_plots(&tables, half, &pairs)?.write(&directory, "observables")?;
         }

@@ -7,7 +7,7 @@ use anyhow::{Result, bail, ensure};
 use clap::Args;
 use motile::base::Drive;
 use motile::base::Region;
-use motile::setup::{Built, DropletSetup, Exclusion, Setup, Start};
+use motile::setup::{Built, DropletSetup, ExcludedVolume, Setup, Start};
 use motile_output::run::{OutputFlags, View, WatchedRun};
 
 use crate::MethodFlags;
@@ -92,7 +92,7 @@ impl DropletFlags {
         *angle = self.angle.map_or(*angle, f64::to_radians);
         if let Some(particles) = particles {
             particles.activity = self.activity.unwrap_or(particles.activity);
-            particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, Exclusion::Step);
+            particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, ExcludedVolume::Step);
             particles.start = self.initial.unwrap_or(particles.start);
             match (&mut particles.start, self.seed) {
                 (Start::Perturbed { seed, .. }, Some(given)) => *seed = given,

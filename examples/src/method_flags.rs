@@ -9,7 +9,7 @@ use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
-use crate::parse::{cells, kernel, nodes, one_of, pair, positive, time_step};
+use crate::parse::{elements, kernel, nodes, one_of, pair, positive, time_step};
 
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -64,8 +64,8 @@ pub struct MethodFlags {
     #[arg(long, value_parser = nodes, allow_hyphen_values = true)]
     pub nodes: Option<usize>,
     /// Cells of the concentration without a grid or among layers [default: 288]
-    #[arg(long, value_parser = cells, allow_hyphen_values = true)]
-    pub concentration_cells: Option<usize>,
+    #[arg(long, value_parser = elements, allow_hyphen_values = true)]
+    pub elements: Option<usize>,
     /// Strength and range of a short-range repulsion between interfaces, solids and walls; without it there is none
     #[arg(long, value_name = "STRENGTH,RANGE", value_parser = pair, allow_hyphen_values = true)]
     pub repulsion: Option<[f64; 2]>,
@@ -85,7 +85,7 @@ impl MethodFlags {
     /// entries.
     ///
     /// # Errors
-    /// A flag that the method has no use for; fewer cells than nodes; a time step longer than the run.
+    /// A flag that the method has no use for; fewer elements than nodes; a time step longer than the run.
     pub fn setup(&self, droplet: &DropletFlags, file: Option<Setup>) -> Result<Setup> {
         let mut setup = file.unwrap_or_else(|| match self.preset {
             Preset::Thesis => Setup::thesis(),
@@ -116,7 +116,7 @@ impl MethodFlags {
         let corrected = matches!(setup.method, Method::Grid(GridMethod { corrected: true, .. }));
         ensure!(
             !(differs && corrected),
-            "--method immersed-boundary smears another viscosity inside over the grid: give --method layers, or \
+            "--method grid smears another viscosity inside over the grid: give --method layers, or \
              --preset thesis"
         );
         Ok(setup)
@@ -126,7 +126,7 @@ impl MethodFlags {
     /// if a flag is given that only a grid has a use for, without a grid if one of the nodes is, and as `base`
     /// otherwise.
     fn kind(&self, base: MethodKind) -> MethodKind {
-        let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();
+        let for_nodes = self.nodes.is_some() || self.elements.is_some();
         let for_grid = self.spacing.is_some() || self.kernel.is_some();
         match self.method {
             Some(kind) => kind,
@@ -139,28 +139,22 @@ impl MethodFlags {
     }
 
     fn grid(&self, base: GridMethod) -> Result<GridMethod> {
-        for (flag, value) in [("nodes", self.nodes), ("concentration-cells", self.concentration_cells)] {
-            ensure!(
-                value.is_none(),
-                "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
-            );
+        for (flag, value) in [("nodes", self.nodes), ("elements", self.elements)] {
+            ensure!(value.is_none(), "--{flag} means nothing on a grid: leave it out or give --method integral");
         }
         Ok(GridMethod { spacing: self.grid_spacing(base.spacing)?, kernel: self.kernel.unwrap_or(base.kernel), ..base })
     }
 
     fn layers(&self, base: LayersMethod) -> Result<LayersMethod> {
-        let [nodes, cells] = self.resolution([base.nodes, base.cells], 0)?;
+        let [nodes, elements] = self.resolution([base.nodes, base.elements], 0)?;
         let spacing = self.grid_spacing(base.spacing)?;
-        Ok(LayersMethod { nodes, cells, spacing, kernel: self.kernel.unwrap_or(base.kernel) })
+        Ok(LayersMethod { nodes, elements, spacing, kernel: self.kernel.unwrap_or(base.kernel) })
     }
 
     fn integral(&self, base: IntegralMethod) -> Result<IntegralMethod> {
-        ensure!(
-            self.kernel.is_none(),
-            "--kernel means nothing without a grid: leave it out or give --method immersed-boundary"
-        );
-        let [nodes, cells] = self.resolution([base.nodes, base.cells], base.cells)?;
-        Ok(IntegralMethod { nodes, cells })
+        ensure!(self.kernel.is_none(), "--kernel means nothing without a grid: leave it out or give --method grid");
+        let [nodes, elements] = self.resolution([base.nodes, base.elements], base.elements)?;
+        Ok(IntegralMethod { nodes, elements })
     }
 
     fn grid_spacing(&self, base: f64) -> Result<f64> {
@@ -170,15 +164,12 @@ impl MethodFlags {
         Ok(spacing)
     }
 
-    /// Nodes and cells; where nodes are given four cells a node, and no fewer than `least`.
-    fn resolution(&self, [nodes, cells]: [usize; 2], least: usize) -> Result<[usize; 2]> {
-        let cells = self.nodes.map_or(cells, |nodes| least.max(4 * nodes));
-        let (nodes, cells) = (self.nodes.unwrap_or(nodes), self.concentration_cells.unwrap_or(cells));
-        ensure!(
-            cells >= nodes,
-            "--concentration-cells {cells} are fewer than the {nodes} nodes: give at least as many"
-        );
-        Ok([nodes, cells])
+    /// Nodes and elements; where nodes are given four elements a node, and no fewer than `least`.
+    fn resolution(&self, [nodes, elements]: [usize; 2], least: usize) -> Result<[usize; 2]> {
+        let elements = self.nodes.map_or(elements, |nodes| least.max(4 * nodes));
+        let (nodes, elements) = (self.nodes.unwrap_or(nodes), self.elements.unwrap_or(elements));
+        ensure!(elements >= nodes, "--elements {elements} are fewer than the {nodes} nodes: give at least as many");
+        Ok([nodes, elements])
     }
 
     /// The spacing (R0) of the grid, or of pictures where there is none.

@@ -80,12 +80,12 @@ pub(crate) fn nodes(text: &str) -> Result<usize, String> {
     whole(text, least..=most)
 }
 
-/// A number of cells of the concentration.
+/// A number of elements of the concentration.
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub(crate) fn cells(text: &str) -> Result<usize, String> {
-    whole(text, IntegralMethod::NODES[0]..=IntegralMethod::MOST_CELLS)
+pub(crate) fn elements(text: &str) -> Result<usize, String> {
+    whole(text, IntegralMethod::NODES[0]..=IntegralMethod::MOST_ELEMENTS)
 }
 
 /// A number from zero to a million.

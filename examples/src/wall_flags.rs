@@ -5,7 +5,9 @@ use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
-use motile::setup::{Axis, Grading, LayersMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup};
+use motile::setup::{
+    Axis, Grading, LayersMethod, MeshKind, Method, MethodKind, Setup, SolidSetup, SurfaceElasticitySetup,
+};
 
 use crate::parse::{one_of, pair, positive};
 use crate::{AlongFlags, Preset, RegionFlags, SceneFlags};
@@ -57,15 +59,16 @@ pub struct ElasticFlags {
     #[arg(long, value_parser = one_of(&MESHES))]
     pub mesh: Option<MeshKind>,
     /// Spacing of the points of the walls (R0); without it twice that of the grid, and that of the grid with --method
-    /// immersed-boundary
+    /// grid
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub mesh_spacing: Option<f64>,
     /// Thickness of each wall (R0)
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
-    /// Moduli of stretching (force) and bending (force times R0^2) of a skin on the walls; without it there is none
+    /// Moduli of stretching (force) and bending (force times R0^2) that resist deformation of the surfaces of the
+    /// walls; without them, only the walls' material does
     #[arg(long, value_name = "STRETCHING,BENDING", value_parser = pair, allow_hyphen_values = true)]
-    pub skin: Option<[f64; 2]>,
+    pub surface_elasticity: Option<[f64; 2]>,
     /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
     #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
@@ -82,10 +85,7 @@ impl SceneFlags<ElasticFlags> {
     /// than the run.
     pub fn setup(&self, shape: &ChannelShape, x: f64) -> Result<Setup> {
         let Self { droplet, region: walls, method, .. } = self;
-        ensure!(
-            method.method != Some(MethodKind::Integral),
-            "elastic walls need a grid: leave --method boundary-integral out"
-        );
+        ensure!(method.method != Some(MethodKind::Integral), "elastic walls need a grid: leave --method integral out");
         let layers = Setup { method: Method::Layers(LayersMethod::default()), ..Setup::default() };
         let mut setup = method.setup(droplet, (method.preset == Preset::Accurate).then_some(layers))?;
         if let Method::Grid(grid) = &mut setup.method {
@@ -107,7 +107,8 @@ impl SceneFlags<ElasticFlags> {
             }
             solid.mesh = walls.mesh.unwrap_or(solid.mesh);
             solid.mesh_spacing = walls.mesh_spacing;
-            solid.skin = walls.skin.map(|[stretching, bending]| SkinSetup { stretching, bending });
+            solid.surface_elasticity =
+                walls.surface_elasticity.map(|[stretching, bending]| SurfaceElasticitySetup { stretching, bending });
         }
         let times = if setup.method.kind() == MethodKind::Grid { 1.0 } else { 2.0 };
         walls.check_mesh(times * method.spacing(&setup))?;

@@ -151,7 +151,7 @@ impl Flags {
             region: self.sides.map_or(Region::Plane, |lengths| Region::Box { lengths }),
             viscosity: 1.0,
             flow,
-            method: Method::Integral(IntegralMethod { nodes: self.nodes, cells: (3 * self.nodes).div_ceil(2) }),
+            method: Method::Integral(IntegralMethod { nodes: self.nodes, elements: (3 * self.nodes).div_ceil(2) }),
             integrator: IntegratorKind::RungeKutta,
             droplets: vec![drop],
             ..Setup::default()

@@ -177,14 +177,14 @@ fn main() -> ExitCode {
 fn swim(Flags { steady, scene }: &Flags) -> Result<()> {
     ensure!(
         scene.method.method.is_none_or(|kind| kind == MethodKind::Integral),
-        "three dimensions have no grid: leave --method out or give boundary-integral"
+        "three dimensions have no grid: leave --method out or give integral"
     );
     let nodes = scene.method.nodes.unwrap_or(if *steady { 160 } else { 64 });
-    let cells = scene.method.concentration_cells.unwrap_or(4 * nodes);
+    let cells = scene.method.elements.unwrap_or(4 * nodes);
     let method = MethodFlags {
         method: Some(MethodKind::Integral),
         nodes: Some(nodes),
-        concentration_cells: Some(cells),
+        elements: Some(cells),
         ..scene.method.clone()
     };
     let mut setup = method.setup(&scene.droplet, None)?;

@@ -91,8 +91,8 @@ fn a_swing_across_a_channel() {
 
 #[test]
 fn a_box() {
-    compare("swimming_droplet", "20", "--nodes 24 --spacing 0.2 --method boundary-integral");
-    compare("swimming_droplet", "4", "--method immersed-boundary --spacing 0.1 --dt adaptive --no-pictures");
+    compare("swimming_droplet", "20", "--nodes 24 --spacing 0.2 --method integral");
+    compare("swimming_droplet", "4", "--method grid --spacing 0.1 --dt adaptive --no-pictures");
 }
 
 /// The solver's iterations are those of the whole run, and so are the warnings, which stop with the edge of the
@@ -102,7 +102,7 @@ fn viscosities_and_warnings() {
     compare(
         "swimming_droplet",
         "6",
-        "--nodes 24 --concentration-cells 48 --viscosity-in 500 --viscosity-out 5 --activity -8 --no-pictures",
+        "--nodes 24 --elements 48 --viscosity-in 500 --viscosity-out 5 --activity -8 --no-pictures",
     );
 }
 

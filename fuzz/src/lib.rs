@@ -149,7 +149,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
              --width 2 --length 8",
             "--dt adaptive:1e-4 --checkpoint file --checkpoint-every 10 --resume other --spacing 0.1 elastic --width 3 \
              --material neo-hookean",
-            "--method boundary-integral --nodes 64 --concentration-cells 256 --viscosity-in 1000 --viscosity-out 10",
+            "--method integral --nodes 64 --elements 256 --viscosity-in 1000 --viscosity-out 10",
         ]
         .map(|line| line.as_bytes().to_vec())
         .to_vec(),

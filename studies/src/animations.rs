@@ -12,7 +12,7 @@ use clap::Args;
 use motile::base::Region;
 use motile::scene::Every;
 use motile::setup::{Built, Setup};
-use motile_output::{Film, Look, Raster, run::say};
+use motile_output::{Animation, Look, Raster, run::say};
 use motile_tests::validation::Table;
 
 use crate::tables::{self, root};
@@ -87,7 +87,7 @@ fn film(name: &str, path: &Path) -> Result<[f64; 2]> {
     };
     let concentration = setup.droplets.iter().find_map(|droplet| Some(droplet.particles.as_ref()?.concentration));
     let look = Look { concentration, streamlines: false, colour_bars: false, scale_bar: false, ..Look::default() };
-    let mut film = Film::new(look, raster).of_width(WIDTH);
+    let mut film = Animation::new(look, raster).of_width(WIDTH);
     scene.run(time).observe(Every::Time(time / FRAMES as f64), &mut film).go()?;
     film.write(&[], path)?;
     Ok([time, scene.steps() as f64])

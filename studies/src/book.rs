@@ -248,7 +248,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
     }
     say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
     if write {
-        let commit = tables::commit(&["tests/src/validation", "crates/steady-states/src"])?;
+        let commit = tables::commit(&["tests/src/validation", "crates/motile-steady-states/src"])?;
         let kept = Kept { commit, ..kept };
         let folder = pages::folder().join("figures");
         fs::create_dir_all(&folder)?;

@@ -7,7 +7,9 @@
 use anyhow::{Context, Result};
 use clap::Args;
 use motile::base::Region;
-use motile::setup::{Built, DropletSetup, ExchangeSetup, Exclusion, IntegralMethod, Method, Particles, Setup, Start};
+use motile::setup::{
+    Built, DropletSetup, ExchangeSetup, ExcludedVolume, IntegralMethod, Method, Particles, Setup, Start,
+};
 use motile_examples::positive;
 use motile_output::run::say;
 use motile_tests::validation::exchange::{Mode, bare_rate, rate, speed};
@@ -44,14 +46,14 @@ fn setup(unbinding: f64, bulk: f64) -> Setup {
     let particles = Particles {
         activity: ACTIVITY,
         diffusion: DIFFUSION,
-        excluded_volume: Exclusion::Step(-2.0 * ACTIVITY),
+        excluded_volume: ExcludedVolume::Step(-2.0 * ACTIVITY),
         start: Start::Perturbed { amplitude: 0.05, seed: 1 },
         exchange: Some(ExchangeSetup { diffusion_inside, ..ExchangeSetup::new(BINDING, unbinding) }),
         ..Particles::default()
     };
     Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes: 48, cells: 96 }),
+        method: Method::Integral(IntegralMethod { nodes: 48, elements: 96 }),
         droplets: vec![DropletSetup { particles: Some(particles), ..DropletSetup::default() }],
         ..Setup::default()
     }

@@ -11,7 +11,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use motile::base::Vec2;
 use motile::interior::{DirectorStart, GelInDroplet, GelMaterial};
-use motile::scene::{Body, Guest, Hydrodynamics};
+use motile::scene::{Body, Hydrodynamics, InteriorBody};
 use motile::setup::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
 use motile_tests::validation::Table;
 

@@ -73,11 +73,12 @@ fn way(method: Method, nuclei: bool) -> Result<(f64, usize)> {
 
 /// Methods that are compared, with their names, and the finest settings.
 fn methods(nuclei: bool) -> (Method, Vec<(String, Method)>) {
-    let layers = |spacing| Method::Layers(LayersMethod { nodes: 48, cells: 192, ..LayersMethod::of_spacing(spacing) });
+    let layers =
+        |spacing| Method::Layers(LayersMethod { nodes: 48, elements: 192, ..LayersMethod::of_spacing(spacing) });
     // Solids on the grid leave no mobility correction.
     let made = |spacing| if nuclei { GridMethod::uncorrected(spacing) } else { GridMethod::of_spacing(spacing) };
     let grid = |spacing: f64| (format!("grid, h = {spacing}"), Method::Grid(made(spacing)));
-    let integral = |nodes: usize| Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    let integral = |nodes: usize| Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
     if nuclei {
         let named = |spacing: f64| (format!("layers, h = {spacing}"), layers(spacing));
         (layers(0.03), vec![named(0.1), named(0.06), grid(0.1), grid(0.06), grid(0.03)])
@@ -116,8 +117,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             table.push(row);
         }
     }
-    let inputs =
-        ["crates/boundary-integral/src", "crates/ib-core/src", "crates/elastic-solids/src", "studies/src/many.rs"];
+    let inputs = [
+        "crates/motile-boundary-integrals/src",
+        "crates/ib-core/src",
+        "crates/elastic-solids/src",
+        "studies/src/many.rs",
+    ];
     flags.keep.tables("many", "many", &inputs, &[table])
 }
 

@@ -60,7 +60,7 @@ const FROM: Scene = (-1.0, 100.0, 0.5, ASIDE);
 fn setup(&(activity, viscosity, radius, centre): &Scene, nodes: usize) -> Setup {
     Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         droplets: vec![DropletSetup { viscosity: Some(viscosity), ..DropletSetup::active(activity) }],
         rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }],
         ..Setup::default()
@@ -223,6 +223,6 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }
         }
     }
-    let own = ["crates/elastic-solids", "crates/steady-states/src", "studies/src/nucleus.rs"];
+    let own = ["crates/elastic-solids", "crates/motile-steady-states/src", "studies/src/nucleus.rs"];
     flags.keep.tables("nucleus", "nucleus", &own, &[table, branch])
 }

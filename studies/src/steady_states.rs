@@ -30,7 +30,7 @@ pub(crate) struct Flags {
 }
 
 /// Sources that the tables depend on besides those of every run.
-const INPUTS: [&str; 3] = ["tests/src/validation", "crates/steady-states/src", "studies/src/steady_states"];
+const INPUTS: [&str; 3] = ["tests/src/validation", "crates/motile-steady-states/src", "studies/src/steady_states"];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Which {
@@ -82,7 +82,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 
 /// The method with so many nodes.
 fn nodes(nodes: usize) -> Method {
-    Method::Integral(IntegralMethod { nodes, cells: 4 * nodes })
+    Method::Integral(IntegralMethod { nodes, elements: 4 * nodes })
 }
 
 /// A droplet in a channel without a mean pressure gradient.

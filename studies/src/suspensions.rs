@@ -69,7 +69,7 @@ fn held(nodes: usize, activity: f64) -> Result<Repulsion> {
 
 /// A method without a grid with so many nodes.
 fn integral(nodes: usize) -> Method {
-    Method::Integral(IntegralMethod { nodes, cells: CELLS * nodes })
+    Method::Integral(IntegralMethod { nodes, elements: CELLS * nodes })
 }
 
 /// So many droplets at random places in a box, with the repulsion that `nodes` resolve.

@@ -38,7 +38,7 @@ const RUNS: [&str; 8] = [
     "crates/stokes-boundary-integrals",
     "crates/motile-scene",
     "crates/ib-core",
-    "crates/boundary-integral",
+    "crates/motile-boundary-integrals",
     "crates/active-interface",
     "crates/motile/src/setup",
 ];

@@ -56,7 +56,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     };
     turns(flags, "elastic walls", || Ok(elastic.build()?.scene))?;
     for side in [2, 4, 6, 8, 12] {
-        let integral = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+        let integral = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
         let droplets = many::setup(side, integral, false);
         turns(flags, &format!("{} droplets by integrals", side * side), || Ok(droplets.build()?.scene))?;
     }

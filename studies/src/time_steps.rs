@@ -260,7 +260,7 @@ fn coupling() -> Result<Table> {
     let mut table = Table::new(title, &columns);
     for (flow, method) in [
         ("grid", Method::Grid(GridMethod::of_spacing(0.1))),
-        ("integrals", Method::Integral(IntegralMethod { nodes: 48, cells: 192 })),
+        ("integrals", Method::Integral(IntegralMethod { nodes: 48, elements: 192 })),
     ] {
         for activity in [-2.0, -4.0] {
             let base = Setup { method, droplets: vec![DropletSetup::active(activity)], ..Setup::default() };
@@ -301,7 +301,7 @@ fn orders() -> Result<Table> {
     let rms =
         |[a, b]: [&[f64]; 2]| (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt();
     let grid = Method::Grid(GridMethod::of_spacing(0.2));
-    let integrals = |cells| Method::Integral(IntegralMethod { nodes: 72, cells });
+    let integrals = |elements| Method::Integral(IntegralMethod { nodes: 72, elements });
     let flows = [("grid 0.2", grid, "on"), ("grid 0.2", grid, "off")];
     let flows = flows
         .into_iter()

@@ -42,6 +42,6 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 
 /// One droplet, computed with so many nodes.
 fn scene(region: Region, droplet: DropletSetup, nodes: usize) -> Setup {
-    let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
     Setup { region, droplets: vec![droplet], method, ..Setup::default() }
 }

@@ -299,7 +299,7 @@ fn integrals(quick: bool) -> Tables {
 fn marker_spacing(_quick: bool) -> Tables {
     let mut table = Table::new(
         "Marker spacing at fixed h = 0.1: viscosity 10, activity -2, speed at t = 3",
-        &["ds", "speed", "cell Peclet number", "warned"],
+        &["ds", "speed", "element Peclet number", "warned"],
     );
     for ds in [0.05, 0.025, 0.0125, 0.00625] {
         let row = resolution::marker_spacing(ds)?;

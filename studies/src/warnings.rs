@@ -57,7 +57,7 @@ const SCENES: [Scene; 20] = [
 ];
 
 /// The nodes and markers of resolved runs.
-const RESOLVED: Method = Method::Integral(IntegralMethod { nodes: 112, cells: 448 });
+const RESOLVED: Method = Method::Integral(IntegralMethod { nodes: 112, elements: 448 });
 
 /// A twentieth of the usual mean tension of a swimmer times its radius (force times length).
 const SMALLEST_STRESSLET: f64 = 5.0;

@@ -66,7 +66,7 @@ fn a_grid_converges_to_boundary_integrals() {
         let setup = Setup { droplets: vec![wavy(1.0, 3)], viscosity: 1.0, method, ..Setup::default() };
         rate(&mut setup.build().expect("a scene").scene, 1.0, 3)
     };
-    let exact = found(Method::Integral(IntegralMethod { nodes: 64, cells: 1024 }));
+    let exact = found(Method::Integral(IntegralMethod { nodes: 64, elements: 1024 }));
     let steps = [0.2, 0.1, 0.05];
     let errors = steps.map(|h| (found(Method::Grid(GridMethod::of_spacing(h))) / exact - 1.0).abs());
     assert!(order(&steps, &errors) > 1.8 && errors[2] < 1e-2, "{errors:?}");
@@ -155,8 +155,8 @@ fn bending_is_refused_in_three_dimensions() {
     }
     // Put together by hand, in either order.
     let droplet = || ActiveDroplet::passive(&circle(1.0, 32, |_| 0.0), TENSION).expect("a droplet");
-    let first = droplet().with_bending(MODULUS, 0.0).and_then(ActiveDroplet::of_revolution).expect("a droplet");
-    let last = droplet().of_revolution().and_then(|it| it.with_bending(MODULUS, 0.0)).expect("a droplet");
+    let first = droplet().with_bending(MODULUS, 0.0).and_then(ActiveDroplet::axisymmetric).expect("a droplet");
+    let last = droplet().axisymmetric().and_then(|it| it.with_bending(MODULUS, 0.0)).expect("a droplet");
     for droplet in [first, last] {
         let settings = Settings { nodes: 32, ..Settings::default() };
         let flow = AxisymmetricIntegral::new(Region::Space, 1.0, settings, std::f64::consts::TAU);
@@ -177,7 +177,7 @@ fn a_shell_starts_deformed() {
         bending: 0.1,
         ..ShellSetup::default()
     };
-    let method = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
+    let method = Method::Integral(IntegralMethod { nodes: 32, elements: 64 });
     let setup = Setup {
         region: Region::Plane,
         method,

@@ -32,7 +32,7 @@ fn drained(mut gap: f64, time: f64) -> f64 {
 
 /// A droplet of radius one, so viscous that it is nearly rigid, above the lower wall of a wide channel, pulled to it.
 fn stiff(nodes: usize, gap: f64, ratio: f64) -> Scene<AnyFlow> {
-    let method = Method::Integral(IntegralMethod { nodes, cells: nodes });
+    let method = Method::Integral(IntegralMethod { nodes, elements: nodes });
     let flow = flow(open_channel(30.0, 20.0), method, 1.0, 1e-9).expect("a flow");
     let place = |k: usize| {
         let (s, c) = (TAU * k as f64 / nodes as f64).sin_cos();
@@ -104,7 +104,7 @@ fn a_repulsion_carries_what_presses() {
 fn collided(both: bool, repulsion: Repulsion) -> Built {
     let places = [(-1.4, 0.0), (1.4, PI)].into_iter().take(if both { 2 } else { 1 });
     let droplet = |(x, angle): (f64, f64)| DropletSetup { centre: [x, 0.0], angle, ..DropletSetup::active(-2.0) };
-    let method = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    let method = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
     let droplets = places.map(droplet).collect();
     let setup = Setup { region: Region::Plane, method, droplets, repulsion: Some(repulsion), ..Setup::default() };
     let mut built = setup.build().expect("a scene");

@@ -129,7 +129,7 @@ fn the_mean_pressure_gradient_is_that_of_the_contrast() {
     let gradient =
         |mut flow: AnyFlow, mut markers: Markers| flow.velocities(&mut markers).unwrap().mean_pressure_gradient[0];
     let integral = || {
-        flow(region, Method::Integral(IntegralMethod { nodes: 128, cells: 512 }), 1.0, 1e-10).expect("a valid scene")
+        flow(region, Method::Integral(IntegralMethod { nodes: 128, elements: 512 }), 1.0, 1e-10).expect("a valid scene")
     };
     for ratio in [0.05, 20.0] {
         let exact = gradient(integral(), markers(ratio));

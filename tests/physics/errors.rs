@@ -38,8 +38,14 @@ fn sizes_are_refused_before_they_are_allocated() {
         ("spacing", Setup { region: open_channel(1e5, 1e5), ..on_grid(0.1) }),
         ("marker-spacing", Setup { method: Method::Grid(marker_spacing(1e-9)), ..on_grid(0.1) }),
         ("marker-spacing", Setup { method: Method::Grid(marker_spacing(1e-300)), ..on_grid(0.1) }),
-        ("nodes", Setup { method: Method::Integral(IntegralMethod { nodes: usize::MAX, cells: 0 }), ..on_grid(0.1) }),
-        ("cells", Setup { method: Method::Integral(IntegralMethod { nodes: 64, cells: usize::MAX }), ..on_grid(0.1) }),
+        (
+            "nodes",
+            Setup { method: Method::Integral(IntegralMethod { nodes: usize::MAX, elements: 0 }), ..on_grid(0.1) },
+        ),
+        (
+            "cells",
+            Setup { method: Method::Integral(IntegralMethod { nodes: 64, elements: usize::MAX }), ..on_grid(0.1) },
+        ),
     ];
     for (key, setup) in setups {
         let mut error = None;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::theory::{LinearTheory, RoundDroplet};
 use motile::prelude::*;
-use motile::setup::{ExchangeSetup, Exclusion, Start};
+use motile::setup::{ExchangeSetup, ExcludedVolume, Start};
 use motile_tests::validation::scene::{on_grid, without_grid};
 
 const BINDING: f64 = 0.4;
@@ -13,7 +13,8 @@ const UNBINDING: f64 = 0.25;
 
 fn setup(start: Start, number_inside: Option<f64>, activity: f64) -> Setup {
     let exchange = Some(ExchangeSetup { number_inside, ..ExchangeSetup::new(BINDING, UNBINDING) });
-    let particles = Particles { activity, excluded_volume: Exclusion::None, start, exchange, ..Particles::default() };
+    let particles =
+        Particles { activity, excluded_volume: ExcludedVolume::None, start, exchange, ..Particles::default() };
     let droplet = DropletSetup { particles: Some(particles), ..DropletSetup::default() };
     Setup { region: Region::Plane, droplets: vec![droplet], ..without_grid(48, 192) }
 }
@@ -121,7 +122,7 @@ fn no_particle_is_lost_by_a_swimmer() {
     for (method, factor) in [(without_grid(48, 192), 1.0), (without_grid(48, 192), 5e3), (on_grid(0.1), 1.0)] {
         let mut droplet = setup(Start::Polarised, None, -3.0).droplets.remove(0);
         if let Some(particles) = &mut droplet.particles {
-            particles.excluded_volume = Exclusion::Step(10.0);
+            particles.excluded_volume = ExcludedVolume::Step(10.0);
             let (binding, unbinding) = (factor * BINDING, factor * UNBINDING);
             particles.exchange =
                 Some(ExchangeSetup { number_inside: Some(10.0), ..ExchangeSetup::new(binding, unbinding) });

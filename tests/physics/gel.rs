@@ -68,7 +68,7 @@ fn without_activity_energy_only_falls() {
         let mut setup = filled(GelSetup { material, anchoring: Anchoring::Free, start, spacing: None });
         setup.droplets[0].viscosity = viscosity;
         if viscosity.is_some() {
-            setup.method = Method::Layers(LayersMethod { nodes: 48, cells: 96, ..LayersMethod::of_spacing(0.15) });
+            setup.method = Method::Layers(LayersMethod { nodes: 48, elements: 96, ..LayersMethod::of_spacing(0.15) });
         }
         let Built { mut scene, droplets, .. } = setup.build().unwrap();
         let mut last = f64::INFINITY;
@@ -106,7 +106,7 @@ fn deformed(method: Method, viscosity: f64) -> [f64; 2] {
 #[test]
 fn gels_among_layers_converge() {
     let layers =
-        |spacing: f64| Method::Layers(LayersMethod { nodes: 64, cells: 128, ..LayersMethod::of_spacing(spacing) });
+        |spacing: f64| Method::Layers(LayersMethod { nodes: 64, elements: 128, ..LayersMethod::of_spacing(spacing) });
     for viscosity in [20.0, 100.0, 1000.0] {
         let all = [0.2, 0.1, 0.05].map(|spacing| deformed(layers(spacing), viscosity));
         let change = |k: usize| (all[k][0] - all[k + 1][0]).hypot(all[k][1] - all[k + 1][1]);
@@ -153,7 +153,7 @@ fn forces_of_the_gel_are_among_the_moments() {
         let mut setup = filled(GelSetup { material, start, ..GelSetup::default() });
         setup.droplets[0].viscosity = viscosity;
         if viscosity.is_some() {
-            setup.method = Method::Layers(LayersMethod { nodes: 48, cells: 96, ..LayersMethod::of_spacing(0.15) });
+            setup.method = Method::Layers(LayersMethod { nodes: 48, elements: 96, ..LayersMethod::of_spacing(0.15) });
         }
         let Built { mut scene, droplets, .. } = setup.build().unwrap();
         scene.run(0.2).go().unwrap();

@@ -73,19 +73,19 @@ fn transient_drop() {
     }
 }
 
-/// A drop far off the axis of a shear is carried along fast and deforms as one on the axis, with as many cells as nodes
-/// or more.
+/// A drop far off the axis of a shear is carried along fast and deforms as one on the axis, with as many elements as
+/// nodes or more.
 #[test]
 fn drops_deform_alike_wherever_they_are() {
-    for cells in [48, 72] {
+    for elements in [48, 72] {
         let [on_axis, aside] = [0.0, 10.0].map(|y| {
             let mut setup = drop_by_runge_kutta(SHEAR, 1.0, 0.2, 48, 0.02);
-            setup.method = Method::Integral(IntegralMethod { nodes: 48, cells });
+            setup.method = Method::Integral(IntegralMethod { nodes: 48, elements });
             setup.droplets[0].centre[1] = y;
             deformed(&setup, 2.0).0
         });
         let difference = on_axis.by_moments - aside.by_moments;
-        assert!(difference.abs() < 1e-9, "{cells} {difference:e}");
+        assert!(difference.abs() < 1e-9, "{elements} {difference:e}");
     }
 }
 

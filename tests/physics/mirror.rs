@@ -43,7 +43,7 @@ fn channel(length: f64, width: f64) -> Region {
 
 /// A droplet in the plane by integrals, with cells so few for its nodes that the shortest waves are there.
 fn integrals() -> Setup {
-    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 96 });
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 96 });
     Setup { region: Region::Plane, method, droplets: vec![DropletSetup::active(-4.0)], ..Setup::default() }
 }
 

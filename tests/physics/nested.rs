@@ -18,7 +18,7 @@ const REGIONS: [fn() -> Region; 2] = [|| Region::Box { lengths: [6.0; 2] }, || o
 const VISCOSITIES: [[f64; 2]; 4] = [[10.0, 1.0], [0.1, 5.0], [100.0, 10.0], [20.0, 20.0]];
 
 fn integral(region: Region) -> AnyFlow {
-    flow(region, Method::Integral(IntegralMethod { nodes: 160, cells: 640 }), 1.0, 1e-10).expect("a valid scene")
+    flow(region, Method::Integral(IntegralMethod { nodes: 160, elements: 640 }), 1.0, 1e-10).expect("a valid scene")
 }
 
 /// An ellipse around a circle that is half a radius off its centre, with a force on the inner one.
@@ -118,8 +118,8 @@ fn the_flow_in_each_fluid() {
 /// around a passive one, and that around one more, swims alike on the grid and without.
 #[test]
 fn a_swimmer_around_droplets() {
-    let of_layers = LayersMethod { nodes: 64, cells: 256, ..LayersMethod::of_spacing(0.1) };
-    let methods = [Method::Layers(of_layers), Method::Integral(IntegralMethod { nodes: 64, cells: 256 })];
+    let of_layers = LayersMethod { nodes: 64, elements: 256, ..LayersMethod::of_spacing(0.1) };
+    let methods = [Method::Layers(of_layers), Method::Integral(IntegralMethod { nodes: 64, elements: 256 })];
     let [of_layers, exact] = methods.map(|method| {
         let passive = |radius, place, viscosity| DropletSetup {
             viscosity: Some(viscosity),

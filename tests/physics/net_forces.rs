@@ -12,7 +12,7 @@ use motile_tests::validation::scene::{flow, open_channel};
 const REGIONS: [fn() -> Region; 2] = [|| Region::Box { lengths: [6.0; 2] }, || open_channel(6.0, 4.0)];
 
 pub(crate) fn layers(region: Region, h: f64) -> AnyFlow {
-    let method = LayersMethod { nodes: 128, cells: 512, ..LayersMethod::of_spacing(h) };
+    let method = LayersMethod { nodes: 128, elements: 512, ..LayersMethod::of_spacing(h) };
     flow(region, Method::Layers(method), 1.0, 1e-10).expect("a valid scene")
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn beside_a_point(mut markers: Markers) -> Markers {
 }
 
 fn integral(region: Region) -> AnyFlow {
-    flow(region, Method::Integral(IntegralMethod { nodes: 128, cells: 512 }), 1.0, 1e-10).expect("a valid scene")
+    flow(region, Method::Integral(IntegralMethod { nodes: 128, elements: 512 }), 1.0, 1e-10).expect("a valid scene")
 }
 
 /// An ellipse and a circle a quarter apart.

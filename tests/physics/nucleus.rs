@@ -7,7 +7,7 @@ use motile::base::{FlowSample, Vec2};
 use motile::elastic_solids::{BendingMeasure, Shell};
 use motile::scene::{Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, checkpoint::Checkpoint};
 use motile::setup::{
-    Built, DropletSetup, DropletShape, Exclusion, Hold, IntegralMethod, LayersMethod, Material, Method, Particles,
+    Built, DropletSetup, DropletShape, ExcludedVolume, Hold, IntegralMethod, LayersMethod, Material, Method, Particles,
     RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
 };
 use motile_tests::validation::scene::flow;
@@ -19,7 +19,7 @@ fn angle(k: usize) -> f64 {
 }
 
 fn integrals() -> Method {
-    Method::Integral(IntegralMethod { nodes: NODES, cells: NODES })
+    Method::Integral(IntegralMethod { nodes: NODES, elements: NODES })
 }
 
 /// Amplitudes of cos(m theta) in the normal components and of sin(m theta) in the tangential ones.
@@ -108,14 +108,14 @@ fn modes_around_a_rigid_core_move_as_in_closed_form() {
 fn a_core_makes_mode_two_oscillate() {
     let (inside, outside, activity, tension, radius, amplitude) = (1000.0, 10.0, -7.0, 10.0, 0.75, 1e-5);
     let particles =
-        Particles { activity, excluded_volume: Exclusion::None, start: Start::Uniform, ..Particles::default() };
+        Particles { activity, excluded_volume: ExcludedVolume::None, start: Start::Uniform, ..Particles::default() };
     let (concentration, diffusion) = (particles.concentration, particles.diffusion);
     let shape = DropletShape::Modes { radius: 1.0, cosines: vec![0.0, amplitude], sines: Vec::new() };
     let droplet =
         DropletSetup { tension, viscosity: Some(inside), shape, particles: Some(particles), ..DropletSetup::default() };
-    let setup = |cells: usize| Setup {
+    let setup = |elements: usize| Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes: 32, cells }),
+        method: Method::Integral(IntegralMethod { nodes: 32, elements }),
         viscosity: outside,
         step: StepSize::OfLimit(0.25),
         droplets: vec![droplet.clone()],
@@ -278,13 +278,13 @@ fn moved(setup: &Setup) -> ([Vec2; 2], Vec2) {
 #[test]
 fn an_elastic_core_tends_to_a_rigid_one_with_its_stiffness() {
     let (centre, radius) = ([0.1, 0.15], 0.45);
-    let integral = IntegralMethod { nodes: 32, cells: 128 };
+    let integral = IntegralMethod { nodes: 32, elements: 128 };
     let bare = Setup { method: Method::Integral(integral), ..Setup::default() };
     let rigid = Setup { rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }], ..bare.clone() };
     let (exact, stresslet) = moved(&rigid);
     let bare_stresslet = moved(&bare).1;
     assert!(bare_stresslet.distance(stresslet) > 0.1 * stresslet.length(), "{bare_stresslet} {stresslet}");
-    let method = Method::Layers(LayersMethod { nodes: 32, cells: 128, ..LayersMethod::of_spacing(0.1) });
+    let method = Method::Layers(LayersMethod { nodes: 32, elements: 128, ..LayersMethod::of_spacing(0.1) });
     let (layered, stresslet_of_layers) = moved(&Setup { method, ..rigid });
     assert!(stresslet_of_layers.distance(stresslet) < 1e-3 * stresslet.length(), "{stresslet_of_layers} {stresslet}");
     let apart = |found: [Vec2; 2]| found.iter().zip(&exact).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
@@ -314,7 +314,7 @@ fn shells_keep_their_area() {
     let shell = ShellSetup { shape, bending: 0.02, reference_curvature: Some(2.0), ..ShellSetup::default() };
     let setup = Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, elements: 64 }),
         viscosity: 1.0,
         droplets: Vec::new(),
         shells: vec![shell],
@@ -336,8 +336,8 @@ fn shells_keep_their_area() {
 /// On the way pictures are taken of one of them, and it is saved and resumed.
 #[test]
 fn cells_resume_bit_by_bit_and_looking_changes_nothing() {
-    let layers = LayersMethod { nodes: 32, cells: 64, ..LayersMethod::of_spacing(0.2) };
-    for method in [Method::Integral(IntegralMethod { nodes: 32, cells: 64 }), Method::Layers(layers)] {
+    let layers = LayersMethod { nodes: 32, elements: 64, ..LayersMethod::of_spacing(0.2) };
+    for method in [Method::Integral(IntegralMethod { nodes: 32, elements: 64 }), Method::Layers(layers)] {
         let setup = Setup {
             method,
             step: StepSize::Fixed(0.01),

@@ -96,7 +96,7 @@ fn walls(method: Method, region: Region, droplets: Vec<DropletSetup>) -> Setup {
     Setup { method, region, droplets, interfaces, ..Setup::default() }
 }
 
-const INTEGRAL: Method = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
+const INTEGRAL: Method = Method::Integral(IntegralMethod { nodes: 32, elements: 64 });
 const BOX: Region = Region::Box { lengths: [PERIOD, PERIOD] };
 
 #[test]
@@ -140,7 +140,7 @@ fn checkpoints_go_on_bit_for_bit() {
 /// Layers without solids are the integrals, to another tolerance; with a solid far away they are nearly that.
 #[test]
 fn layers_move_as_integrals_do() {
-    let layers = Method::Layers(LayersMethod { nodes: 32, cells: 64, spacing: 0.125, ..LayersMethod::default() });
+    let layers = Method::Layers(LayersMethod { nodes: 32, elements: 64, spacing: 0.125, ..LayersMethod::default() });
     let after = |method: Method, solids: Vec<SolidSetup>| {
         let region = Region::Box { lengths: [PERIOD, 9.0] };
         let Built { mut scene, interfaces, .. } =
@@ -380,10 +380,10 @@ fn interfaces_beside_rigid_bodies() {
             let wave = scene.observe(interfaces[1]).unwrap().height_modes.amplitude(1);
             [body.velocity.x, body.velocity.y, body.spin, wave]
         };
-        let nodes = |nodes: usize| motion(Method::Integral(IntegralMethod { nodes, cells: 96 }));
+        let nodes = |nodes: usize| motion(Method::Integral(IntegralMethod { nodes, elements: 96 }));
         let [coarse, fine] = [24, 48].map(nodes);
         let layers =
-            motion(Method::Layers(LayersMethod { nodes: 48, cells: 96, spacing: 0.125, ..LayersMethod::default() }));
+            motion(Method::Layers(LayersMethod { nodes: 48, elements: 96, spacing: 0.125, ..LayersMethod::default() }));
         for k in 0..4 {
             let scale = 1e-5 * fine[0].abs().max(fine[1].abs());
             assert!((coarse[k] - fine[k]).abs() < scale, "{region:?} {coarse:?} {fine:?}");

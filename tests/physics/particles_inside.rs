@@ -7,7 +7,7 @@ use motile::interior::{InteriorObservables, ParticlesInDroplet};
 use motile::prelude::*;
 use motile::scene::integrator::Dynamics as _;
 use motile::scene::{Body as _, Hydrodynamics as _};
-use motile::setup::{AnyFlow, ExchangeSetup, Exclusion};
+use motile::setup::{AnyFlow, ExchangeSetup, ExcludedVolume};
 use motile_tests::validation::exchange::{BINDING, DIFFUSION, MEAN, Mode, UNBINDING, bare_rate, rate};
 use motile_tests::validation::scene::{on_grid, without_grid};
 
@@ -60,7 +60,7 @@ fn what_diffuses_inside_sets_the_thresholds() {
 fn swimmer(method: Setup, region: Region, exchange: ExchangeSetup) -> Built {
     let particles = Particles {
         activity: -3.0,
-        excluded_volume: Exclusion::Step(10.0),
+        excluded_volume: ExcludedVolume::Step(10.0),
         exchange: Some(exchange),
         ..Particles::default()
     };

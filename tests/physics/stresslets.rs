@@ -79,7 +79,7 @@ fn errors_of_stresslets_are_told() {
         (square(6.0), (-2.0, 0.5), 0.05, false),
         (square(6.0), (-1.0, 0.0), 0.1, false),
     ];
-    let fine = Method::Integral(IntegralMethod { nodes: 72, cells: 384 });
+    let fine = Method::Integral(IntegralMethod { nodes: 72, elements: 384 });
     for (region, start, spacing, expected) in cases {
         let (exact, _) = swum(region, start, fine);
         let (seen, told) = swum(region, start, Method::Grid(GridMethod::of_spacing(spacing)));

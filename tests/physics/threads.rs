@@ -46,7 +46,7 @@ fn many_droplets_in_contact() {
     let side = (160.0 * suspension.mean_area() / 0.5).sqrt();
     let setup = Setup {
         region: Region::Box { lengths: [side; 2] },
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 256 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, elements: 256 }),
         tolerance: Some(1e-5),
         repulsion: Some(Repulsion::new(1000.0, 0.2).expect("a repulsion")),
         droplets: Vec::new(),

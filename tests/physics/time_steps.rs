@@ -296,7 +296,7 @@ fn a_bound_on_steps_and_their_number_ends_a_run() {
 fn the_first_step_is_bounded_as_all_are() {
     let speed = |step| {
         let droplet = DropletSetup { viscosity: Some(3000.0), ..DropletSetup::active(-4.0) };
-        let method = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+        let method = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
         let setup = Setup { viscosity: 10.0, droplets: vec![droplet], method, step, ..Setup::default() };
         let Built { mut scene, droplets, .. } = setup.build().unwrap();
         scene.run(10.0).go().unwrap();
@@ -310,7 +310,7 @@ fn the_first_step_is_bounded_as_all_are() {
 /// (gamma = 1.01 - c, hardly any diffusion) of fluid of a viscosity in fluid of viscosity 1, after 100 steps of `part`
 /// of the limit.
 fn crowded<H: Hydrodynamics>(flow: H, nodes: usize, viscosity_inside: f64, part: f64) -> f64 {
-    let law = ContractileTension::new(1.01, 1.0, ExcludedVolume::None).expect("a law");
+    let law = ContractileTension::new(1.01, 1.0, ExcludedVolume::None, 1.0).expect("a law");
     let markers = Curve::circle(1.0).and_then(|circle| circle.markers(4 * nodes)).expect("a circle");
     let length = markers[0].distance(markers[1]);
     let angle = |wave: usize, k: usize| std::f64::consts::TAU * (wave * k) as f64 / markers.len() as f64;

@@ -41,7 +41,7 @@ fn what_is_resolved_gives_no_warning() {
     assert!(causes(&Setup { method: grid(0.05), ..Setup::default() }, 1.0).is_empty());
     assert!(causes(&channel(3.0, Method::default(), -2.0), 1.0).is_empty());
     // Programs of the README and the guide.
-    let guide = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+    let guide = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
     assert!(causes(&Setup { method: guide, ..Setup::default() }, 2.0).is_empty());
     let region = Region::Channel { length: 12.0, width: 3.0, drive: Drive::Flux(-0.3) };
     assert!(causes(&Setup { region, ..channel(3.0, guide, -3.0) }, 1.0).is_empty());
@@ -57,7 +57,7 @@ fn what_is_resolved_gives_no_warning() {
 /// Settings of first order, few nodes and sharp corners cost a per cent and more without a word from the solution.
 #[test]
 fn settings_that_cost_a_per_cent_are_told() {
-    let integral = |nodes| Method::Integral(IntegralMethod { nodes, cells: 300 });
+    let integral = |nodes| Method::Integral(IntegralMethod { nodes, elements: 300 });
     let of = |method| Setup { method, ..Setup::default() };
     assert_eq!(causes(&of(integral(16)), 0.1), ["shape not resolved"]);
     assert!(causes(&of(integral(24)), 0.1).is_empty());

@@ -15,8 +15,8 @@ use motile::scene::{
     integrator::{Dynamics as _, RungeKuttaChebyshev},
 };
 use motile::setup::{
-    ActiveSpringsSetup, AnyFlow, Built, DropletSetup, ExchangeSetup, Exclusion, GelSetup, GridMethod, IntegralMethod,
-    LayersMethod, Material, MaxwellSetup, Method, Particles, Setup, SolidSetup,
+    ActiveSpringsSetup, AnyFlow, Built, DropletSetup, ExchangeSetup, ExcludedVolume, GelSetup, GridMethod,
+    IntegralMethod, LayersMethod, Material, MaxwellSetup, Method, Particles, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -156,7 +156,7 @@ fn a_viscosity_ratio_of_a_hundred() {
 
 #[test]
 fn without_a_grid() {
-    let setup = Setup { method: Method::Integral(IntegralMethod { nodes: 48, cells: 96 }), ..coarse() };
+    let setup = Setup { method: Method::Integral(IntegralMethod { nodes: 48, elements: 96 }), ..coarse() };
     compare(|| scene(&setup), 6.0, AUTO, &stops(11, 5));
     let contrast = filled(1000.0, &setup);
     compare(|| scene(&contrast), 3.0, AUTO, &stops(12, 4));
@@ -167,7 +167,7 @@ fn a_gel() {
     let mut setup = coarse();
     let start = DirectorStart::Random { seed: 2 };
     setup.droplets[0].gel = Some(GelSetup { anchoring: Anchoring::Planar, start, ..GelSetup::default() });
-    let among_layers = Method::Layers(LayersMethod { nodes: 32, cells: 96, ..LayersMethod::of_spacing(0.2) });
+    let among_layers = Method::Layers(LayersMethod { nodes: 32, elements: 96, ..LayersMethod::of_spacing(0.2) });
     for (method, viscosity) in [(coarse().method, None), (among_layers, Some(20.0))] {
         (setup.method, setup.droplets[0].viscosity) = (method, viscosity);
         compare(|| scene(&setup), 4.0, AUTO, &[1, 7, 13]);
@@ -368,7 +368,7 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         ("times the mean concentration at the start", particles(|particles| particles.activity = -2.0)),
         (
             "times the mean concentration at the start",
-            particles(|particles| particles.excluded_volume = Exclusion::Step(20.0)),
+            particles(|particles| particles.excluded_volume = ExcludedVolume::Step(20.0)),
         ),
         ("times the mean concentration at the start", droplet(|droplet| droplet.tension = 7.0)),
         ("the diffusion constant is 0.1 in it and 0.2 here", particles(|particles| particles.diffusion = 0.2)),
@@ -382,7 +382,7 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
         assert!(error.to_string().contains(expected), "{error}");
     }
-    for method in [good.method, Method::Integral(IntegralMethod { nodes: 32, cells: 64 })] {
+    for method in [good.method, Method::Integral(IntegralMethod { nodes: 32, elements: 64 })] {
         let driven = |drive| scene(&Setup { region: channel(4.0, drive), method, ..coarse() });
         let saved = driven(Drive::Gradient(-1.0)).checkpoint("");
         for (drive, expected) in [
@@ -396,7 +396,7 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         driven(Drive::Gradient(0.0)).resume(&driven(Drive::ZeroGradient).checkpoint("")).expect("the same drive");
     }
     let with_nodes =
-        |nodes| scene(&Setup { method: Method::Integral(IntegralMethod { nodes, cells: 64 }), ..Setup::default() });
+        |nodes| scene(&Setup { method: Method::Integral(IntegralMethod { nodes, elements: 64 }), ..Setup::default() });
     let error = with_nodes(48).resume(&with_nodes(32).checkpoint("")).expect_err("more nodes");
     assert!(error.to_string().contains("the number of nodes of an interface is 32 in it and 48 here"), "{error}");
     // Markers that follow the fluid come and go over a run, but those at the start tell.
@@ -427,7 +427,7 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
 /// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.
 #[test]
 fn every_scene_in_every_other() {
-    let integrals = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
+    let integrals = Method::Integral(IntegralMethod { nodes: 32, elements: 64 });
     let plain = [coarse(), Setup { method: integrals, ..coarse() }, thesis(-3.0)];
     let contrasts = plain.each_ref().map(|setup| filled(1000.0, setup));
     let regions = [Region::Box { lengths: [6.0, 4.0] }, channel(4.0, Drive::ZeroGradient)];

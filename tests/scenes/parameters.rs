@@ -14,8 +14,8 @@ use motile::elastic_solids::{Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, 
 use motile::ib_core::{BSpline, ImmersedBoundary, SmearedContrast};
 use motile::scene::{Scene, StepSize, gap::Repulsion};
 use motile::setup::{
-    Axis, Built, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, Material, Method,
-    Particles, Setup, SolidOutline, SolidSetup, Squeezed, Start,
+    Axis, Built, DropletSetup, DropletShape, Grading, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
+    Setup, SolidOutline, SolidSetup, Squeezed, Start,
 };
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
 use proptest::prelude::*;
@@ -69,7 +69,7 @@ fn droplet_builds(change: impl Fn(&mut DropletSetup)) -> bool {
     let mut droplet = DropletSetup::default();
     change(&mut droplet);
     let droplets = vec![droplet];
-    [Method::Integral(IntegralMethod { nodes: 16, cells: 32 }), coarse().method]
+    [Method::Integral(IntegralMethod { nodes: 16, elements: 32 }), coarse().method]
         .into_iter()
         .all(|method| builds(&Setup { method, droplets: droplets.clone(), ..Setup::default() }))
 }
@@ -83,7 +83,7 @@ fn shape_builds(shape: &DropletShape) -> bool {
 }
 
 fn region_builds(region: Region) -> bool {
-    let integrals = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+    let integrals = Method::Integral(IntegralMethod { nodes: 16, elements: 32 });
     let region_of = |method| Setup { region, method, ..Setup::default() };
     builds(&region_of(integrals)) && builds(&region_of(coarse().method))
 }
@@ -167,17 +167,17 @@ fn makers() -> Vec<Maker> {
         }),
         maker("ConstantTension", &[1.0], "0", |v| ConstantTension::new(v[0]).is_ok()),
         maker("ContractileTension", &[10.0, -1.0], "0-", |v| {
-            ContractileTension::new(v[0], v[1], ExcludedVolume::None).is_ok()
+            ContractileTension::new(v[0], v[1], ExcludedVolume::None, 1.0).is_ok()
         }),
         maker("ContractileTension::thesis", &[10.0, -1.0, 10.0, 100.0], "0-0+", |v| {
             ContractileTension::thesis(v[0], v[1], v[2], v[3]).is_ok()
         }),
         maker("ExcludedVolume::Step", &[10.0, 200.0, 0.1], "0++", |v| {
-            let excluded_volume = ExcludedVolume::Step { strength: v[0], threshold: v[1], steepness: v[2] };
-            ContractileTension::new(10.0, -1.0, excluded_volume).is_ok()
+            let excluded_volume = ExcludedVolume::StepAt { strength: v[0], threshold: v[1], steepness: v[2] };
+            ContractileTension::new(10.0, -1.0, excluded_volume, 1.0).is_ok()
         }),
         maker("ExcludedVolume::Quadratic", &[0.1], "0", |v| {
-            ContractileTension::new(10.0, -1.0, ExcludedVolume::Quadratic { strength: v[0] }).is_ok()
+            ContractileTension::new(10.0, -1.0, ExcludedVolume::Quadratic(v[0]), 1.0).is_ok()
         }),
         maker("InitialConcentration::uniform", &[100.0], "0", |v| InitialConcentration::uniform(v[0]).is_ok()),
         maker("InitialConcentration::polarised", &[100.0, 0.3], "0-", |v| {
@@ -301,14 +301,14 @@ fn makers() -> Vec<Maker> {
         maker("Setup particles", &[-2.0, 10.0, 0.1, 100.0], "-00+", |v| {
             particles_build(Particles {
                 activity: v[0],
-                excluded_volume: Exclusion::Step(v[1]),
+                excluded_volume: ExcludedVolume::Step(v[1]),
                 diffusion: v[2],
                 concentration: v[3],
                 ..Particles::default()
             })
         }),
         maker("Setup particles, quadratic", &[0.1], "0", |v| {
-            particles_build(Particles { excluded_volume: Exclusion::Quadratic(v[0]), ..Particles::default() })
+            particles_build(Particles { excluded_volume: ExcludedVolume::Quadratic(v[0]), ..Particles::default() })
         }),
         maker("Setup particles, perturbed", &[0.1], "0", |v| {
             let start = Start::Perturbed { amplitude: v[0], seed: 3 };

@@ -10,7 +10,7 @@ use motile::setup::{
 
 fn small(activity: f64) -> Setup {
     Setup {
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, elements: 64 }),
         droplets: vec![DropletSetup::active(activity)],
         ..Setup::default()
     }
@@ -78,7 +78,7 @@ fn other_bodies_are_refused_and_nothing_is_changed() {
     let refused = scene.take_over(&other.scene.checkpoint("")).expect_err("two droplets").to_string();
     assert!(refused.contains("it has 2 bodies, this scene 1"), "{refused}");
     // Another number of markers, which the bodies find out themselves, and a box that does not hold the droplets.
-    let finer = Setup { method: Method::Integral(IntegralMethod { nodes: 32, cells: 96 }), ..small(-2.0) };
+    let finer = Setup { method: Method::Integral(IntegralMethod { nodes: 32, elements: 96 }), ..small(-2.0) };
     let finer = finer.build().expect("a scene").scene.checkpoint("");
     assert!(scene.take_over(&finer).is_err() || scene.body(scene_droplet(&scene)).expect("it").markers().len() == 96);
     scene.take_over(&before).expect("the state before");
@@ -154,7 +154,7 @@ fn a_pinned_wall_cannot_be_moved() {
     let wall = SolidSetup::new(outline, Material::Springs { shear: 100.0 });
     let setup = Setup {
         region: Region::Channel { length: 8.0, width: 6.0, drive: Drive::default() },
-        method: Method::Layers(LayersMethod { nodes: 32, cells: 64, spacing: 0.2, ..LayersMethod::default() }),
+        method: Method::Layers(LayersMethod { nodes: 32, elements: 64, spacing: 0.2, ..LayersMethod::default() }),
         solids: vec![wall],
         ..small(-2.0)
     };

@@ -1,6 +1,6 @@
 //! Descriptions of the same scenes in other units.
 
-use motile::setup::{DropletSetup, DropletShape, Exclusion, GridMethod, LayersMethod, Method, Particles};
+use motile::setup::{DropletSetup, DropletShape, ExcludedVolume, GridMethod, LayersMethod, Method, Particles};
 
 /// A unit of length, of time and of force: what they are of those of the scene.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ impl Units {
         let Self { length, time, force } = self;
         let particles = Particles {
             activity: activity * force * length,
-            excluded_volume: Exclusion::Step(10.0 * force * length),
+            excluded_volume: ExcludedVolume::Step(10.0 * force * length),
             diffusion: 0.1 * length * length / time,
             concentration: 100.0 / length,
             ..Particles::default()

@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def small(**more: object) -> motile.Setup:
-    return motile.Setup(method=motile.integral(nodes=32, cells=128), **more)
+    return motile.Setup(method=motile.integral(nodes=32, elements=128), **more)
 
 
 def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
@@ -82,7 +82,7 @@ def test_broken_checkpoints_are_refused(tmp_path: Path) -> None:
 def test_a_full_disk_leaves_the_last_checkpoint(tmp_path: Path) -> None:
     program = """
 import motile, resource, sys
-scene = motile.Setup(method=motile.integral(nodes=32, cells=128)).build()
+scene = motile.Setup(method=motile.integral(nodes=32, elements=128)).build()
 scene.save("state")
 scene.run(0.5)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
@@ -156,7 +156,7 @@ def test_three_dimensions(region: object) -> None:
     text = scene._repr_svg_()
     assert text.startswith("<svg")
     assert pickle.loads(pickle.dumps(small(region=region))) == small(region=region)
-    method = motile.integral(nodes=48, cells=192)
+    method = motile.integral(nodes=48, elements=192)
     swimmer = motile.steady(motile.Setup(region=region, method=method, droplets=[motile.droplet(-1)]))
     assert 0.08 < swimmer.speed < 0.11
 
@@ -267,7 +267,7 @@ def _interrupted(work: Callable[[], object], after: float) -> float:
 
 def test_ctrl_c_leaves_whatever_takes_long() -> None:
     def fine(nodes: int) -> motile.Setup:
-        return motile.Setup(region=motile.plane(), method=motile.integral(nodes=nodes, cells=4 * nodes))
+        return motile.Setup(region=motile.plane(), method=motile.integral(nodes=nodes, elements=4 * nodes))
 
     crowd = motile.Setup(region=motile.box(200), droplets=[], suspension=[{"count": 4000, "seed": 1}])
     start = motile.steady(fine(64))
@@ -384,7 +384,7 @@ def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
         motile.sweep(small(), {"viscosity": [1, -1]}, 1)
     # Of a sweep that is stopped, runs that have begun are not waited for, and results are whole.
     endless = {"viscosity": [60, 70, 80]}
-    longest = motile.Setup(method=motile.integral(nodes=200, cells=800))
+    longest = motile.Setup(method=motile.integral(nodes=200, elements=800))
     assert _interrupted(lambda: motile.sweep(longest, endless, 1e4, 1.0, processes=2, folder=tmp_path), 2.0) < 5
     assert not multiprocessing.active_children() and len(list(tmp_path.glob("*.npz"))) == 5
     alone = tmp_path / "alone"

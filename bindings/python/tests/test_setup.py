@@ -15,7 +15,7 @@ import pytest
 def channel() -> motile.Setup:
     return motile.Setup(
         region=motile.channel(12, 5, drive="zero-flux"),
-        method=motile.integral(nodes=32, cells=128),
+        method=motile.integral(nodes=32, elements=128),
         droplets=[
             motile.droplet(-3, centre=(0, 0.5), particles={"concentration": 90}),
             motile.droplet(None, centre=[5, 0]),
@@ -155,7 +155,7 @@ def test_wrong_values_at_every_depth() -> None:
 def test_walls_of_ones_own_are_arrays() -> None:
     """Sides of a channel and obstacles as arrays of any kind; a channel of that shape is the same to second order."""
     shape = {"sinusoidal": {"width": 3.0, "amplitude": 0.2, "waves": 1, "phase": 0.0}}
-    method = motile.integral(nodes=32, cells=128)
+    method = motile.integral(nodes=32, elements=128)
 
     def speed(below: Any, above: Any) -> float:
         walls = [{"outline": outline, "spacing": 0.2} for outline in (below, above)]

@@ -7,7 +7,7 @@ import pytest
 
 def test_a_swimmer_in_a_channel() -> None:
     # Values of the reference of the crate steady-states.
-    setup = motile.Setup(region=motile.channel(12, 5), method=motile.integral(nodes=72, cells=288))
+    setup = motile.Setup(region=motile.channel(12, 5), method=motile.integral(nodes=72, elements=288))
     swimmer = motile.steady(setup)
     assert swimmer.speed == pytest.approx(0.137444855, abs=3e-6)
     assert swimmer.measured["speed"] == swimmer.speed and swimmer.residual < 1e-6
@@ -18,7 +18,7 @@ def test_a_swimmer_in_a_channel() -> None:
 
 
 def test_a_branch_and_how_it_ends() -> None:
-    start = motile.steady(motile.Setup(region=motile.plane(), method=motile.integral(nodes=72, cells=288)))
+    start = motile.steady(motile.Setup(region=motile.plane(), method=motile.integral(nodes=72, elements=288)))
     seen: list[float] = []
     branch = motile.branch(start, "activity", -3, callback=seen.append)
     assert np.array_equal(seen, branch.values)

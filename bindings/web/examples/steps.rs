@@ -9,7 +9,7 @@ use motile_web::live::Live;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (count, side) in [(1, 6.0), (4, 8.0), (16, 13.0)] {
         let scene = format!(
-            "region.box.lengths = [{side:?}, {side:?}]\nmethod.integral = {{ nodes = 32, cells = 96 }}\n\
+            "region.box.lengths = [{side:?}, {side:?}]\nmethod.integral = {{ nodes = 32, elements = 96 }}\n\
              repulsion = {{ strength = 1000.0, range = 0.26 }}\n[[suspension]]\ncount = {count}\nactivity = -3.0\n"
         );
         let mut live = Live::new(Setup::from_toml(&scene)?)?;

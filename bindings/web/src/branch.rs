@@ -1,22 +1,22 @@
 //! Branch of steady states over the activity, for the map of speeds.
 
 use motile::base::Region;
-use motile::setup::{Exclusion, IntegralMethod, Method, Setup};
+use motile::setup::{ExcludedVolume, IntegralMethod, Method, Setup};
 use motile_steady_states::{BranchPoint, Continuation, Parameter, SteadyState};
 
 use crate::Refusal;
 
 /// Nodes and cells for the map, which is drawn a few hundred pixels wide: speeds need fewer, growth rates of droplets
 /// that turn do not.
-const RESOLUTION: IntegralMethod = IntegralMethod { nodes: 72, cells: 216 };
+const RESOLUTION: IntegralMethod = IntegralMethod { nodes: 72, elements: 216 };
 /// Weakest and strongest activity of the map, in units of a tenth of the tension times the radius.
 const RANGE: [f64; 2] = [-8.0, -0.2];
 /// Activity from which a branch is followed both ways: the droplet swims there.
 const START: f64 = -2.0;
 /// Longest step along it.
 const STEP: f64 = 0.12;
-/// Growth rate of a disturbance of a swimmer that counts as none, over [`motile_steady_states::Spectrum::zero`], 1e-8 D/R^2:
-/// the error with these nodes.
+/// Growth rate of a disturbance of a swimmer that counts as none, over [`motile_steady_states::Spectrum::zero`], 1e-8
+/// D/R^2: the error with these nodes.
 const NO_GROWTH: f64 = 6e6;
 /// Halvings of the range to the threshold at which rest is no longer stable.
 const HALVINGS: usize = 12;
@@ -82,7 +82,7 @@ pub fn follow(setup: &Setup, mut seen: impl FnMut(MapPoint) -> bool) -> Result<(
     let particles = map.droplets[0].particles.as_ref().ok_or_else(none)?;
     // The stronger end lies where excluded volume still holds the particles apart.
     let strength = match particles.excluded_volume {
-        Exclusion::Step(strength) => -0.75 * strength,
+        ExcludedVolume::Step(strength) => -0.75 * strength,
         _ => RANGE[0],
     };
     let strongest = RANGE[0].max(strength);

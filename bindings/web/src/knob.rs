@@ -1,7 +1,7 @@
 //! Parameters that are turned while a scene runs.
 
 use motile::base::Region;
-use motile::setup::{Distribution, DropletSetup, Exclusion, Setup};
+use motile::setup::{Distribution, DropletSetup, ExcludedVolume, Setup};
 
 use crate::Refusal;
 
@@ -156,7 +156,7 @@ impl Knob {
 fn strongest(setup: &Setup) -> f64 {
     let droplet = setup.droplets.first().or(setup.suspension.first().map(|entry| &entry.droplet));
     match droplet.and_then(|droplet| droplet.particles.as_ref()).map(|particles| particles.excluded_volume) {
-        Some(Exclusion::Step(strength)) => MOST_ACTIVITY.min(0.8 * strength),
+        Some(ExcludedVolume::Step(strength)) => MOST_ACTIVITY.min(0.8 * strength),
         _ => MOST_ACTIVITY,
     }
 }

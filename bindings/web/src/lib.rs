@@ -105,7 +105,7 @@ impl Engine {
             "origin": domain.origin,
             "periods": domain.periods.lengths,
             "walls": domain.walls,
-            "revolution": setup.region.is_of_revolution(),
+            "revolution": setup.region.is_axisymmetric(),
             "concentration": concentration,
             "activity": Knob::Activity.value(setup),
             "knobs": known.collect::<Vec<_>>(),

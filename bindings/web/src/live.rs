@@ -231,7 +231,7 @@ impl Live {
     /// # Errors
     /// A place where it overlaps something, a droplet that is not there or is full of gel; the scene is then as it was.
     pub fn drag(&mut self, droplet: usize, by: Vec2) -> Result<(), Refusal> {
-        let by = if self.described.region.is_of_revolution() { Vec2::new(by.x, 0.0) } else { by };
+        let by = if self.described.region.is_axisymmetric() { Vec2::new(by.x, 0.0) } else { by };
         let missing = || Refusal::plain(format!("there is no droplet {droplet}"));
         let handle: Handle<dyn Body> = (*self.built.droplets.get(droplet).ok_or_else(missing)?).into();
         let system = self.built.scene.system();

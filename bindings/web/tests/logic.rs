@@ -11,7 +11,7 @@ use motile_web::{branch, branch::Line, dust::Dust, frame};
 
 fn small() -> Setup {
     Setup {
-        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        method: Method::Integral(IntegralMethod { nodes: 24, elements: 48 }),
         droplets: vec![DropletSetup::active(-3.0)],
         ..Setup::default()
     }
@@ -53,7 +53,7 @@ fn the_default_scene_is_one_word_and_nothing_is_left_out_that_matters() {
     assert_eq!(concise(&Setup::default()).expect("a text"), "[[droplets]]\n");
     assert_eq!(
         concise(&small()).expect("a text").lines().collect::<Vec<_>>(),
-        ["method.integral = { nodes = 24, cells = 48 }", "", "[[droplets]]", "particles.activity = -3.0",]
+        ["method.integral = { nodes = 24, elements = 48 }", "", "[[droplets]]", "particles.activity = -3.0",]
     );
 }
 

@@ -19,14 +19,14 @@ for (const [count, side] of [
   [16, "13.0"],
 ]) {
   const scene =
-    `region.box.lengths = [${side}, ${side}]\nmethod.integral = { nodes = 32, cells = 96 }\n` +
+    `region.box.lengths = [${side}, ${side}]\nmethod.integral = { nodes = 32, elements = 96 }\n` +
     `repulsion = { strength = 1000.0, range = 0.26 }\n[[suspension]]\ncount = ${count}\nactivity = -3.0\n`;
   await page.evaluate((scene) => window.motile.load(scene), scene);
   await page.evaluate(() => window.motile.go({ steps: 20 }));
   const { taken, seconds, speed } = await page.evaluate((steps) => window.motile.go({ steps }), 1600 / count);
   console.log(`${count} droplets: ${Math.round(taken / seconds)} steps a second, speed ${speed}`);
 }
-await page.evaluate(() => window.motile.load("method.integral = { nodes = 48, cells = 192 }\n[[droplets]]\n"));
+await page.evaluate(() => window.motile.load("method.integral = { nodes = 48, elements = 192 }\n[[droplets]]\n"));
 console.log(`default scene at t = 5: speed ${(await page.evaluate(() => window.motile.go({ time: 5 }))).speed}`);
 await browser.close();
 server.close();

@@ -261,11 +261,11 @@ fn after(k: usize, distance: usize, m: usize) -> usize {
     if next >= m { next - m } else { next }
 }
 
-/// The largest cell Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative velocities at the
-/// markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
+/// The largest element Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative velocities at
+/// the markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
 ///
 /// Above 0.35 the edge of the concentration is not resolved: use a smaller marker spacing.
-pub(crate) fn cell_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> f64 {
+pub(crate) fn element_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> f64 {
     let largest = relative_velocities
         .iter()
         .enumerate()

@@ -106,12 +106,12 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_bounds(area, particles)?, ..self })
     }
 
-    /// See [`ActiveInterface::of_revolution`].
+    /// See [`ActiveInterface::axisymmetric`].
     ///
     /// # Errors
-    /// Those of [`ActiveInterface::of_revolution`].
-    pub fn of_revolution(self) -> Result<Self, InterfaceError> {
-        Ok(Self { interface: self.interface.of_revolution()?, ..self })
+    /// Those of [`ActiveInterface::axisymmetric`].
+    pub fn axisymmetric(self) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.axisymmetric()?, ..self })
     }
 
     /// See [`ActiveInterface::with_stabiliser`].
@@ -147,7 +147,7 @@ impl ActiveDroplet {
     ///
     /// # Errors
     /// A droplet without particles on its interface; a number that is negative or not finite.
-    pub fn with_pool(mut self, exchange: Exchange, number: f64) -> Result<Self, InterfaceError> {
+    pub fn with_well_mixed_interior(mut self, exchange: Exchange, number: f64) -> Result<Self, InterfaceError> {
         let numbers = self.interface.state.numbers.len();
         at_least("particle numbers of a droplet that exchanges particles", numbers, MINIMUM_MARKERS)?;
         self.pool = Some(Pool::new(exchange, number, self.initial_area())?);
@@ -164,7 +164,7 @@ impl ActiveDroplet {
     /// Particles that bind to the interface less those that unbind (1/time); `None` without a pool.
     #[must_use]
     pub fn exchange_flux(&self) -> Option<f64> {
-        self.pool.map(|pool| pool.flux(self.segment_lengths(), self.interface.number()))
+        self.pool.map(|pool| pool.flux(self.element_lengths(), self.interface.number()))
     }
 
     /// Particles on the interface and inside.

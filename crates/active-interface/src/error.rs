@@ -11,7 +11,7 @@ pub enum InterfaceError {
         "the marker at ({x:.4}, {y:.4}) has no mirror image at the x axis: give a body of revolution an even number of \
          markers, equidistributed, the first on the axis, and a heading along it"
     )]
-    NotOfRevolution {
+    NotAxisymmetric {
         /// x coordinate of the marker (length).
         x: f64,
         /// y coordinate of the marker (length).

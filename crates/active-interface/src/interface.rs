@@ -218,7 +218,7 @@ impl ActiveInterface {
         let count = self.markers().len();
         // Markers of the others are inserted and removed.
         let stay = matches!(self.law.motion, Motion::Equidistributed { .. }) || self.state.shape.advance != 0.0;
-        let smooth = self.state.shape.of_revolution || (view.shape_modes.is_some() && stay);
+        let smooth = self.state.shape.axisymmetric || (view.shape_modes.is_some() && stay);
         if smooth != self.scheme.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.scheme.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
             self.scheme.other.markers.clear();
@@ -242,8 +242,8 @@ impl ActiveInterface {
     /// Those of [`ActiveInterface::fit`].
     fn all_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
         self.fit(view)?;
-        let Shape { geometry, of_revolution, .. } = &self.state.shape;
-        if let Some(spectral) = self.scheme.spectral.as_mut().filter(|_| *of_revolution) {
+        let Shape { geometry, axisymmetric, .. } = &self.state.shape;
+        if let Some(spectral) = self.scheme.spectral.as_mut().filter(|_| *axisymmetric) {
             spectral.ring_forces(geometry, &self.derived.tensions, forces);
             return Ok(());
         }

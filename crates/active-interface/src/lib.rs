@@ -13,14 +13,12 @@
 //! use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume};
 //! use active_interface::{PrescribedFlow, Scene, StepSize, Vec2};
 //!
-//! /// Returns concentrations at time 1 that start as 1 + wave cos(angle), in a flow of velocity -gathering sin(angle) along
-//! /// the circle.
-//! fn concentrations(gathering: f64, diffusion: f64, wave: f64) -> Result<Vec<f64>, Box<dyn Error>> {
-//!     let markers = Curve::circle(1.0)?.markers(256)?;
-//!     let next = |k: usize| markers[(k + 1) % markers.len()];
-//!     let start = |from: Vec2, to: Vec2| (1.0 + wave * (from + to).to_angle().cos()) * from.distance(to);
-//!     let numbers = (0..markers.len()).map(|k| start(markers[k], next(k))).collect();
-//!     let law = ContractileTension::new(1.0, -0.1, ExcludedVolume::None)?;
+//! /// Returns concentrations at time 1 that start as 1 + wave cos(angle), in a flow of velocity -gathering sin(angle)
+//! along /// the circle. fn concentrations(gathering: f64, diffusion: f64, wave: f64) -> Result<Vec<f64>, Box<dyn
+//! Error>> { let markers = Curve::circle(1.0)?.markers(256)?; let next = |k: usize| markers[(k + 1) % markers.len()];
+//! let start = |from: Vec2, to: Vec2| (1.0 + wave * (from + to).to_angle().cos()) * from.distance(to); let numbers =
+//! (0..markers.len()).map(|k| start(markers[k], next(k))).collect(); let law = ContractileTension::new(1.0, -0.1,
+//! ExcludedVolume::None, 1.0)?;
 //!
 //!     let mut scene = Scene::new(PrescribedFlow::new(move |x: Vec2| gathering * x.y * Vec2::new(x.y, -x.x)));
 //!     let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, diffusion)?);
@@ -41,16 +39,15 @@
 //! ```
 //! use std::error::Error;
 //!
-//! use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, PrescribedFlow, Scene, StepSize, Vec2};
+//! use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, PrescribedFlow, Scene, StepSize,
+//! Vec2};
 //!
-//! /// Concentrations at time 1 of particles with this diffusion constant that start as 1 + wave cos(angle). The flow along
-//! /// the circle is -gathering sin(angle), towards the angle zero.
-//! fn concentrations(gathering: f64, diffusion: f64, wave: f64) -> Result<Vec<f64>, Box<dyn Error>> {
-//!     let markers = Curve::circle(1.0)?.markers(256)?;
-//!     let next = |k: usize| markers[(k + 1) % markers.len()];
-//!     let start = |from: Vec2, to: Vec2| (1.0 + wave * (from + to).to_angle().cos()) * from.distance(to);
-//!     let numbers = (0..markers.len()).map(|k| start(markers[k], next(k))).collect();
-//!     let law = ContractileTension::new(1.0, -0.1, ExcludedVolume::None)?;
+//! /// Concentrations at time 1 of particles with this diffusion constant that start as 1 + wave cos(angle). The flow
+//! along /// the circle is -gathering sin(angle), towards the angle zero. fn concentrations(gathering: f64, diffusion:
+//! f64, wave: f64) -> Result<Vec<f64>, Box<dyn Error>> { let markers = Curve::circle(1.0)?.markers(256)?; let next =
+//! |k: usize| markers[(k + 1) % markers.len()]; let start = |from: Vec2, to: Vec2| (1.0 + wave * (from +
+//! to).to_angle().cos()) * from.distance(to); let numbers = (0..markers.len()).map(|k| start(markers[k],
+//! next(k))).collect(); let law = ContractileTension::new(1.0, -0.1, ExcludedVolume::None, 1.0)?;
 //!
 //!     let mut scene = Scene::new(PrescribedFlow::new(move |x: Vec2| gathering * x.y * Vec2::new(x.y, -x.x)));
 //!     let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, diffusion)?);

@@ -55,7 +55,7 @@ pub struct InterfaceState<'a> {
     pub enclosed: Vec<Enclosed>,
     /// True for a body of revolution in three dimensions, of which the markers are the meridian with its mirror image,
     /// and forces and numbers those of halves of rings.
-    pub of_revolution: bool,
+    pub axisymmetric: bool,
 }
 
 impl<'a> InterfaceState<'a> {
@@ -70,7 +70,7 @@ impl<'a> InterfaceState<'a> {
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
             enclosed: flow.enclosed(),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
-            of_revolution: droplet.is_of_revolution(),
+            axisymmetric: droplet.is_axisymmetric(),
         }
     }
 
@@ -135,7 +135,7 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed, of_revolution } =
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed, axisymmetric } =
         *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
@@ -149,7 +149,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     for body in enclosed {
         moments.add_body(body, convention, &frame)?;
     }
-    let surface = of_revolution.then(|| revolution::surface(markers)).transpose()?;
+    let surface = axisymmetric.then(|| revolution::surface(markers)).transpose()?;
     // In three dimensions the numbers that segments would have in the plane at the same concentrations.
     let in_plane: Option<Vec<f64>> = surface.as_ref().map(|surface| {
         let sizes = edges(markers).map(|(a, b)| (b - a).length()).zip(&surface.rings.areas);

@@ -5,10 +5,11 @@ mod excluded_volume;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use motile_base::{finite, not_negative};
+use motile_base::{finite, not_negative, positive};
 
 use crate::InterfaceError;
 pub use excluded_volume::ExcludedVolume;
+use excluded_volume::Law;
 
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
@@ -69,18 +70,28 @@ pub struct ContractileTension {
     bare: f64,
     activity: f64,
     excluded_volume: ExcludedVolume,
+    law: Law,
 }
 
 impl ContractileTension {
-    /// Bare tension gamma0 >= 0 (force), activity zeta_dmu (force times length, of either sign) and excluded volume.
+    /// Makes a law from the bare tension gamma0 >= 0 (force), the activity zeta_dmu (force times length, of either
+    /// sign), the excluded volume, and the mean concentration c0 (particles per length), which sets the threshold of
+    /// [`ExcludedVolume::Step`] and is not used by other excluded volumes.
     ///
     /// # Errors
-    /// A negative bare tension, an excluded volume out of its range, values that are not finite.
-    pub fn new(bare: f64, activity: f64, excluded_volume: ExcludedVolume) -> Result<Self, InterfaceError> {
+    /// Returns [`InterfaceError::Input`] if the bare tension is negative, if the mean concentration is not positive, if
+    /// a value of the excluded volume is out of its range, or if a value is not finite.
+    pub fn new(
+        bare: f64,
+        activity: f64,
+        excluded_volume: ExcludedVolume,
+        mean_concentration: f64,
+    ) -> Result<Self, InterfaceError> {
         let bare = not_negative("the bare tension", bare)?;
         excluded_volume.check()?;
+        let law = excluded_volume.law(positive("the mean concentration", mean_concentration)?);
         let activity = finite("the activity", activity)?;
-        Ok(Self { bare, activity, excluded_volume })
+        Ok(Self { bare, activity, excluded_volume, law })
     }
 
     /// Cowley's law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
@@ -88,7 +99,7 @@ impl ContractileTension {
     /// # Errors
     /// Those of [`ContractileTension::new`].
     pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
-        Self::new(bare, activity, ExcludedVolume::thesis(strength, mean_concentration))
+        Self::new(bare, activity, ExcludedVolume::Step(strength), mean_concentration)
     }
 
     /// The bare tension gamma0 (force).
@@ -103,7 +114,7 @@ impl ContractileTension {
         self.activity
     }
 
-    /// The excluded volume.
+    /// Returns the excluded volume.
     #[must_use]
     pub fn excluded_volume(&self) -> ExcludedVolume {
         self.excluded_volume
@@ -113,17 +124,17 @@ impl ContractileTension {
     /// together, above it they drive each other apart. `None` where the tension grows without bound.
     #[must_use]
     pub fn plateau(&self) -> Option<f64> {
-        self.excluded_volume.plateau(-self.activity)
+        self.law.plateau(-self.activity)
     }
 }
 
 impl Tension for ContractileTension {
     fn value(&self, c: f64) -> f64 {
-        self.bare - self.activity * c - self.excluded_volume.pressure(c)
+        self.bare - self.activity * c - self.law.pressure(c)
     }
 
     fn slope(&self, c: f64) -> f64 {
-        -self.activity - self.excluded_volume.slope(c)
+        -self.activity - self.law.slope(c)
     }
 
     fn warning(&self) -> Option<String> {

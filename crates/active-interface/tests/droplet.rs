@@ -23,7 +23,7 @@ mod tests {
         let curve = Curve::ellipse(1.2, 0.9).unwrap().rotated(angle).translated(centre);
         let markers = curve.markers(96).unwrap();
         let numbers = InitialConcentration::polarised(1.0, angle).unwrap().particle_numbers(&markers).unwrap();
-        let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None).unwrap();
+        let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
         ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap().with_motion(motion)
     }
 
@@ -127,7 +127,7 @@ mod tests {
                 assert!((after / before - 1.0).abs() < 1e-12);
             } else {
                 let [max, min] = body
-                    .segment_lengths()
+                    .element_lengths()
                     .iter()
                     .fold([0.0_f64, f64::INFINITY], |[max, min], &l| [max.max(l), min.min(l)]);
                 assert!(max / min < 1.01, "spacing stays equal: {}", max / min);
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn wrong_droplets_are_refused() {
         let markers = Curve::circle(1.0).unwrap().markers(32).unwrap();
-        let law = || ContractileTension::new(1.0, -0.5, ExcludedVolume::None).unwrap();
+        let law = || ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
         let numbers = vec![1.0; 32];
         assert!(ActiveDroplet::new(&markers, numbers.clone(), law(), 0.1).is_ok());
         assert!(ActiveDroplet::new(&markers[..7], vec![1.0; 7], law(), 0.1).is_err());

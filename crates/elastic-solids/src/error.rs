@@ -244,7 +244,7 @@ pub enum SolidError {
     /// A surface that has come to cross itself.
     #[error(
         "the surface crosses itself near ({:.4}, {:.4}), where the sides that start at the points {first} and {second} \
-         meet: contact of a solid with itself is not in the model; give it a skin that keeps it from creasing, stiffer \
+         meet: contact of a solid with itself is not in the model; give it surface elasticity that keeps it from creasing, stiffer \
          material, or use a smaller time step", .place.x, .place.y
     )]
     SelfContact {

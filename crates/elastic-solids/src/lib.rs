@@ -6,8 +6,8 @@
 //!
 //! # Example
 //!
-//! Forces pull the upper edge of a neo-Hookean strip. The strip, with a law of your own, relaxes to the stretch that the
-//! stress of the material predicts:
+//! Forces pull the upper edge of a neo-Hookean strip. The strip, with a law of your own, relaxes to the stretch that
+//! the stress of the material predicts:
 //!
 //! ```
 //! use elastic_solids::mesh::{TriangleMesh, fitted_strip};
@@ -115,8 +115,8 @@ mod random;
 mod relaxation;
 mod rigid_body;
 mod shell;
-mod skin;
 mod solid;
+mod surface_elasticity;
 
 pub use active_springs::ActiveSprings;
 pub use channel::{Channel, ChannelShape, Walls, Width, width_between};

@@ -14,7 +14,7 @@ use crate::damping::Damping;
 use crate::forces::{Hyperelastic, Springs};
 use crate::mesh::TriangleMesh;
 use crate::relaxation::{NoElasticity, Relaxation};
-use crate::skin::Skin;
+use crate::surface_elasticity::SurfaceElasticity;
 use crate::{ActiveSprings, ElasticForces, EnergyDensity, Maxwell, SolidError};
 
 use self_contact::SelfContact;
@@ -60,7 +60,7 @@ pub struct Solid {
     /// Mean length of the edges of the mesh in the reference state (length).
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
-    pub(crate) skin: Option<Skin>,
+    pub(crate) surface_elasticity: Option<SurfaceElasticity>,
     /// True where the law is of springs along the edges.
     springs: bool,
     pub(crate) relaxation: Option<Relaxation>,
@@ -164,7 +164,7 @@ impl Solid {
             forces: vec![Vec2::ZERO; count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
-            skin: None,
+            surface_elasticity: None,
             springs: false,
             relaxation: None,
             bonds: None,
@@ -186,7 +186,7 @@ impl Solid {
         self
     }
 
-    /// Covers the surface with an elastic skin, without stress in the reference state, with the moduli of stretching
+    /// Covers the surface with surface elasticity, without stress in the reference state, with the moduli of stretching
     /// E_s (force) and bending B (force times length squared):
     ///
     /// ```text
@@ -195,13 +195,13 @@ impl Solid {
     ///
     /// with the lengths l of the sides of the surface and the angles theta between them, L and theta_0 those of the
     /// reference state, S the mean length of two sides. A soft solid that is compressed along its surface beyond a
-    /// stretch of about 0.65 creases; a skin sets the length, of the order of the cube root of B over the shear
-    /// modulus, below which it does not fold.
+    /// stretch of about 0.65 creases; surface elasticity sets the length, of the order of the cube root of B over the
+    /// shear modulus, below which it does not fold.
     ///
     /// # Errors
     /// Moduli that are negative or not finite.
-    pub fn with_skin(mut self, stretching: f64, bending: f64) -> Result<Self, SolidError> {
-        self.skin = Some(Skin::new(&self.mesh, stretching, bending)?);
+    pub fn with_surface_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, SolidError> {
+        self.surface_elasticity = Some(SurfaceElasticity::new(&self.mesh, stretching, bending)?);
         Ok(self)
     }
 
@@ -380,12 +380,13 @@ impl Solid {
         &mut self.tethers
     }
 
-    /// Computes the forces on the fluid (force) of all points, from law, skin, inner stresses and tethers.
+    /// Computes the forces on the fluid (force) of all points, from law, surface elasticity, inner stresses and
+    /// tethers.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
         self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;
-        if let Some(skin) = &self.skin {
-            skin.add_forces(&self.positions, &mut self.forces);
+        if let Some(surface) = &self.surface_elasticity {
+            surface.add_forces(&self.positions, &mut self.forces);
         }
         if let Some(relaxation) = &self.relaxation {
             relaxation.add_forces(&self.positions, &mut self.forces)?;

@@ -115,24 +115,17 @@
 //!     Ok(markers.velocities().iter().step_by(count / 28).copied().collect())
 //! }
 //!
-//! /// Returns the order of the velocity from three grids, each half as fine as the next.
-//! fn order(corrected: bool) -> Result<f64, Box<dyn Error>> {
-//!     let [coarse, middle, fine] = [velocities(64, corrected)?, velocities(128, corrected)?, velocities(256, corrected)?];
-//!     let distance =
-//!         |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| (*a - *b).length_squared()).sum::<f64>().sqrt();
-//!     Ok((distance(&coarse, &middle) / distance(&middle, &fine)).log2())
-//! }
+//! /// Returns the order of the velocity from three grids, each half as fine as the next. fn order(corrected: bool) ->
+//! Result<f64, Box<dyn Error>> { let [coarse, middle, fine] = [velocities(64, corrected)?, velocities(128, corrected)?,
+//! velocities(256, corrected)?]; let distance = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| (*a -
+//! *b).length_squared()).sum::<f64>().sqrt(); Ok((distance(&coarse, &middle) / distance(&middle, &fine)).log2()) }
 //!
-//! /// Returns the area that the ring has lost by time 0.5, as a fraction of its area.
-//! fn area_loss(n: usize) -> Result<f64, Box<dyn Error>> {
-//!     let area = |ring: &[Vec2]| (0..ring.len()).map(|k| 0.5 * ring[k].perp_dot(ring[(k + 1) % ring.len()])).sum::<f64>();
-//!     let (mut scene, count) = scene(n, true)?;
-//!     let kind = MarkerKind::Interface { viscosity_inside: None };
-//!     let ring = scene.add(MarkerBody::new("ring", ellipse(count), springs).with_kind(kind));
-//!     let start = area(scene.body(ring)?.markers());
-//!     scene.run(0.5).step_size(StepSize::Adaptive { tolerance: 1e-4 }).go()?;
-//!     Ok(1.0 - area(scene.body(ring)?.markers()) / start)
-//! }
+//! /// Returns the area that the ring has lost by time 0.5, as a fraction of its area. fn area_loss(n: usize) ->
+//! Result<f64, Box<dyn Error>> { let area = |ring: &[Vec2]| (0..ring.len()).map(|k| 0.5 * ring[k].perp_dot(ring[(k + 1)
+//! % ring.len()])).sum::<f64>(); let (mut scene, count) = scene(n, true)?; let kind = MarkerKind::Interface {
+//! viscosity_inside: None }; let ring = scene.add(MarkerBody::new("ring", ellipse(count), springs).with_kind(kind));
+//! let start = area(scene.body(ring)?.markers()); scene.run(0.5).step_size(StepSize::Adaptive { tolerance: 1e-4
+//! }).go()?; Ok(1.0 - area(scene.body(ring)?.markers()) / start) }
 //!
 //! fn main() -> Result<(), Box<dyn Error>> {
 //!     let [with, without] = [order(true)?, order(false)?];

@@ -1,8 +1,8 @@
 //! Analysis of motile runs: the regime in which one droplet moves, and order and correlations among many.
 //!
 //! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] records a droplet during a run.
-//!   [`trajectory::Trajectory::regime`] then says whether the droplet rests, swims straight or oscillates laterally, and
-//!   [`trajectory::Trajectory::linear_mode`] fits the growth rate and frequency of a small lateral motion.
+//!   [`trajectory::Trajectory::regime`] then says whether the droplet rests, swims straight or oscillates laterally,
+//!   and [`trajectory::Trajectory::linear_mode`] fits the growth rate and frequency of a small lateral motion.
 //! * [`suspension`]: polar and nematic order, pair correlations, mean square displacements, number fluctuations and
 //!   clusters of many droplets.
 //!

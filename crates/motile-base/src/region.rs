@@ -181,7 +181,7 @@ impl Region {
 
     /// True for three dimensions with rotational symmetry about the x axis.
     #[must_use]
-    pub fn is_of_revolution(&self) -> bool {
+    pub fn is_axisymmetric(&self) -> bool {
         matches!(self, Self::Space | Self::Tube { .. })
     }
 

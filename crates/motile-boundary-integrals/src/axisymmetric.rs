@@ -95,7 +95,7 @@ impl Hydrodynamics for AxisymmetricIntegral {
         self.region.half_length().map(|_| &self.walls)
     }
 
-    fn of_revolution(&self) -> bool {
+    fn axisymmetric(&self) -> bool {
         true
     }
 

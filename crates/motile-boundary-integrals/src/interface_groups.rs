@@ -23,8 +23,8 @@ impl InterfaceGroups {
         Self { flow, stiffness, samples: Vec::new() }
     }
 
-    /// Fastest relaxation of the interfaces ([`motile_scene::FluidView::interface_stiffness`], 1/length): a wave number q
-    /// decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the shortest interface
+    /// Fastest relaxation of the interfaces ([`motile_scene::FluidView::interface_stiffness`], 1/length): a wave number
+    /// q decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the shortest interface
     /// carry.
     pub(crate) fn stiffness(&self) -> f64 {
         self.stiffness

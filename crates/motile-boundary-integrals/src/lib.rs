@@ -4,8 +4,8 @@
 //! forces alone. [`BoundaryIntegral`] computes them to spectral accuracy in the plane, a periodic box or a channel
 //! ([`motile_base::Region`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside
 //! and outside. It implements [`motile_scene::Hydrodynamics`], so that bodies are the same with any method. Velocity,
-//! velocity gradient and pressure are available at any point, at any distance from an interface. [`stokes_boundary_integrals`] has
-//! the equations.
+//! velocity gradient and pressure are available at any point, at any distance from an interface.
+//! [`stokes_boundary_integrals`] has the equations.
 //!
 //! # Example
 //!

@@ -23,8 +23,8 @@ pub(crate) struct Filling {
     fits: bool,
 }
 
-/// Methods that bodies with a `filling` and a `name` share: access to the mesh, and the parts of the traits `Guest` and
-/// `Body` by which the inner nodes are markers that move with the host.
+/// Methods that bodies with a `filling` and a `name` share: access to the mesh, and the parts of the traits
+/// `InteriorBody` and `Body` by which the inner nodes are markers that move with the host.
 macro_rules! in_droplet {
     (mesh) => {
         /// Positions of the nodes (length), the droplet's markers first.
@@ -45,7 +45,7 @@ macro_rules! in_droplet {
             self.filling.host
         }
     };
-    (guest) => {
+    (interior_body) => {
         fn host(&self) -> Handle<dyn Body> {
             self.filling.host.into()
         }
@@ -71,7 +71,7 @@ macro_rules! in_droplet {
             positions.copy_from_slice(&self.filling.nodes[self.filling.inner()]);
         }
 
-        fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        fn as_interior_body(&mut self) -> Option<&mut dyn InteriorBody> {
             Some(self)
         }
     };
@@ -90,7 +90,7 @@ impl Filling {
         if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
             return Err(InteriorError::ChangingMarkers);
         }
-        let radius = droplet.segment_lengths().iter().sum::<f64>() / TAU;
+        let radius = droplet.element_lengths().iter().sum::<f64>() / TAU;
         let mesh = DiscMesh::graded(droplet.markers().len(), spacing / radius, growth)?;
         let [nodes, fluid, motion] = [(); 3].map(|()| vec![Vec2::ZERO; mesh.node_count()]);
         let mut filling = Self { host, mesh, nodes, fluid, motion, fits: true };

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use active_interface::ActiveDroplet;
 use motile_base::Vec2;
 use motile_scene::{
-    Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit, Warning,
+    Body, BodyError, BodyFlow, FluidView, Handle, InteriorBody, MarkerKind, Observe, StepInfo, StepLimit, Warning,
 };
 
 use director::Director;
@@ -37,9 +37,9 @@ const CORE_ERROR: f64 = 0.06;
 const CORE_SPACING: f64 = 0.05;
 const CORE_ORDER: f64 = 1.4;
 
-/// Active polar gel that fills a droplet: a body of a scene ([`motile_scene::Guest`] of the droplet) that puts forces
-/// on the fluid at the nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary nodes are the droplet's markers. Its
-/// state are the angles of the director.
+/// Active polar gel that fills a droplet: a body of a scene ([`motile_scene::InteriorBody`] of the droplet) that puts
+/// forces on the fluid at the nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary nodes are the droplet's markers.
+/// Its state are the angles of the director.
 ///
 /// The forces have neither resultant nor torque: the couple that turns the director at an anchored interface turns the
 /// interface back.
@@ -96,8 +96,8 @@ impl GelInDroplet {
     }
 }
 
-impl Guest for GelInDroplet {
-    in_droplet!(guest);
+impl InteriorBody for GelInDroplet {
+    in_droplet!(interior_body);
 
     fn update_host(&mut self, host: &dyn Body) {
         if self.filling.update_host(host, |_| true).is_some() {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, Exchange};
 use motile_base::{Vec2, not_negative, positive, told_apart};
 use motile_scene::{
-    Body, BodyError, BodyFlow, FluidView, Guest, Handle, MarkerKind, Observe, StepInfo, StepLimit, Warning,
+    Body, BodyError, BodyFlow, FluidView, Handle, InteriorBody, MarkerKind, Observe, StepInfo, StepLimit, Warning,
     checkpoint::SavedState,
 };
 
@@ -26,7 +26,7 @@ use crate::{
 const NUMBER_BOUND: f64 = 1e-8;
 /// Most passes in which negative numbers are filled up, from the next cell in each.
 const PASSES: usize = 100;
-/// Cell Peclet number above which central fluxes would oscillate, so that upwind ones add to the diffusion.
+/// Element Peclet number above which central fluxes would oscillate, so that upwind ones add to the diffusion.
 const PECLET_LIMIT: f64 = 2.0;
 /// Residual of the implicit diffusion, relative to the right-hand side: far below the error of a step. No particle is
 /// lost by it.
@@ -52,8 +52,8 @@ pub struct InteriorObservables {
 
 /// Particles inside a droplet that diffuse, are carried along by the fluid and are exchanged with the interface.
 ///
-/// A body of a scene without forces of its own ([`motile_scene::Guest`] of the droplet), with the density C (particles
-/// per area), the concentration c on the interface and the rates of binding and unbinding of [`Exchange`]:
+/// A body of a scene without forces of its own ([`motile_scene::InteriorBody`] of the droplet), with the density C
+/// (particles per area), the concentration c on the interface and the rates of binding and unbinding of [`Exchange`]:
 ///
 /// ```text
 /// dC/dt + v.grad C = D_b lap C,   -D_b dC/dn = k_on C - k_off c, the gain of c
@@ -134,7 +134,7 @@ impl ParticlesInDroplet {
             before: nodes.clone(),
             shift: vec![Vec2::ZERO; count],
             change: vec![0.0; count],
-            lengths: droplet.segment_lengths().to_vec(),
+            lengths: droplet.element_lengths().to_vec(),
             bound: vec![0.0; on.len()],
             on,
             cells,
@@ -195,24 +195,24 @@ impl ParticlesInDroplet {
         out.iter_mut().zip(image).for_each(|(out, image)| *out -= factor * self.constant * image);
     }
 
-    /// Largest cell Peclet number: speed of the fluid relative to the mesh times the width of a cell over the diffusion
-    /// constant.
-    fn cell_peclet(&self) -> f64 {
+    /// Largest element Peclet number: speed of the fluid relative to the mesh times the width of a cell over the
+    /// diffusion constant.
+    fn element_peclet(&self) -> f64 {
         let speeds = self.filling.fluid.iter().zip(&self.filling.motion).map(|(fluid, motion)| fluid.distance(*motion));
         let widest = speeds.zip(&self.cells.areas).map(|(speed, area)| speed * area.sqrt()).fold(0.0, f64::max);
         widest / self.constant
     }
 }
 
-impl Guest for ParticlesInDroplet {
-    in_droplet!(guest);
+impl InteriorBody for ParticlesInDroplet {
+    in_droplet!(interior_body);
 
     fn update_host(&mut self, host: &dyn Body) {
         self.before.copy_from_slice(&self.filling.nodes);
         if let Some(droplet) = self.filling.update_host(host, |droplet| !droplet.particle_numbers().is_empty()) {
             self.cells.move_to(&self.filling.nodes);
             self.on.copy_from_slice(droplet.particle_numbers());
-            self.lengths.copy_from_slice(droplet.segment_lengths());
+            self.lengths.copy_from_slice(droplet.element_lengths());
         }
     }
 
@@ -337,13 +337,13 @@ impl Body for ParticlesInDroplet {
     }
 
     fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
-        let peclet = self.cell_peclet();
+        let peclet = self.element_peclet();
         if peclet <= PECLET_LIMIT {
             return Vec::new();
         }
         let [text, limit] = told_apart([peclet, PECLET_LIMIT]);
         let message = format!(
-            "the cell Peclet number inside is {text}, above {limit}: upwind fluxes add diffusion, give \
+            "the element Peclet number inside is {text}, above {limit}: upwind fluxes add diffusion, give \
              a narrower mesh spacing inside"
         );
         let cause = "particles inside not resolved";

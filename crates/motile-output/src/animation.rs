@@ -27,10 +27,10 @@ const UNCHANGED: u8 = 255;
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile_output::{Film, Look, Raster};
+/// use motile_output::{Animation, Look, Raster};
 ///
 /// let Built { mut scene, .. } = Setup::default().build()?;
-/// let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.2)?);
+/// let mut film = Animation::new(Look::default(), Raster::of(scene.system(), 0.2)?);
 /// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
 /// assert_eq!(film.begins(), Some(0.0));
 /// let path = std::env::temp_dir().join("a-droplet.gif");
@@ -39,14 +39,14 @@ const UNCHANGED: u8 = 255;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Film {
+pub struct Animation {
     look: Look,
     raster: Raster,
     format: Format,
     frames: Vec<Snapshot>,
 }
 
-impl Film {
+impl Animation {
     /// Film of the rectangle of `raster`, with fields on its cells or, where there are more than 120 in a direction, on
     /// larger ones.
     #[must_use]
@@ -163,7 +163,7 @@ fn changes(before: &[u8], now: &[u8], width: usize) -> gif::Frame<'static> {
     }
 }
 
-impl<H: Hydrodynamics> Observer<H> for Film {
+impl<H: Hydrodynamics> Observer<H> for Animation {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let mut seen = Snapshot::take(system, self.raster)?;
         if self.look.solids == SolidColour::Plain {

@@ -23,7 +23,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | runs, as observers | [`TrajectoryCsv`], [`DropletsCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
+//! | runs, as observers | [`TrajectoryCsv`], [`DropletsCsv`], [`ParaView`], [`Animation`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
@@ -58,7 +58,7 @@ pub mod sweep;
 mod table;
 mod trajectory;
 
-pub use animation::Film;
+pub use animation::Animation;
 pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
 pub use droplets::DropletsCsv;

@@ -1,9 +1,9 @@
 //! Tables, pictures and animations of many droplets.
 
-mod crowd;
+mod picture;
 mod plots;
 mod tables;
 
-pub use crowd::{Crowd, CrowdColour, CrowdFilm};
+pub use picture::{SuspensionAnimation, SuspensionColour, SuspensionPicture};
 pub use plots::suspension_plots;
 pub use tables::SuspensionCsv;

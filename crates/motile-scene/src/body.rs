@@ -123,7 +123,7 @@ pub trait Body: Any + fmt::Debug + Send {
     }
 
     /// The body as one that fills another body of the scene; by default it does not.
-    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+    fn as_interior_body(&mut self) -> Option<&mut dyn InteriorBody> {
         None
     }
 
@@ -186,7 +186,7 @@ impl<B: Body> From<Handle<B>> for Handle<dyn Body> {
 ///
 /// It is a body of its own with a state and markers, its inner points. Besides it follows its host, and puts forces on
 /// the host's markers too. Whatever the viscosity inside its host, it lies in that fluid.
-pub trait Guest {
+pub trait InteriorBody {
     /// The body that it fills, which was added to the scene before it.
     fn host(&self) -> Handle<dyn Body>;
 
@@ -202,8 +202,8 @@ pub trait Guest {
     /// from them how its markers move, before [`Body::rate`].
     fn host_moved(&mut self, host: &dyn Body, velocities: &[Vec2]);
 
-    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the guest, after its
-    /// own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
+    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the interior_body,
+    /// after its own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
     fn add_host_rate(&self, _rate: &mut [f64]) {}
 }
 

@@ -35,7 +35,7 @@ pub struct Domain {
 impl From<Region> for Domain {
     fn from(region: Region) -> Self {
         let [_, height] = region.lengths();
-        let walls = (region.drive().is_some() || height < f64::INFINITY && region.is_of_revolution())
+        let walls = (region.drive().is_some() || height < f64::INFINITY && region.is_axisymmetric())
             .then_some([-0.5 * height, 0.5 * height]);
         let origin = region.lengths().map(|length| if length.is_finite() { -0.5 * length } else { 0.0 });
         Self { origin, periods: region.periods().into(), walls }
@@ -148,7 +148,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror
     /// image, with the forces on halves of rings; by default false.
-    fn of_revolution(&self) -> bool {
+    fn axisymmetric(&self) -> bool {
         false
     }
 
@@ -210,8 +210,8 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         self.as_ref().walls()
     }
 
-    fn of_revolution(&self) -> bool {
-        self.as_ref().of_revolution()
+    fn axisymmetric(&self) -> bool {
+        self.as_ref().axisymmetric()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -40,7 +40,7 @@ mod scene;
 pub mod step_report;
 mod threads;
 
-pub use body::{Body, Guest, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
+pub use body::{Body, InteriorBody, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,

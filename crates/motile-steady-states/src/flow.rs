@@ -23,7 +23,7 @@ pub(crate) struct Tangent {
 
 impl Flow {
     pub(crate) fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
-        if !region.is_of_revolution() {
+        if !region.is_axisymmetric() {
             let flow = Box::new(InterfaceFlow::new(region, viscosity, settings)?);
             let calculus = Box::new(PeriodicCalculus::new(settings.nodes)?);
             return Ok(Self::Plane { flow, calculus });

@@ -8,7 +8,7 @@
 //! use motile::prelude::*;
 //! use motile_steady_states::{SteadyState, Symmetry};
 //!
-//! let method = Method::Integral(IntegralMethod { nodes: 72, cells: 288 });
+//! let method = Method::Integral(IntegralMethod { nodes: 72, elements: 288 });
 //! let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
 //! let setup = Setup { method, region, ..Setup::default() };
 //! let swimmer = SteadyState::find(&setup)?;

@@ -170,7 +170,7 @@ impl Model {
         };
         let nodes = method.nodes - method.nodes % 2;
         let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };
-        if setup.region.is_of_revolution() && !discs.is_empty() {
+        if setup.region.is_axisymmetric() && !discs.is_empty() {
             return refuse(
                 "a droplet of revolution has a rigid body inside",
                 "leave it out, or give a region of the plane",
@@ -204,7 +204,7 @@ impl Model {
                                   order, once the capillary number in shear and twice in extension";
                     return Err(SteadyError::Unsupported { what, remedy });
                 }
-                (ContractileTension::new(*tension, 0.0, ExcludedVolume::None)?, [0.0, 0.0, rate])
+                (ContractileTension::new(*tension, 0.0, ExcludedVolume::None, 1.0)?, [0.0, 0.0, rate])
             }
         };
         let mut flow = Flow::new(setup.region, setup.viscosity, settings)?;
@@ -221,7 +221,7 @@ impl Model {
             law,
             inside,
             flow,
-            rings: setup.region.is_of_revolution().then(|| Rings::new(nodes)),
+            rings: setup.region.is_axisymmetric().then(|| Rings::new(nodes)),
             series: PeriodicSeries::new(nodes)?,
             positions: vec![Vec2::ZERO; nodes],
             tangents: vec![Vec2::ZERO; nodes],
@@ -348,7 +348,7 @@ impl Model {
     }
 
     /// True for bodies of revolution in three dimensions.
-    pub(crate) fn is_of_revolution(&self) -> bool {
+    pub(crate) fn is_axisymmetric(&self) -> bool {
         self.rings.is_some()
     }
 

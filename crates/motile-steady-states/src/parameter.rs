@@ -1,7 +1,7 @@
 //! Parameters of a description along which states are followed.
 
 use motile::base::Region;
-use motile::setup::{DropletShape, Exclusion, Setup};
+use motile::setup::{DropletShape, ExcludedVolume, Setup};
 
 use crate::SteadyError;
 
@@ -75,7 +75,7 @@ impl Parameter {
         match self {
             Self::Activity => droplet.particles.map(|particles| particles.activity),
             Self::ExcludedVolume => match droplet.particles?.excluded_volume {
-                Exclusion::Step(strength) => Some(strength),
+                ExcludedVolume::Step(strength) => Some(strength),
                 _ => None,
             },
             Self::Diffusion => droplet.particles.map(|particles| particles.diffusion),
@@ -129,7 +129,10 @@ impl Parameter {
         match self {
             Self::Activity => droplet.particles.iter_mut().for_each(|particles| particles.activity = value),
             Self::ExcludedVolume => {
-                droplet.particles.iter_mut().for_each(|particles| particles.excluded_volume = Exclusion::Step(value));
+                droplet
+                    .particles
+                    .iter_mut()
+                    .for_each(|particles| particles.excluded_volume = ExcludedVolume::Step(value));
             }
             Self::Diffusion => droplet.particles.iter_mut().for_each(|particles| particles.diffusion = value),
             Self::Binding | Self::Unbinding => {

@@ -259,7 +259,7 @@ impl Settling {
 
 /// Description at another number of nodes.
 fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
-    Setup { method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }), ..setup.clone() }
+    Setup { method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }), ..setup.clone() }
 }
 
 /// Description with particles that are well mixed inside, where they diffuse in this one.
@@ -276,7 +276,7 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let droplet = fine.droplet(&fine.droplets[0])?;
     let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
     // Numbers over lengths, in three dimensions too: a density is one per length of a ring.
-    let sizes = droplet.segment_sizes().iter().zip(droplet.segment_lengths());
+    let sizes = droplet.element_sizes().iter().zip(droplet.element_lengths());
     let mut numbers: Vec<f64> =
         droplet.particle_numbers().iter().zip(sizes).map(|(number, (size, length))| number * length / size).collect();
     // A droplet without particles has none on any segment.
@@ -286,7 +286,7 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
 
 /// Refuses a droplet off the axis, or that swims aside, in three dimensions.
 pub(crate) fn check_axis(setup: &Setup, part: Part) -> Result<(), SteadyError> {
-    if setup.region.is_of_revolution() && part != Part::Even {
+    if setup.region.is_axisymmetric() && part != Part::Even {
         return Err(SteadyError::Unsupported {
             what: "the droplet is no body of revolution about the x axis".to_owned(),
             remedy: "give one with its centre on the axis and a heading along it, or a region of the plane",

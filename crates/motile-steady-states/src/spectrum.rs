@@ -177,7 +177,7 @@ impl System {
     pub(crate) fn spectrum(&mut self, point: &Point, part: Part) -> Result<Spectrum, SteadyError> {
         let symmetries: &[Symmetry] = match part {
             // Of bodies of revolution only disturbances that leave them so are known.
-            Part::Even if self.model.is_of_revolution() => &[Symmetry::Symmetric],
+            Part::Even if self.model.is_axisymmetric() => &[Symmetry::Symmetric],
             Part::Even => &[Symmetry::Symmetric, Symmetry::Antisymmetric],
             _ => &[Symmetry::None],
         };

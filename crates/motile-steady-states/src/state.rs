@@ -279,7 +279,7 @@ impl SteadyState {
         let tangents = self.profile.tangents()?;
         let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
         let model = &system.model;
-        let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_of_revolution() {
+        let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_axisymmetric() {
             let VolumeMoments { centroid, aspect_ratio, surface } = VolumeMoments::of(&self.profile)?;
             let centroid = Vec2::new(centroid, 0.0);
             let [along, across] = self.axial_dipoles(&system, centroid, &tangents);
@@ -411,9 +411,9 @@ impl SteadyState {
         let (curve, velocity, force) = (curve?, velocity?, force?);
         let parameter = |k: f64| TAU * k / fine as f64;
         let at = |sampler: &Sampler, k: usize| sampler.at(parameter(k as f64)).position;
-        let of_revolution = model.is_of_revolution();
+        let axisymmetric = model.is_axisymmetric();
         // Segments are halves of rings in three dimensions.
-        let width = |y: f64| if of_revolution { PI * y.abs() } else { 1.0 };
+        let width = |y: f64| if axisymmetric { PI * y.abs() } else { 1.0 };
         let number = |k: usize| {
             let middle = curve.at(parameter(k as f64 + 0.5));
             middle.density * width(middle.position.y) * TAU / fine as f64
@@ -427,7 +427,7 @@ impl SteadyState {
                 numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
                 inside: model.inside(),
-                of_revolution,
+                axisymmetric,
                 enclosed: model
                     .rigid_dipoles()
                     .map(|dipole| Enclosed { rigid_dipole: Some(dipole), ..Enclosed::default() })
@@ -435,7 +435,7 @@ impl SteadyState {
             },
             Convention::FarField,
         )?;
-        if of_revolution {
+        if axisymmetric {
             // Sums over rings are of low order at the axis.
             let dipoles = self.axial_dipoles(&system, seen.centroid, &self.profile.tangents()?);
             (seen.moments.dipole[0][0], seen.moments.dipole[1][1]) = (dipoles[0], dipoles[1]);

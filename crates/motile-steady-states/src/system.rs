@@ -171,7 +171,7 @@ impl System {
         let mut jacobian = DMatrix::zeros(range.len(), range.len());
         self.by_diffusing = DVector::zeros(range.len());
         let inside = self.model.diffusing();
-        if self.model.is_of_revolution() {
+        if self.model.is_axisymmetric() {
             self.load(point)?;
             self.model.linearise()?;
         }
@@ -204,7 +204,7 @@ impl System {
         // An imposed flow has no turns, and a curved profile no shifts across it; the shifts of a linear flow change
         // the velocity of the frame alone, so that the droplet stays where it is.
         let imposed = self.model.imposed();
-        let across = !channel && imposed.bend == 0.0 && !self.model.is_of_revolution();
+        let across = !channel && imposed.bend == 0.0 && !self.model.is_axisymmetric();
         let turns = plane && imposed.is_none();
         let all = [([1.0, 0.0, 0.0], false, true), ([0.0, 1.0, 0.0], true, across), ([0.0, 0.0, 1.0], true, turns)];
         let fits = |odd: bool| part == Part::Full || odd == (part == Part::Odd);

@@ -6,7 +6,7 @@ use motile_steady_states::{
 };
 
 fn setup(region: Region, activity: f64, nodes: usize) -> Setup {
-    let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
     Setup { method, region, droplets: vec![DropletSetup::contractile(activity, 10.0)], ..Setup::default() }
 }
 

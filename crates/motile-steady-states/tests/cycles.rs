@@ -5,7 +5,7 @@ use motile_steady_states::{LimitCycle, Parameter, SteadyState, Symmetry};
 
 #[test]
 fn swings_leave_the_hopf_point_as_its_normal_form_has_it() {
-    let method = Method::Integral(IntegralMethod { nodes: 128, cells: 512 });
+    let method = Method::Integral(IntegralMethod { nodes: 128, elements: 512 });
     let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
     let droplets = vec![DropletSetup::contractile(-2.55, 10.0)];
     let state = SteadyState::find(&Setup { method, region, droplets, ..Setup::default() }).unwrap();

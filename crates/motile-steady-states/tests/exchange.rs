@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::theory::{LinearTheory, RoundDroplet};
 use motile::prelude::*;
-use motile::setup::{ExchangeSetup, Exclusion};
+use motile::setup::{ExchangeSetup, ExcludedVolume};
 use motile_steady_states::{Parameter, SteadyState, Symmetry};
 
 const BINDING: f64 = 0.2;
@@ -15,7 +15,7 @@ fn setup(nodes: usize, activity: f64, number_inside: Option<f64>) -> Setup {
     let exchange = Some(ExchangeSetup { number_inside, ..ExchangeSetup::new(BINDING, UNBINDING) });
     let particles = Particles { activity, exchange, ..Particles::default() };
     Setup {
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         droplets: vec![DropletSetup { particles: Some(particles), ..DropletSetup::default() }],
         ..Setup::default()
     }
@@ -27,7 +27,7 @@ fn setup(nodes: usize, activity: f64, number_inside: Option<f64>) -> Setup {
 fn rates_and_threshold_of_the_circle() {
     let mut circle = setup(48, -0.5, None);
     circle.region = Region::Plane;
-    circle.droplets[0].particles.as_mut().unwrap().excluded_volume = Exclusion::None;
+    circle.droplets[0].particles.as_mut().unwrap().excluded_volume = ExcludedVolume::None;
     let theory = LinearTheory::new(RoundDroplet {
         radius: 1.0,
         viscosity_inside: 100.0,

@@ -16,7 +16,7 @@ fn drop_in(flow: FlowSetup, ratio: f64, capillary: f64, nodes: usize) -> Setup {
         region: Region::Plane,
         viscosity: 1.0,
         flow,
-        method: Method::Integral(IntegralMethod { nodes, cells: nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: nodes }),
         droplets: vec![DropletSetup { viscosity: Some(ratio), ..DropletSetup::passive(1.0 / capillary) }],
         ..Setup::default()
     }

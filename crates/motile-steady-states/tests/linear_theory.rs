@@ -7,7 +7,7 @@ use motile_steady_states::{SteadyState, Symmetry};
 
 /// Largest error of the growth rates of modes 1 to 6 of both symmetries, with the activity times `sign` in the theory.
 fn worst_error(inside: f64, activity: f64, sign: f64) -> f64 {
-    let method = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    let method = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
     let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::contractile(activity, 1.0) };
     let setup = Setup { method, region: Region::Plane, droplets: vec![droplet], ..Setup::default() };
     let law = setup.droplets[0].particles.expect("particles").law(setup.droplets[0].tension).expect("as described");

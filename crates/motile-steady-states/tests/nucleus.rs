@@ -2,14 +2,14 @@
 
 use motile::active_interface::observables::{Convention, InterfaceState, observe};
 use motile::prelude::*;
-use motile::setup::{DropletSetup, DropletShape, Exclusion, Particles, RigidBodySetup};
+use motile::setup::{DropletSetup, DropletShape, ExcludedVolume, Particles, RigidBodySetup};
 use motile_steady_states::{Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
 use num_complex::Complex64;
 
 const OUTSIDE: f64 = 10.0;
 
 fn setup(nodes: usize, ratio: f64, activity: f64, radius: f64) -> Setup {
-    let particles = Particles { activity, excluded_volume: Exclusion::None, ..Particles::default() };
+    let particles = Particles { activity, excluded_volume: ExcludedVolume::None, ..Particles::default() };
     let droplet = DropletSetup {
         tension: 10.0,
         viscosity: Some(ratio * OUTSIDE),
@@ -18,7 +18,7 @@ fn setup(nodes: usize, ratio: f64, activity: f64, radius: f64) -> Setup {
     };
     Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         viscosity: OUTSIDE,
         droplets: vec![droplet],
         rigid_bodies: vec![RigidBodySetup::disc(radius)],
@@ -122,7 +122,7 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
         ..setup(64, 1.0, -2.0, 0.5)
     };
     let [coarse, circle] = [64, 96].map(|nodes| {
-        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
         SteadyState::find(&Setup { method, ..aside.clone() }).expect("a circle")
     });
     let [rough, spectrum] = [&coarse, &circle].map(|state| state.spectrum().expect("resolved"));
@@ -130,7 +130,7 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
     assert!(!circle.is_mirror_symmetric() && spectrum.unstable() == 0 && spectrum.neutral < 0.3 * rough.neutral);
     assert!((rough.modes[0].value - spectrum.modes[0].value).norm() < 1e-3 && spectrum.modes[0].value.im > 0.1);
     // A run of the same without a repulsion turns alike.
-    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
     let built = Setup { method, ..aside }.build().expect("as described");
     let (mut scene, droplet) = (built.scene, built.droplets[0]);
     scene.run(40.0).go().expect("a run");

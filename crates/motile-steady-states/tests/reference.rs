@@ -21,7 +21,7 @@ fn number(row: &Row, name: &str) -> f64 {
 }
 
 fn nodes(nodes: usize) -> Method {
-    Method::Integral(IntegralMethod { nodes, cells: 4 * nodes })
+    Method::Integral(IntegralMethod { nodes, elements: 4 * nodes })
 }
 
 fn box_swimmer(row: &Row, count: usize) -> Setup {

@@ -1,20 +1,20 @@
 //! Swimmers in three dimensions.
 
 use motile::prelude::*;
-use motile::setup::{Exclusion, Setup};
+use motile::setup::{ExcludedVolume, Setup};
 use motile_steady_states::SteadyState;
 
 fn swimmer(region: Region, activity: f64, viscosities: [f64; 2], strength: f64, nodes: usize) -> Setup {
     let mut setup = Setup {
         region,
         viscosity: viscosities[1],
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         droplets: vec![DropletSetup::active(activity)],
         ..Setup::default()
     };
     setup.droplets[0].viscosity = Some(viscosities[0]);
     if let Some(particles) = &mut setup.droplets[0].particles {
-        particles.excluded_volume = Exclusion::Step(strength);
+        particles.excluded_volume = ExcludedVolume::Step(strength);
     }
     setup
 }

@@ -14,7 +14,7 @@
 //!
 //! // activity -2 in a 6 x 6 box of viscosity 100; R0 is the unit of length
 //! let setup = Setup {
-//!     method: Method::Integral(IntegralMethod { nodes: 48, cells: 192 }),
+//!     method: Method::Integral(IntegralMethod { nodes: 48, elements: 192 }),
 //!     droplets: vec![DropletSetup::active(-2.0)],
 //!     ..Setup::default()
 //! };

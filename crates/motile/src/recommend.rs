@@ -34,9 +34,10 @@ fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
         SceneKind::ViscosityContrast => &[],
         SceneKind::Channel => &[(0.036, 0.2), (0.0065, 0.1)],
     };
-    let integral = |&(error, nodes, cells): &_| (error, Method::Integral(IntegralMethod { nodes, cells }));
-    let layer =
-        |&(error, nodes, cells): &_| (error, Method::Layers(LayersMethod { nodes, cells, ..LayersMethod::default() }));
+    let integral = |&(error, nodes, elements): &_| (error, Method::Integral(IntegralMethod { nodes, elements }));
+    let layer = |&(error, nodes, elements): &_| {
+        (error, Method::Layers(LayersMethod { nodes, elements, ..LayersMethod::default() }))
+    };
     let grid = |&(error, spacing): &_| (error, Method::Grid(GridMethod::of_spacing(spacing)));
     match method {
         MethodKind::Integral => integrals.iter().map(integral).collect(),
@@ -91,7 +92,7 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
     let entries = measured(scene, method);
     if entries.is_empty() {
         let remedy = "a viscosity contrast is of first order there: give integral or layers".to_owned();
-        return Err(SetupError::Value { key: "method".to_owned(), value: method.key().to_owned(), remedy });
+        return Err(SetupError::Value { key: "method".to_owned(), value: method.name().to_owned(), remedy });
     }
     let found = entries.iter().find(|(error, _)| *error <= target_error).filter(|_| target_error <= LARGEST);
     let Some(&(_, method)) = found else {
@@ -111,7 +112,7 @@ impl Setup {
     /// use motile::prelude::*;
     ///
     /// assert_eq!(Setup::default().expected_error(), Some(0.0007));
-    /// let coarse = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    /// let coarse = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
     /// assert_eq!(Setup { method: coarse, ..Setup::default() }.expected_error(), Some(0.0085));
     /// assert_eq!(Setup { region: Region::Plane, ..Setup::default() }.expected_error(), None);
     /// ```
@@ -129,8 +130,12 @@ impl Setup {
             _ => return None,
         };
         let as_fine = |known: &Method| match (self.method, known) {
-            (Method::Integral(here), Method::Integral(there)) => here.nodes >= there.nodes && here.cells >= there.cells,
-            (Method::Layers(here), Method::Layers(there)) => here.nodes >= there.nodes && here.cells >= there.cells,
+            (Method::Integral(here), Method::Integral(there)) => {
+                here.nodes >= there.nodes && here.elements >= there.elements
+            }
+            (Method::Layers(here), Method::Layers(there)) => {
+                here.nodes >= there.nodes && here.elements >= there.elements
+            }
             (Method::Grid(here), Method::Grid(there)) => {
                 here.spacing <= there.spacing && GridMethod { spacing: there.spacing, ..here } == *there
             }

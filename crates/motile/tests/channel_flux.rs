@@ -9,7 +9,7 @@ fn no_fluid_passes_through_a_closed_channel() {
     let droplet = |y| DropletSetup { centre: [0.0, y], ..DropletSetup::active(-2.0) };
     let setup = Setup {
         region: Region::Channel { length: 12.0, width: 6.0, drive: Drive::ZeroFlux },
-        method: Method::Integral(IntegralMethod { nodes: 48, cells: 192 }),
+        method: Method::Integral(IntegralMethod { nodes: 48, elements: 192 }),
         droplets: vec![droplet(1.3), droplet(-1.3)],
         ..Setup::default()
     };

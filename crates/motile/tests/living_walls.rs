@@ -24,7 +24,7 @@ fn channel(material: &Material) -> Setup {
 /// Energies of interfaces and solids, Maxwell elements included.
 fn energy(scene: &Scene<AnyFlow>) -> f64 {
     let droplets = scene.system().bodies::<ActiveDroplet>();
-    let interfaces: f64 = droplets.map(|(_, droplet)| 10.0 * droplet.segment_lengths().iter().sum::<f64>()).sum();
+    let interfaces: f64 = droplets.map(|(_, droplet)| 10.0 * droplet.element_lengths().iter().sum::<f64>()).sum();
     let solids = scene.system().bodies::<Solid>();
     interfaces
         + solids

@@ -9,17 +9,17 @@ use motile::active_interface::{
 use motile::base::{TubeShape, Vec2};
 use motile::prelude::*;
 use motile::scene::{Scene, StepSize, checkpoint::Checkpoint, gap::Repulsion};
-use motile::setup::{DropletShape, Exclusion, RigidBodySetup, Squeezed};
+use motile::setup::{DropletShape, RigidBodySetup, Squeezed};
 
-fn scene(region: Region, [nodes, cells]: [usize; 2]) -> Setup {
+fn scene(region: Region, [nodes, elements]: [usize; 2]) -> Setup {
     let mut setup = Setup {
         region,
-        method: Method::Integral(IntegralMethod { nodes, cells }),
+        method: Method::Integral(IntegralMethod { nodes, elements }),
         droplets: vec![DropletSetup::active(-1.0)],
         ..Setup::default()
     };
     if let Some(particles) = &mut setup.droplets[0].particles {
-        particles.excluded_volume = Exclusion::Step(2.0);
+        particles.excluded_volume = ExcludedVolume::Step(2.0);
     }
     setup
 }
@@ -30,8 +30,8 @@ fn scene(region: Region, [nodes, cells]: [usize; 2]) -> Setup {
 /// also where the nodes are too few for the edge of the concentration.
 #[test]
 fn a_droplet_in_space_swims_to_the_steady_state_of_the_reference() {
-    let errors = |nodes: usize, cells: usize| {
-        let Built { mut scene, droplets, .. } = scene(Region::Space, [nodes, cells]).build().unwrap();
+    let errors = |nodes: usize, elements: usize| {
+        let Built { mut scene, droplets, .. } = scene(Region::Space, [nodes, elements]).build().unwrap();
         let before = scene.observe(droplets[0]).unwrap();
         // The slowest disturbance decays at the rate of .226: at 30 it is still 1e-4 of the speed.
         scene.run(60.0).go().unwrap();
@@ -131,13 +131,13 @@ fn harmonics_of_the_concentration_grow_at_their_rates() {
                     let wave = |k: i32| legendre(degree, angle(f64::from(k) + 0.5).cos());
                     let length = 2.0 * (0.5 * angle(1.0)).sin();
                     let numbers = (0..count).map(|k| 100.0 * (1.0 + sign * 1e-4 * wave(k)) * length).collect();
-                    let law = ContractileTension::new(10.0, activity, ExcludedVolume::None).unwrap();
+                    let law = ContractileTension::new(10.0, activity, ExcludedVolume::None, 1.0).unwrap();
                     let droplet = ActiveDroplet::new(&markers, numbers, law, 0.1).unwrap();
-                    let droplet = droplet.of_revolution().unwrap().with_viscosity_inside(inside).unwrap();
+                    let droplet = droplet.axisymmetric().unwrap().with_viscosity_inside(inside).unwrap();
                     let mut scene = Scene::new(setup.flow().unwrap());
                     let droplet = scene.add(droplet);
                     // Over the sphere, not over the surface that changes.
-                    let sizes = scene.body(droplet).unwrap().segment_sizes().to_vec();
+                    let sizes = scene.body(droplet).unwrap().element_sizes().to_vec();
                     let amplitude = |droplet: &ActiveDroplet| -> f64 {
                         let parts = sizes.iter().zip(droplet.concentrations());
                         parts.zip(0..).map(|((size, c), k)| size * c * wave(k)).sum()

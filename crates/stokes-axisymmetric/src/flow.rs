@@ -84,10 +84,11 @@ impl Sides {
 ///
 /// (Pozrikidis, Boundary Integral and Singularity Methods, 1992, section 2.4) with Stokeslet and stress integrated over
 /// the azimuth: complete elliptic integrals. A rigid body is the limit of eta_in to infinity
-/// ([`InterfaceFlow`](stokes_boundary_integrals::InterfaceFlow)). Shapes, forces and velocities are series of sines and cosines in t with
-/// `nodes/2` waves. A target on a surface or close to it is integrated over panels that double away from it, one far
-/// away by weights that are exact for sines; errors fall faster than any power of the number of nodes at any distance
-/// from the axis and between surfaces. The equation, of `nodes` unknowns a surface, is solved by elimination.
+/// ([`InterfaceFlow`](stokes_boundary_integrals::InterfaceFlow)). Shapes, forces and velocities are series of sines and
+/// cosines in t with `nodes/2` waves. A target on a surface or close to it is integrated over panels that double away
+/// from it, one far away by weights that are exact for sines; errors fall faster than any power of the number of nodes
+/// at any distance from the axis and between surfaces. The equation, of `nodes` unknowns a surface, is solved by
+/// elimination.
 ///
 /// ```
 /// use motile_base::Vec2;
@@ -697,7 +698,7 @@ fn load(
     if !count.is_multiple_of(2) || (0..=intervals).any(|k| differs(&k)) {
         let point = (0..=intervals).find(differs).unwrap_or(count - 1);
         let Vec2 { x, y } = positions[point];
-        return Err(LayerError::NotOfRevolution { curve, point, x, y });
+        return Err(LayerError::NotAxisymmetric { curve, point, x, y });
     }
     let found = halves.iter().position(|half| half.intervals() == intervals);
     let half = found.unwrap_or_else(|| {

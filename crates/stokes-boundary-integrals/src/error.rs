@@ -125,7 +125,7 @@ pub enum LayerError {
         "point {point} of curve {curve} at ({x:.4}, {y:.4}) is not on the meridian of a surface of revolution: give an \
          even number of points, the first on the x axis, each the mirror image of its partner"
     )]
-    NotOfRevolution {
+    NotAxisymmetric {
         /// Number of the curve.
         curve: usize,
         /// Number of the point.

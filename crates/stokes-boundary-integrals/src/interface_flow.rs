@@ -106,7 +106,7 @@ impl InterfaceFlow {
     pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         positive("the viscosity", viscosity)?;
         settings.check()?;
-        if region.is_of_revolution() {
+        if region.is_axisymmetric() {
             return Err(LayerError::InThreeDimensions);
         }
         let [velocities, motion] = Default::default();

@@ -61,7 +61,7 @@ impl SingleLayer {
     /// Lengths of the region that are not positive and finite, periods of which one is more than 20 times the other, a
     /// tolerance outside of 1e-15 to 1e-3.
     pub fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, LayerError> {
-        if region.is_of_revolution() {
+        if region.is_axisymmetric() {
             return Err(LayerError::InThreeDimensions);
         }
         Ok(Self { layers: Layers::new(region, tolerance, symmetry)?, sampler: Sampler::new(tolerance) })

@@ -4,7 +4,7 @@ use clap::CommandFactory as _;
 use motile::base::Region;
 use motile::ib_core::AnyKernel;
 use motile::scene::StepSize;
-use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
+use motile::setup::{DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
 use motile_output::run::OutputFlags;
 
 #[derive(Debug, Parser)]
@@ -40,7 +40,7 @@ fn all_flags_with_their_values() {
     assert_eq!((setup.viscosity, setup.region), (10.0, Region::Box { lengths: [12.0, 12.0] }));
     let DropletSetup { centre, angle, particles: Some(particles), .. } = setup.droplets[0] else { panic!("{setup:?}") };
     assert_eq!((centre, angle, particles.activity), ([-0.03, 0.01], f64::to_radians(-30.0), -4.0));
-    assert_eq!(particles.excluded_volume, Exclusion::Step(8.0));
+    assert_eq!(particles.excluded_volume, ExcludedVolume::Step(8.0));
     assert_eq!(particles.start, Start::Perturbed { amplitude: 0.05, seed: 7 });
     flags.channel.apply(&mut setup).unwrap();
     assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::base::Drive::ZeroFlux });
@@ -132,20 +132,16 @@ fn a_seed_is_that_of_a_random_start() {
 #[test]
 fn the_method_follows_from_the_flags() {
     let method = |line: &str| setup(line).map(|setup| setup.method.kind());
-    for line in ["", "--nodes 64", "--spacing 0.1 --method boundary-integral", "--nodes 64 --spacing 0.1"] {
+    for line in ["", "--nodes 64", "--spacing 0.1 --method integral", "--nodes 64 --spacing 0.1"] {
         assert_eq!(method(line), Ok(MethodKind::Integral), "{line}");
     }
     for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis"] {
         assert_eq!(method(line), Ok(MethodKind::Grid), "{line}");
     }
     let layers = setup("--method layers --nodes 64 --spacing 0.1 --kernel bspline5").unwrap().method;
-    let expected = LayersMethod { nodes: 64, cells: 256, spacing: 0.1, kernel: AnyKernel::BSpline5 };
+    let expected = LayersMethod { nodes: 64, elements: 256, spacing: 0.1, kernel: AnyKernel::BSpline5 };
     assert_eq!(layers, Method::Layers(expected));
-    for line in [
-        "--method immersed-boundary --nodes 64",
-        "--method boundary-integral --kernel roma3",
-        "--nodes 96 --concentration-cells 64",
-    ] {
+    for line in ["--method grid --nodes 64", "--method integral --kernel roma3", "--nodes 96 --elements 64"] {
         assert!(method(line).is_err(), "{line}");
     }
 }

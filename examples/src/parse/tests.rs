@@ -33,14 +33,14 @@ fn ranges_of_counts() {
     use motile::setup::{Method, Setup};
     for (text, taken) in [("15", false), ("16", true), ("4096", true), ("4097", false)] {
         assert_eq!(nodes(text).is_ok(), taken, "{text}");
-        let [nodes, cells] = [text.parse().unwrap(), 16_384];
-        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+        let [nodes, elements] = [text.parse().unwrap(), 16_384];
+        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, elements }), ..Setup::default() };
         assert_eq!(setup.check().is_ok(), taken, "{text}");
     }
     for (text, taken) in [("72", true), ("1000000", true), ("1000001", false)] {
-        assert_eq!(cells(text).is_ok(), taken, "{text}");
-        let [nodes, cells] = [72, text.parse().unwrap()];
-        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+        assert_eq!(elements(text).is_ok(), taken, "{text}");
+        let [nodes, elements] = [72, text.parse().unwrap()];
+        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, elements }), ..Setup::default() };
         assert_eq!(setup.check().is_ok(), taken, "{text}");
     }
     assert_eq!(nodes("5000").unwrap_err(), "must be a whole number from 16 to 4096");

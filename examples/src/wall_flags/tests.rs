@@ -20,8 +20,8 @@ fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
         ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
         ("--wall-thickness 0.1 --mesh-spacing 0.15", "give 0.15 or more, or a smaller --mesh-spacing"),
         ("--wall-thickness 0.01", "give 0.1 or more, or a smaller --spacing"),
-        ("--wall-thickness 0.01 --method immersed-boundary", "give 0.05 or more, or a smaller --spacing"),
-        ("--method immersed-boundary --nodes 100", "leave it out"),
+        ("--wall-thickness 0.01 --method grid", "give 0.05 or more, or a smaller --spacing"),
+        ("--method grid --nodes 100", "leave it out"),
         ("--width 0.1", "give a larger --width"),
         ("--bulk-modulus 3", "leave --bulk-modulus out"),
     ] {

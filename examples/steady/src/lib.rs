@@ -73,7 +73,7 @@ impl SteadyFlags {
             RegionKind::Box => Region::Box { lengths: [side; 2] },
             RegionKind::Channel => Region::Channel { length, width: width.unwrap_or(3.0), drive },
         };
-        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
         let mut setup = Setup { region, method, ..Setup::default() };
         self.droplet.apply(&mut setup)?;
         setup.flow.wall_velocity = self.along.wall_velocity;

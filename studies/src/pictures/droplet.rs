@@ -20,7 +20,7 @@ const LONGEST: f64 = 0.55;
 /// The steady swimmer of activity -2 in unbounded fluid: streamlines at rest far away, concentration as the width of
 /// the interface, forces on the fluid.
 pub(super) fn picture() -> Result<String> {
-    let method = Method::Integral(IntegralMethod { nodes: 72, cells: 288 });
+    let method = Method::Integral(IntegralMethod { nodes: 72, elements: 288 });
     let setup = Setup { method, region: Region::Plane, ..Setup::default() };
     let state = SteadyState::find(&setup)?;
     let centre = state.measured()?.centroid;

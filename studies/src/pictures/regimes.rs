@@ -5,7 +5,7 @@ use std::fs;
 use anyhow::{Context, Result};
 use motile::active_interface::Tension;
 use motile::prelude::*;
-use motile::setup::Exclusion;
+use motile::setup::ExcludedVolume;
 use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 
 use crate::tables::root;
@@ -37,7 +37,7 @@ pub(super) fn picture() -> Result<String> {
     // The exact threshold: the slope of the tension at c0, excluded volume included, is that of the activity there.
     let threshold = |ratio: f64| -> Result<(f64, f64)> {
         let activity = -1.0;
-        let particles = Particles { activity, excluded_volume: Exclusion::Step(ratio), ..Particles::default() };
+        let particles = Particles { activity, excluded_volume: ExcludedVolume::Step(ratio), ..Particles::default() };
         let slope = particles.law(10.0)?.slope(particles.concentration);
         Ok((THRESHOLD / slope * activity.abs(), ratio))
     };

@@ -211,7 +211,7 @@ pub(super) fn hysteresis() -> Result<Vec<Table>> {
     let numbers = (0..count).map(|k| 100.0 * (1.0 - DISTURBANCE * wave(k)) * length).collect();
     let Some(particles) = setup.droplets[0].particles else { bail!("no particles") };
     let (tension, diffusion) = (setup.droplets[0].tension, particles.diffusion);
-    let body = ActiveDroplet::new(&markers, numbers, particles.law(tension)?, diffusion)?.of_revolution()?;
+    let body = ActiveDroplet::new(&markers, numbers, particles.law(tension)?, diffusion)?.axisymmetric()?;
     let mut scene = Scene::new(setup.flow()?);
     let body = scene.add(body);
     let title = "A run in unbounded fluid, viscosities 100, A = 1, 32 nodes, whose activity is raised and lowered";

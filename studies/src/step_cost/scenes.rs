@@ -127,7 +127,7 @@ fn in_channel(kind: &'static str, plan: Plan, layers: Option<f64>) -> Result<Job
 
 /// A droplet without a grid; the grid of spacing 0.05 is the measure.
 fn without_grid(kind: &'static str, plan: Plan, nodes: usize) -> Result<Job> {
-    let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
     let plan = Plan { setup: Setup { method, ..plan.setup }, ..plan };
     let grid = plan.grid()?;
     let run = move |budget| {

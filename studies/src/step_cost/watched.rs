@@ -6,7 +6,8 @@ use std::time::Instant;
 
 use motile::base::{FlowSample, SolveReport, Vec2};
 use motile::scene::{
-    Body, BodyError, FlowError, FlowWork, FluidView, Guest, Hydrodynamics, MarkerKind, Markers, StepInfo, StepLimit,
+    Body, BodyError, FlowError, FlowWork, FluidView, Hydrodynamics, InteriorBody, MarkerKind, Markers, StepInfo,
+    StepLimit,
 };
 use motile::stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 
@@ -108,8 +109,8 @@ impl<B: Body> Body for Watched<B> {
         self.0.step_limits(view, limits);
     }
 
-    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
-        self.0.as_guest()
+    fn as_interior_body(&mut self) -> Option<&mut dyn InteriorBody> {
+        self.0.as_interior_body()
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
     let fitting = |spacing: f64| side / (side / spacing).round();
     let layers = |spacing| {
         let of_spacing = LayersMethod::of_spacing(fitting(spacing));
-        Method::Layers(LayersMethod { nodes: HELD, cells: CELLS * HELD, ..of_spacing })
+        Method::Layers(LayersMethod { nodes: HELD, elements: CELLS * HELD, ..of_spacing })
     };
     let all = [
         ("integrals, 24 nodes", integral(24)),

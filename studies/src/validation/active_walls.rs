@@ -101,7 +101,7 @@ fn walls(activity: f64, amplitude: f64, gap: f64, nodes: usize) -> Setup {
         ..InterfaceSetup::default()
     };
     Setup {
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         droplets: Vec::new(),
         interfaces: vec![wall(-0.5 * gap, Side::Below, 1), wall(0.5 * gap, Side::Above, 2)],
         ..Setup::default()

@@ -28,7 +28,7 @@ const NODES: [usize; 3] = [16, 32, 64];
 
 /// The default scene by layers.
 fn by_layers(nodes: usize) -> Setup {
-    let layers = LayersMethod { nodes, cells: 4 * nodes, ..LayersMethod::default() };
+    let layers = LayersMethod { nodes, elements: 4 * nodes, ..LayersMethod::default() };
     Setup { method: Method::Layers(layers), ..Setup::default() }
 }
 

@@ -59,13 +59,13 @@ impl Case {
         if let Material::NeoHookean { .. } = self.material {
             solids.iter_mut().for_each(|wall| wall.mesh = MeshKind::Unstructured);
         }
-        let layers = LayersMethod { nodes: self.nodes, cells: 4 * self.nodes, ..LayersMethod::of_spacing(h) };
+        let layers = LayersMethod { nodes: self.nodes, elements: 4 * self.nodes, ..LayersMethod::of_spacing(h) };
         let method = Method::Layers(layers);
         Setup { region: open_channel(self.length, self.width + 3.0), method, solids, ..self.setup() }
     }
 
     fn rigid(&self) -> Setup {
-        let method = Method::Integral(IntegralMethod { nodes: self.nodes, cells: 4 * self.nodes });
+        let method = Method::Integral(IntegralMethod { nodes: self.nodes, elements: 4 * self.nodes });
         Setup { region: open_channel(self.length, self.width), method, ..self.setup() }
     }
 

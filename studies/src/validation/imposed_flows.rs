@@ -272,7 +272,7 @@ fn migrates(setup: &Setup, ratio: f64) -> Result<f64, StudyError> {
 /// Twice as many markers as nodes.
 fn finer(setup: Setup) -> Setup {
     let Method::Integral(method) = setup.method else { return setup };
-    Setup { method: Method::Integral(IntegralMethod { cells: 2 * method.nodes, ..method }), ..setup }
+    Setup { method: Method::Integral(IntegralMethod { elements: 2 * method.nodes, ..method }), ..setup }
 }
 
 fn migration() -> Result<Table, StudyError> {
@@ -332,7 +332,7 @@ fn swimmers() -> Result<Table, StudyError> {
         (-3.0, 0.1, 32),
     ] {
         let droplet = if activity == 0.0 { DropletSetup::passive(10.0) } else { DropletSetup::active(activity) };
-        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
         let setup =
             Setup { region: Region::Box { lengths: [SIDE; 2] }, method, droplets: vec![droplet], ..Setup::default() };
         let mut scene = setup.build()?.scene;

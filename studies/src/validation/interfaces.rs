@@ -266,7 +266,7 @@ pub(crate) fn cost(quick: bool) -> Tables {
             Ok(())
         };
         for (nodes, cells) in [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)] {
-            push(format!("without a grid, {nodes} nodes, {cells} cells"), without_grid(nodes, cells))?;
+            push(format!("without a grid, {nodes} nodes, {cells} elements"), without_grid(nodes, cells))?;
         }
         for &h in if quick { &[0.2, 0.1, 0.05][..] } else { &[0.2, 0.1, 0.05, 0.025][..] } {
             push(format!("immersed boundary, h = {h}"), on_grid(h))?;

@@ -71,8 +71,8 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
 /// The settings of a kind of scenes, from coarse to fine, and their steps.
 fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
     let step = StepSize::default();
-    let integral = |&(nodes, cells): &(usize, usize)| {
-        (format!("{nodes} nodes, {cells} cells"), Method::Integral(IntegralMethod { nodes, cells }), step)
+    let integral = |&(nodes, elements): &(usize, usize)| {
+        (format!("{nodes} nodes, {elements} elements"), Method::Integral(IntegralMethod { nodes, elements }), step)
     };
     let grid = |&h: &f64| (format!("h = {h}"), Method::Grid(GridMethod::of_spacing(h)), step);
     let spacings = match kind {

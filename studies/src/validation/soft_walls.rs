@@ -2,7 +2,9 @@
 
 use motile::elastic_solids::ChannelShape;
 use motile::scene::{StepSize, integrator::IntegratorKind};
-use motile::setup::{DropletSetup, LayersMethod, Material, MeshKind, Method, Setup, SkinSetup, SolidSetup};
+use motile::setup::{
+    DropletSetup, LayersMethod, Material, MeshKind, Method, Setup, SolidSetup, SurfaceElasticitySetup,
+};
 use motile_tests::validation::Table;
 use motile_tests::validation::scene::open_channel;
 use motile_tests::validation::swimmers::speeds;
@@ -26,7 +28,7 @@ struct Case {
     bulk: f64,
     nodes: usize,
     tolerance: f64,
-    skin: bool,
+    surface_elasticity: bool,
     time: f64,
 }
 
@@ -41,13 +43,13 @@ const USUAL: Case = Case {
     bulk: 0.75,
     nodes: 128,
     tolerance: 1e-4,
-    skin: false,
+    surface_elasticity: false,
     time: 5.0,
 };
 
 /// Spacings of the method and of the mesh.
 const RESOLUTIONS: [[f64; 2]; 2] = [[0.1, 0.2], [0.05, 0.1]];
-/// Those of walls with a skin: one with the finer grid alone.
+/// Those of walls with a surface_elasticity: one with the finer grid alone.
 const SKINNED: [[f64; 2]; 3] = [[0.1, 0.2], [0.05, 0.1], [0.05, 0.2]];
 
 impl Case {
@@ -61,17 +63,23 @@ impl Case {
             mesh_spacing: Some(mesh),
             finer_surface: Some(self.finer),
             spread_over_triangles: self.spread,
-            skin: self.skin.then_some(SkinSetup { stretching: 300.0, bending: 1.0 }),
+            surface_elasticity: self
+                .surface_elasticity
+                .then_some(SurfaceElasticitySetup { stretching: 300.0, bending: 1.0 }),
             ..wall
         });
-        let layers = LayersMethod { nodes: self.nodes, cells: 4 * self.nodes, ..LayersMethod::of_spacing(h) };
+        let layers = LayersMethod { nodes: self.nodes, elements: 4 * self.nodes, ..LayersMethod::of_spacing(h) };
         let setup = Setup {
             viscosity: 100.0,
             region: open_channel(self.length, 4.0),
             method: Method::Layers(layers),
             step: StepSize::Adaptive { tolerance: self.tolerance },
             // The bending of short sides is stiff.
-            integrator: if self.skin { IntegratorKind::RungeKuttaChebyshev } else { IntegratorKind::default() },
+            integrator: if self.surface_elasticity {
+                IntegratorKind::RungeKuttaChebyshev
+            } else {
+                IntegratorKind::default()
+            },
             droplets: vec![DropletSetup::active(self.activity)],
             solids: solids.collect(),
             ..Setup::default()
@@ -152,11 +160,11 @@ fn parts(quick: bool) -> Table {
     table
 }
 
-/// To a time when walls without a skin have creased.
+/// To a time when walls without a surface_elasticity have creased.
 fn skins(quick: bool) -> Table {
     let mut table = Table::new(
         &format!(
-            "E = 1e3, forces on triangles, and a skin of stretching modulus 300 and bending modulus 1, at t = 30, with \
+            "E = 1e3, forces on triangles, and a surface_elasticity of stretching modulus 300 and bending modulus 1, at t = 30, with \
              spacings h and of the mesh of {SKINNED:?}, by the Runge-Kutta-Chebyshev method; the difference of the \
              first two in %"
         ),
@@ -164,7 +172,7 @@ fn skins(quick: bool) -> Table {
     );
     for activity in if quick { vec![] } else { vec![-3.0, -4.0] } {
         for (name, finer) in [("as the mesh", false), ("finer", true)] {
-            let case = Case { activity, finer, skin: true, time: 30.0, ..USUAL };
+            let case = Case { activity, finer, surface_elasticity: true, time: 30.0, ..USUAL };
             table.push([activity.to_string(), name.to_owned()].into_iter().chain(texts(case, &SKINNED)));
         }
     }

@@ -22,7 +22,7 @@ fn grid() -> Method {
 }
 
 fn nodes(nodes: usize) -> Method {
-    Method::Integral(IntegralMethod { nodes, cells: 4 * nodes })
+    Method::Integral(IntegralMethod { nodes, elements: 4 * nodes })
 }
 
 /// Speeds, distance of the centres and least gap in the end, and what ended it early.

@@ -155,7 +155,7 @@ fn run(activity: Option<f64>, tension: f64, seed: u64) -> Result<[f64; 2], Study
     };
     let setup = Setup {
         region: Region::Channel { length: 12.0, width: 6.0, drive: Drive::ZeroGradient },
-        method: Method::Layers(LayersMethod { nodes: 48, cells: 192, ..LayersMethod::of_spacing(0.2) }),
+        method: Method::Layers(LayersMethod { nodes: 48, elements: 192, ..LayersMethod::of_spacing(0.2) }),
         droplets: vec![droplet],
         solids,
         ..Setup::default()

@@ -177,7 +177,7 @@ fn elastic() -> Vec<Settings> {
 /// Common settings of a series of refinements.
 pub(crate) fn series(settings: &Settings) -> String {
     let flow = match settings.flow {
-        Flow::Integrals { nodes, cells } => format!("cells {}", cells / nodes),
+        Flow::Integrals { nodes, elements } => format!("cells {}", elements / nodes),
         Flow::Grid { ratio, .. } => format!("ratio {ratio}"),
     };
     format!("{} {flow} {:?} {:?} {:?}", settings.family(), settings.kernel, settings.step, settings.stepper)

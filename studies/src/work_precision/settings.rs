@@ -9,12 +9,12 @@ use serde_json::Value;
 /// How velocities come from forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Flow {
-    /// Boundary integrals with shape nodes and cells of the concentration.
+    /// Boundary integrals with shape nodes and elements of the concentration.
     Integrals {
         /// Shape nodes.
         nodes: usize,
         /// Cells of the concentration.
-        cells: usize,
+        elements: usize,
     },
     /// A grid of spacing h with markers `ratio` h apart.
     Grid {
@@ -54,13 +54,13 @@ pub(crate) struct Settings {
 impl Settings {
     /// The default.
     pub(crate) fn preset() -> Self {
-        let IntegralMethod { nodes, cells } = IntegralMethod::default();
-        Self::integrals(nodes, cells)
+        let IntegralMethod { nodes, elements } = IntegralMethod::default();
+        Self::integrals(nodes, elements)
     }
 
     /// Boundary integrals with steps of half the limit.
-    pub(crate) fn integrals(nodes: usize, cells: usize) -> Self {
-        Self { flow: Flow::Integrals { nodes, cells }, ..Self::grid(0.1, 0.5) }
+    pub(crate) fn integrals(nodes: usize, elements: usize) -> Self {
+        Self { flow: Flow::Integrals { nodes, elements }, ..Self::grid(0.1, 0.5) }
     }
 
     /// A grid with the default kernel, its correction, and steps of half the limit.
@@ -110,7 +110,7 @@ impl Settings {
             Preset::Thesis => Setup::thesis(),
         };
         let method = match self.flow {
-            Flow::Integrals { nodes, cells } => Method::Integral(IntegralMethod { nodes, cells }),
+            Flow::Integrals { nodes, elements } => Method::Integral(IntegralMethod { nodes, elements }),
             Flow::Grid { h, ratio } => Method::Grid(GridMethod {
                 spacing: h,
                 marker_spacing: Some(ratio * h),
@@ -134,7 +134,7 @@ impl Settings {
     /// For people.
     pub(crate) fn label(&self) -> String {
         let flow = match self.flow {
-            Flow::Integrals { nodes, cells } => format!("{nodes} nodes, {cells} cells"),
+            Flow::Integrals { nodes, elements } => format!("{nodes} nodes, {elements} elements"),
             Flow::Grid { h, ratio, .. } => format!("h = {h}, ds = {ratio} h, {}", self.kernel.name()),
         };
         let step = match self.step {
@@ -159,15 +159,15 @@ impl Settings {
 
     /// The columns of a table.
     pub(crate) fn put(&self, summary: &mut Summary) {
-        let (mut nodes, mut cells, mut spacing, mut markers) = (Value::Null, Value::Null, Value::Null, Value::Null);
+        let (mut nodes, mut elements, mut spacing, mut markers) = (Value::Null, Value::Null, Value::Null, Value::Null);
         match self.flow {
-            Flow::Integrals { nodes: n, cells: c } => (nodes, cells) = (n.into(), c.into()),
+            Flow::Integrals { nodes: n, elements: c } => (nodes, elements) = (n.into(), c.into()),
             Flow::Grid { h, ratio, .. } => (spacing, markers) = (h.into(), (ratio * h).into()),
         }
         summary.put("family", self.family(), "");
         summary.put("settings", self.label(), "");
         summary.put("nodes", nodes, "");
-        summary.put("cells", cells, "");
+        summary.put("elements", elements, "");
         summary.put("h", spacing, "");
         summary.put("ds", markers, "");
     }

@@ -75,7 +75,7 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
     let curve = Curve::ellipse(1.3, 1.0 / 1.3)?;
     let count = match settings.flow {
         Flow::Grid { h, ratio, .. } => 2 * (0.5 * curve.perimeter() / (ratio * h)).round() as usize,
-        Flow::Integrals { cells, .. } => cells,
+        Flow::Integrals { elements, .. } => elements,
     };
     let make = || {
         let flow: AnyFlow = match settings.flow {

@@ -7,13 +7,13 @@ use motile::active_interface::ActiveDroplet;
 use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::{StepSize, System};
-use motile::setup::{AnyFlow, DropletSetup, Exclusion, Particles, Setup};
+use motile::setup::{AnyFlow, DropletSetup, ExcludedVolume, Particles, Setup};
 use motile_tests::validation::{Reference, ReferenceFile};
 
 use crate::work_precision::cost::{Cost, march};
 use crate::work_precision::settings::Settings;
 
-/// Speed of the swimmer of ratio 100 with 160 nodes, 1280 cells and steps of a quarter of the limit
+/// Speed of the swimmer of ratio 100 with 160 nodes, 1280 elements and steps of a quarter of the limit
 /// (`--reference` computes it).
 const RATIO_100: f64 = 0.149_390_892_4;
 
@@ -24,7 +24,7 @@ const STEADY: f64 = 80.0;
 fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Setup {
     let mut setup = settings.setup();
     setup.viscosity = outside.unwrap_or(100.0);
-    let excluded_volume = Exclusion::Step(2.0 * activity.abs());
+    let excluded_volume = ExcludedVolume::Step(2.0 * activity.abs());
     let droplet = &mut setup.droplets[0];
     droplet.viscosity = outside.map(|_| 100.0);
     droplet.particles = droplet.particles.map(|particles| Particles { activity, excluded_volume, ..particles });

@@ -110,7 +110,7 @@ pub(crate) const ADAPTIVE: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
 pub(crate) fn by(way: Way, base: &Setup) -> Setup {
     let mut setup = base.clone();
     match (way, &mut setup.method) {
-        (Way::Integral, method) => *method = Method::Integral(IntegralMethod { nodes: 64, cells: 256 }),
+        (Way::Integral, method) => *method = Method::Integral(IntegralMethod { nodes: 64, elements: 256 }),
         (Way::Thesis, method) => {
             let (spacing, marker_spacing) = match *method {
                 Method::Grid(grid) => (grid.spacing, grid.marker_spacing),

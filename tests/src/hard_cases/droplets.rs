@@ -4,7 +4,7 @@ use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::Body;
 use motile::scene::gap::Repulsion;
-use motile::setup::{Built, DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
+use motile::setup::{Built, DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, Particles, Setup};
 
 use crate::hard_cases::drive::{ADAPTIVE, by, held, run, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -39,7 +39,7 @@ fn with_markers(spacing: f64) -> Setup {
 
 /// One droplet of this activity and this strength of the excluded volume.
 fn one(activity: f64, strength: f64) -> Vec<DropletSetup> {
-    let excluded_volume = Exclusion::Step(strength);
+    let excluded_volume = ExcludedVolume::Step(strength);
     vec![DropletSetup {
         particles: Some(Particles { activity, excluded_volume, ..Particles::default() }),
         ..DropletSetup::default()
@@ -152,7 +152,7 @@ fn five_cells(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseE
 /// The film at the walls becomes thin.
 fn film(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
     let region = Region::Channel { length: 6.0, width: 2.2, drive: Drive::ZeroGradient };
-    let particles = Particles { activity: -8.0, excluded_volume: Exclusion::Step(16.0), ..Particles::default() };
+    let particles = Particles { activity: -8.0, excluded_volume: ExcludedVolume::Step(16.0), ..Particles::default() };
     let droplets =
         vec![DropletSetup { particles: Some(particles), viscosity: Some(1000.0), ..DropletSetup::default() }];
     run_by(way, &Setup { region, droplets, ..coarse() }, extent.pick(10.0, 20.0), look)

@@ -3,7 +3,7 @@
 use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::gap::Repulsion;
-use motile::setup::{DropletSetup, Exclusion, GridMethod, LayersMethod, Method, Particles, Setup};
+use motile::setup::{DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, Particles, Setup};
 
 use crate::hard_cases::drive::{by, held, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -47,7 +47,8 @@ pub(crate) fn trials() -> Vec<Trial> {
         .area_within(2e-3),
         Recipe::new(13, "a passive droplet overtakes another", &[Way::Grid, Way::Integral], |way, extent, look| {
             // At the centre line the flow is faster than beside it.
-            let particles = Particles { activity: 0.0, excluded_volume: Exclusion::Step(0.0), ..Particles::default() };
+            let particles =
+                Particles { activity: 0.0, excluded_volume: ExcludedVolume::Step(0.0), ..Particles::default() };
             let first = DropletSetup { centre: [-1.6, 0.4], particles: Some(particles), ..DropletSetup::default() };
             let name = "second droplet".to_owned();
             let second = DropletSetup { name, centre: [1.0, -1.3], ..DropletSetup::passive(10.0) };

@@ -7,7 +7,9 @@ use motile::elastic_solids::mesh::TriangleMesh;
 use motile::elastic_solids::{Mesher, Moduli, Solid, Springs};
 use motile::ib_core::{BSpline, ImmersedBoundary};
 use motile::scene::Scene;
-use motile::setup::{AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SkinSetup, SolidSetup};
+use motile::setup::{
+    AnyFlow, DropletSetup, GridMethod, LayersMethod, Material, Method, Setup, SolidSetup, SurfaceElasticitySetup,
+};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::hard_cases::drive::{by, held, run_way};
@@ -40,11 +42,12 @@ fn throat() -> Result<Setup, CaseError> {
 }
 
 /// The throat of a material whose energy grows without a bound as a triangle is flattened, and no contact.
-fn held_throat(skin: Option<SkinSetup>) -> Result<Setup, CaseError> {
+fn held_throat(surface_elasticity: Option<SurfaceElasticitySetup>) -> Result<Setup, CaseError> {
     let mut setup = Setup { repulsion: Some(held(0.2)), ..throat()? };
     let shear = Moduli::from_thesis_spring_constant(1e4)?.shear();
     for wall in &mut setup.solids {
-        (wall.material, wall.skin) = (Material::NeoHookean { shear, bulk: 2.0 * shear }, skin);
+        (wall.material, wall.surface_elasticity) =
+            (Material::NeoHookean { shear, bulk: 2.0 * shear }, surface_elasticity);
     }
     Ok(setup)
 }
@@ -117,10 +120,15 @@ pub(crate) fn trials() -> Vec<Trial> {
         })
         .ending_in(CREASED)
         .area_within(5e-3),
-        Recipe::new(8, "a throat of R0/4, neo-Hookean with a skin, held apart", both, |way, extent, look| {
-            let setup = held_throat(Some(SkinSetup { stretching: 100.0, bending: 0.3 }))?;
-            run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
-        })
+        Recipe::new(
+            8,
+            "a throat of R0/4, neo-Hookean with a surface_elasticity, held apart",
+            both,
+            |way, extent, look| {
+                let setup = held_throat(Some(SurfaceElasticitySetup { stretching: 100.0, bending: 0.3 }))?;
+                run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
+            },
+        )
         .area_within(5e-3),
         Recipe::new(15, "a highly irregular wall mesh", both, |way, extent, look| {
             let mesh = disturbed(|k, p| p + 0.025 * Vec2::new(noise(2 * k), noise(2 * k + 1)))?;

@@ -254,12 +254,12 @@ impl Exact {
 
 /// Boundary integrals in a region, viscosity one.
 fn exact(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
-    flow(region, Method::Integral(IntegralMethod { nodes, cells: nodes }), 1.0, 1e-10)
+    flow(region, Method::Integral(IntegralMethod { nodes, elements: nodes }), 1.0, 1e-10)
 }
 
 /// Layers in a region, viscosity one.
 fn layers(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
-    let method = LayersMethod { nodes, cells: nodes, ..LayersMethod::of_spacing(0.05) };
+    let method = LayersMethod { nodes, elements: nodes, ..LayersMethod::of_spacing(0.05) };
     flow(region, Method::Layers(method), 1.0, 1e-6)
 }
 

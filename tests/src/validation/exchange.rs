@@ -129,7 +129,7 @@ pub fn rate(mode: Mode, activity: f64, markers: usize, spacing: f64) -> Result<f
     let droplet = if activity == 0.0 {
         ActiveDroplet::new(&circle, numbers, ConstantTension::new(10.0)?, DIFFUSION)?
     } else {
-        let law = ContractileTension::new(10.0 - activity * MEAN, activity, ExcludedVolume::None)?;
+        let law = ContractileTension::new(10.0 - activity * MEAN, activity, ExcludedVolume::None, 1.0)?;
         ActiveDroplet::new(&circle, numbers, law, DIFFUSION)?
     };
     let droplet = droplet.with_open_number();

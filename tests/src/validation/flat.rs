@@ -40,18 +40,18 @@ impl Flat<'_> {
     ///
     /// # Errors
     /// A scene that cannot be computed.
-    pub fn growth(&self, nodes: usize, cells: usize) -> Result<[[f64; 2]; 2], StudyError> {
+    pub fn growth(&self, nodes: usize, elements: usize) -> Result<[[f64; 2]; 2], StudyError> {
         let (c, h) = (1e-5 * C0, 1e-6);
-        let [by_c, by_h] = [self.rate([c, 0.0], nodes, cells)?, self.rate([0.0, h], nodes, cells)?];
+        let [by_c, by_h] = [self.rate([c, 0.0], nodes, elements)?, self.rate([0.0, h], nodes, elements)?];
         Ok([[by_c[0] / c, by_h[0] / h], [by_c[1] / c, by_h[1] / h]])
     }
 
-    fn rate(&self, [c, h]: [f64; 2], nodes: usize, cells: usize) -> Result<[f64; 2], StudyError> {
+    fn rate(&self, [c, h]: [f64; 2], nodes: usize, elements: usize) -> Result<[f64; 2], StudyError> {
         let settings = Settings { nodes, tolerance: 1e-12, ..Settings::default() };
         let mut flow = BoundaryIntegral::new(self.region, self.exterior, settings)?;
         let view = flow.fluid_view();
         let k = TAU * self.waves as f64 / PERIOD;
-        let law = ContractileTension::new(GAMMA0, ACTIVITY, ExcludedVolume::None)?;
+        let law = ContractileTension::new(GAMMA0, ACTIVITY, ExcludedVolume::None, 1.0)?;
         let bodies: Result<Vec<ActiveInterface>, StudyError> = self
             .interfaces
             .iter()
@@ -59,7 +59,7 @@ impl Flat<'_> {
             .map(|(&(height, advance, viscosity), &[sign_c, sign_h])| -> Result<_, StudyError> {
                 let mut amplitudes = vec![0.0; self.waves];
                 amplitudes[self.waves - 1] = sign_h * h;
-                let markers = wave(height, advance, &amplitudes, &[], cells)?;
+                let markers = wave(height, advance, &amplitudes, &[], elements)?;
                 let concentration = move |t: f64| C0 + sign_c * c * (k * PERIOD * (t - 0.5)).cos();
                 let initial = InitialConcentration::by_arc_fraction(concentration);
                 let numbers = initial.particle_numbers_over(&markers, advance)?;
@@ -70,10 +70,10 @@ impl Flat<'_> {
         let mut bodies = bodies?;
         let mut markers = Markers::new();
         for body in &bodies {
-            markers.push_group(cells, body.kind());
+            markers.push_group(elements, body.kind());
         }
         for (index, body) in bodies.iter_mut().enumerate() {
-            let range = index * cells..(index + 1) * cells;
+            let range = index * elements..(index + 1) * elements;
             body.write_markers(&mut markers.positions_mut()[range.clone()]);
             body.write_forces(&view, &mut markers.forces_mut()[range])?;
         }
@@ -81,21 +81,21 @@ impl Flat<'_> {
         let index = bodies.len() - 1;
         let body = &mut bodies[index];
         let mut rate = vec![0.0; body.state_len()];
-        body.rate(&markers.velocities()[index * cells..], &mut rate);
-        let lengths = body.segment_lengths().to_vec();
+        body.rate(&markers.velocities()[index * elements..], &mut rate);
+        let lengths = body.element_lengths().to_vec();
         let mut state = vec![0.0; body.state_len()];
         body.write_state(&mut state);
-        let (positions, numbers) = rate.split_at(2 * cells);
+        let (positions, numbers) = rate.split_at(2 * elements);
         let mut change = numbers.to_vec();
         body.begin_step(&view, StepInfo { dt: 1.0, stabilised: false })?;
         let mut implicit = vec![0.0; body.state_len()];
         body.add_implicit(&state, 1.0, &mut implicit);
-        change.iter_mut().zip(&implicit[2 * cells..]).for_each(|(change, more)| *change += more);
+        change.iter_mut().zip(&implicit[2 * elements..]).for_each(|(change, more)| *change += more);
         let advance = body.advance();
         let along = |t: f64| (k * advance * (t - 0.5)).cos();
-        let count = cells as f64;
-        let dc = (0..cells).map(|i| change[i] / lengths[i] * along((i as f64 + 0.5) / count)).sum::<f64>();
-        let dh = (0..cells).map(|i| positions[2 * i + 1] * along(i as f64 / count)).sum::<f64>();
+        let count = elements as f64;
+        let dc = (0..elements).map(|i| change[i] / lengths[i] * along((i as f64 + 0.5) / count)).sum::<f64>();
+        let dh = (0..elements).map(|i| positions[2 * i + 1] * along(i as f64 / count)).sum::<f64>();
         Ok([2.0 * dc / count, 2.0 * dh / count])
     }
 

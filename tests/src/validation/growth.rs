@@ -106,8 +106,8 @@ pub fn polarisation_rate(setup: &Setup) -> Result<f64, StudyError> {
 ///
 /// # Errors
 /// Those of a run.
-pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
-    let method = Method::Integral(IntegralMethod { nodes, cells });
+pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, elements: usize) -> Result<f64, StudyError> {
+    let method = Method::Integral(IntegralMethod { nodes, elements });
     let watch = Watch { epsilon: 1e-5, duration: 0.1, steps: 100.0 };
     let setup = Setup { method, ..setup.clone() };
     measure(&setup, mode, &watch, || flow(Region::Plane, method, setup.viscosity, 1e-11))
@@ -117,9 +117,9 @@ pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> R
 ///
 /// # Errors
 /// Those of a run.
-pub fn rate_in_plane_limit(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
-    let coarse = rate_in_plane(setup, mode, nodes, cells)?;
-    Ok((4.0 * rate_in_plane(setup, mode, nodes, 2 * cells)? - coarse) / 3.0)
+pub fn rate_in_plane_limit(setup: &Setup, mode: Mode, nodes: usize, elements: usize) -> Result<f64, StudyError> {
+    let coarse = rate_in_plane(setup, mode, nodes, elements)?;
+    Ok((4.0 * rate_in_plane(setup, mode, nodes, 2 * elements)? - coarse) / 3.0)
 }
 
 fn measure(
@@ -156,8 +156,8 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
     };
     let count = match setup.method {
         Method::Grid(grid) => 4 * (curve.perimeter() / (2.0 * grid.spacing)).round() as usize,
-        Method::Layers(layers) => layers.cells,
-        Method::Integral(integral) => integral.cells,
+        Method::Layers(layers) => layers.elements,
+        Method::Integral(integral) => integral.elements,
         other => {
             let (key, value) = ("method".to_owned(), other.kind().name().to_owned());
             return Err(SetupError::Value { key, value, remedy: "give one of known resolution".to_owned() }.into());
@@ -176,7 +176,7 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
             particles.concentration * curve.perimeter() / TAU * (b - a + wave)
         })
         .collect();
-    let law = ContractileTension::new(droplet.tension, particles.activity, ExcludedVolume::None)?;
+    let law = ContractileTension::new(droplet.tension, particles.activity, ExcludedVolume::None, 1.0)?;
     let made = ActiveDroplet::new(&curve.markers(count)?, numbers, law, particles.diffusion)?
         .with_motion(droplet.motion)
         .with_flux(particles.flux)

@@ -27,7 +27,7 @@ pub fn reference(case: &str, quantity: &str) -> Result<f64, StudyError> {
 /// The plane, of unit viscosity, with a flow and without bodies, in fixed steps.
 #[must_use]
 pub fn plane(flow: FlowSetup, nodes: usize, dt: f64) -> Setup {
-    let method = Method::Integral(IntegralMethod { nodes, cells: nodes });
+    let method = Method::Integral(IntegralMethod { nodes, elements: nodes });
     let step = StepSize::Fixed(dt);
     Setup { region: Region::Plane, viscosity: 1.0, flow, method, step, droplets: Vec::new(), ..Setup::default() }
 }

@@ -41,7 +41,7 @@ pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyErr
 pub struct MarkerSpacing {
     /// Speed at t = 3.
     pub speed: f64,
-    /// Cell Peclet number then.
+    /// Element Peclet number then.
     pub peclet: f64,
     /// True if the droplet warned of it.
     pub warned: bool,
@@ -58,6 +58,6 @@ pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
     let speed = scene.observe(droplets[0])?.speed();
     let droplet = scene.body(droplets[0])?;
-    let warned = droplet.cell_peclet() > 0.35;
-    Ok(MarkerSpacing { speed, peclet: droplet.cell_peclet(), warned })
+    let warned = droplet.element_peclet() > 0.35;
+    Ok(MarkerSpacing { speed, peclet: droplet.element_peclet(), warned })
 }

@@ -4,7 +4,7 @@ use motile::base::Drive;
 use motile::base::Region;
 use motile::boundary_integrals::{BoundaryIntegral, Settings};
 use motile::ib_core::SmearedContrast;
-use motile::setup::{AnyFlow, Exclusion, GridMethod, IntegralMethod, LayersMethod, Method, Setup};
+use motile::setup::{AnyFlow, ExcludedVolume, GridMethod, IntegralMethod, LayersMethod, Method, Setup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::validation::StudyError;
@@ -23,8 +23,8 @@ pub fn by_layers(h: f64) -> Setup {
 
 /// The default scene by boundary integrals with `nodes` nodes and `cells` cells of the concentration.
 #[must_use]
-pub fn without_grid(nodes: usize, cells: usize) -> Setup {
-    Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() }
+pub fn without_grid(nodes: usize, elements: usize) -> Setup {
+    Setup { method: Method::Integral(IntegralMethod { nodes, elements }), ..Setup::default() }
 }
 
 /// The scene of the reference table of steady swimmers in a box, from one that has its box and viscosities: A is twice
@@ -32,7 +32,7 @@ pub fn without_grid(nodes: usize, cells: usize) -> Setup {
 #[must_use]
 pub fn reference(mut base: Setup, activity: f64) -> Setup {
     for particles in base.droplets.iter_mut().filter_map(|droplet| droplet.particles.as_mut()) {
-        (particles.activity, particles.excluded_volume) = (activity, Exclusion::Step(2.0 * activity.abs()));
+        (particles.activity, particles.excluded_volume) = (activity, ExcludedVolume::Step(2.0 * activity.abs()));
     }
     base
 }

@@ -5,7 +5,7 @@ tension drive flow along the interface; the flow gathers the particles. Above a 
 polarises and swims.
 
 >>> import motile
->>> setup = motile.Setup(droplets=[motile.droplet(-2)], method=motile.integral(nodes=48, cells=192))
+>>> setup = motile.Setup(droplets=[motile.droplet(-2)], method=motile.integral(nodes=48, elements=192))
 >>> scene = setup.build()
 >>> track = scene.run(20, every=1)
 >>> print(f"{track['speed'][-1]:.3f}")

@@ -90,8 +90,8 @@ fn a_mode_decays_as_the_discrete_laplacian_says() {
 
 #[test]
 fn peclet_number_and_what_is_not_finite() {
-    assert_eq!([0.1, 8.0].map(|d| cell_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], d)), [2.0, 0.025]);
-    assert_eq!(cell_peclet(&[0.0; 3], &[0.1; 3], 0.0), 0.0);
+    assert_eq!([0.1, 8.0].map(|d| element_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], d)), [2.0, 0.025]);
+    assert_eq!(element_peclet(&[0.0; 3], &[0.1; 3], 0.0), 0.0);
     let mut transport = Transport::new(8, Flux::Upwind);
     let mut rate = [0.5; 8];
     transport.add_advection(&[1.0; 8], &[1.0; 8], &[f64::INFINITY; 8], &mut rate);

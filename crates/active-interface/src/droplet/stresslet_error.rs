@@ -43,7 +43,7 @@ impl ActiveDroplet {
     /// larger: its error is that of the shape times the mean tension, and speeds do not show it.
     pub(super) fn stresslet_error(&self, view: &FluidView) -> Option<StressletError> {
         let spacing = grid_spacing(view).filter(|_| self.interface.carries())?;
-        let (tensions, lengths) = (self.tensions(), self.segment_lengths());
+        let (tensions, lengths) = (self.tensions(), self.element_lengths());
         let perimeter = self.interface.geometry().perimeter;
         let radius = perimeter / TAU;
         let (mut mean, mut dipole) = (0.0, Vec2::ZERO);
@@ -67,7 +67,7 @@ impl ActiveDroplet {
             let to_image =
                 |period: Option<f64>, extent: f64| period.map_or(f64::INFINITY, |period| 0.5 * (period - extent));
             let half = to_image(x, wide).min(to_image(y, high)).max(0.5 * spacing);
-            let steepness = self.cell_peclet() * lengths.len() as f64 / TAU;
+            let steepness = self.element_peclet() * lengths.len() as f64 / TAU;
             let open = STEEP * steepness * steepness * (1.0 + BESIDE_IMAGES * (radius / half).powf(1.5));
             let walls = BESIDE_WALLS * (radius / gap.max(spacing)).powi(3);
             (open + walls).min(CORRECTED_MOST) * cells * cells

@@ -48,7 +48,7 @@ impl Body for ActiveInterface {
     }
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        let uneven = self.law.motion == Motion::WithFluid || self.state.shape.of_revolution;
+        let uneven = self.law.motion == Motion::WithFluid || self.state.shape.axisymmetric;
         if self.law.bending.is_some() && uneven {
             return Err(InterfaceError::UnevenBending.into());
         }
@@ -168,7 +168,7 @@ impl Body for ActiveInterface {
             push("the period", length);
         } else {
             let radius = self.radius_at_start();
-            length = if self.state.shape.of_revolution { 2.0 * radius } else { 1.0 } * TAU * radius;
+            length = if self.state.shape.axisymmetric { 2.0 * radius } else { 1.0 } * TAU * radius;
         }
         let mean = self.account.number / length;
         for sample in LAW_SAMPLES {
@@ -248,7 +248,7 @@ impl ActiveInterface {
     /// of the smooth curve is held, else of the curve through the markers; volume of a body of revolution (length
     /// cubed).
     pub(crate) fn area(&self) -> f64 {
-        if self.state.shape.of_revolution {
+        if self.state.shape.axisymmetric {
             return self.geometry().volume(self.markers());
         }
         let Geometry { tangents, weights, .. } = self.geometry();
@@ -280,7 +280,7 @@ impl ActiveInterface {
             period => (area - self.account.area) / (period * period),
         };
         let changes = [
-            (if self.state.shape.of_revolution { "the volume" } else { "the area" }, change),
+            (if self.state.shape.axisymmetric { "the volume" } else { "the area" }, change),
             ("the number of particles", if total > 0.0 { total / self.account.number - 1.0 } else { 0.0 }),
         ];
         for ((what, change), bound) in changes.into_iter().zip(self.account.bounds) {
@@ -323,14 +323,14 @@ impl ActiveInterface {
     /// Radius of the circle or sphere of the size at the start (length).
     fn radius_at_start(&self) -> f64 {
         let size = self.account.area / PI;
-        if self.state.shape.of_revolution { (0.75 * size).cbrt() } else { size.sqrt() }
+        if self.state.shape.axisymmetric { (0.75 * size).cbrt() } else { size.sqrt() }
     }
 
     /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second
     /// time for the quadratic part), or scales a body of revolution to its volume: that adds no waves which the flow
     /// does not see, and keeps equal spacing.
     fn restore_area(&mut self) {
-        if self.state.shape.of_revolution {
+        if self.state.shape.axisymmetric {
             let factor = (self.account.area / self.area()).cbrt();
             let markers = &mut self.state.shape.markers;
             let middle = 0.5 * (markers[0] + markers[markers.len() / 2]);

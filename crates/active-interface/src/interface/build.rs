@@ -32,9 +32,9 @@ impl ActiveInterface {
     ///
     /// // one wave of height 0.1 in a period of 6, with 100 particles a length
     /// let markers = wave(0.0, 6.0, &[0.1], &[], 128)?;
-    /// let law = ContractileTension::new(10.0, -1.0, active_interface::ExcludedVolume::None)?;
+    /// let law = ContractileTension::new(10.0, -1.0, active_interface::ExcludedVolume::None, 1.0)?;
     /// let interface = ActiveInterface::periodic(&markers, 6.0, vec![100.0 * 6.0 / 128.0; 128], law, 0.1)?;
-    /// let length: f64 = interface.segment_lengths().iter().sum();
+    /// let length: f64 = interface.element_lengths().iter().sum();
     /// println!("{length:.4}"); // longer than the period by (k a)^2/4 of it, k a = 0.1047
     /// assert!((length / 6.0 - 1.0 - 0.00274).abs() < 1e-5);
     /// # Ok::<(), active_interface::InterfaceError>(())
@@ -215,7 +215,7 @@ impl ActiveInterface {
     /// # Errors
     /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the
     /// fluid.
-    pub fn of_revolution(mut self) -> Result<Self, InterfaceError> {
+    pub fn axisymmetric(mut self) -> Result<Self, InterfaceError> {
         let (markers, count) = (self.markers(), self.markers().len());
         let differs = |k: &usize| {
             let image = markers[(count - k) % count];
@@ -223,10 +223,10 @@ impl ActiveInterface {
         };
         let wrong = (0..count).find(|k| differs(k) || (!count.is_multiple_of(2) && 2 * k + 1 == count));
         if let Some(Vec2 { x, y }) = wrong.map(|k| markers[k]) {
-            return Err(InterfaceError::NotOfRevolution { x, y });
+            return Err(InterfaceError::NotAxisymmetric { x, y });
         }
         if self.law.motion == Motion::WithFluid {
-            return Err(InterfaceError::NotOfRevolution { x: f64::NAN, y: f64::NAN });
+            return Err(InterfaceError::NotAxisymmetric { x: f64::NAN, y: f64::NAN });
         }
         // The meridian runs from the largest x, also of a droplet that swims backwards.
         if markers[0].x < markers[count / 2].x {
@@ -238,7 +238,7 @@ impl ActiveInterface {
         self.update();
         let concentrations = self.derived.concentrations.clone();
         self.scheme.spectral = Some(SpectralCurve::new(count)?);
-        (self.state.shape.of_revolution, self.scheme.other.of_revolution) = (true, true);
+        (self.state.shape.axisymmetric, self.scheme.other.axisymmetric) = (true, true);
         self.law.keeps_area = true;
         self.update();
         let areas = &self.state.shape.geometry.rings.areas;
@@ -252,14 +252,14 @@ impl ActiveInterface {
 
     /// True for a body of revolution in three dimensions.
     #[must_use]
-    pub fn is_of_revolution(&self) -> bool {
-        self.state.shape.of_revolution
+    pub fn is_axisymmetric(&self) -> bool {
+        self.state.shape.axisymmetric
     }
 
     /// Sizes of the segments, over which particle numbers are concentrations: their lengths (length), of a body of
     /// revolution half of the areas of their rings (length squared).
     #[must_use]
-    pub fn segment_sizes(&self) -> &[f64] {
+    pub fn element_sizes(&self) -> &[f64] {
         self.state.shape.geometry.cells().sizes
     }
 
@@ -349,7 +349,7 @@ impl ActiveInterface {
 
     /// Lengths of the segments (length).
     #[must_use]
-    pub fn segment_lengths(&self) -> &[f64] {
+    pub fn element_lengths(&self) -> &[f64] {
         &self.state.shape.geometry.lengths
     }
 

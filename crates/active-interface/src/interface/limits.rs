@@ -6,10 +6,10 @@ use motile_base::told_apart;
 use motile_scene::{FluidView, StepCause, StepLimit};
 
 use super::{ActiveInterface, Motion};
-use crate::concentration::{Flux, cell_peclet};
+use crate::concentration::{Flux, element_peclet};
 
-/// Cell Peclet number `ds max|V_t - W| / D` (no dimension) above which the edge of the concentration is not resolved,
-/// on however fine a grid: speeds may be off by a per cent (measured by the study `warnings`).
+/// Element Peclet number `ds max|V_t - W| / D` (no dimension) above which the edge of the concentration is not
+/// resolved, on however fine a grid: speeds may be off by a per cent (measured by the study `warnings`).
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
 /// Nodes of a swimmer's shape below which its speed is off by more than a per cent: at activities of -2, -3 and -4,
@@ -33,12 +33,16 @@ pub(super) fn finest_response(view: &FluidView) -> f64 {
 }
 
 impl ActiveInterface {
-    /// Cell Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the velocity of the
+    /// Element Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the velocity of the
     /// fluid along the interface relative to the markers, ds the length of the segments. 0 without particles, infinite
     /// for particles that do not diffuse. Above 0.35 the edge of the concentration is not resolved.
     #[must_use]
-    pub fn cell_peclet(&self) -> f64 {
-        if self.carries() { cell_peclet(&self.derived.slip, &self.geometry().lengths, self.law.diffusion) } else { 0.0 }
+    pub fn element_peclet(&self) -> f64 {
+        if self.carries() {
+            element_peclet(&self.derived.slip, &self.geometry().lengths, self.law.diffusion)
+        } else {
+            0.0
+        }
     }
 
     fn largest_tension(&self) -> f64 {
@@ -114,7 +118,7 @@ impl ActiveInterface {
     /// Doubts about the present state, as cause, excess and message.
     pub(super) fn doubts(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
         let law = self.law.tension.warning().map(|message| ("tension without a plateau", f64::INFINITY, message));
-        let peclet = self.cell_peclet();
+        let peclet = self.element_peclet();
         let edge = (peclet > PECLET_LIMIT).then(|| {
             let spacing = self.geometry().mean_length() * PECLET_LIMIT / peclet;
             let remedy = if spacing > 0.0 {

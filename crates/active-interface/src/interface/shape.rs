@@ -14,7 +14,7 @@ pub(crate) struct Shape {
     pub(crate) advance: f64,
     pub(crate) geometry: Geometry,
     /// True for the meridian of a surface of revolution with its mirror image.
-    pub(crate) of_revolution: bool,
+    pub(crate) axisymmetric: bool,
     /// Count of computations of the geometry, for tests.
     pub(crate) evaluations: usize,
 }
@@ -44,7 +44,7 @@ impl Shape {
         match spectral.filter(|spectral| spectral.len() == self.markers.len()) {
             Some(spectral) => {
                 spectral.update(&self.markers, self.advance, &mut self.geometry);
-                if self.of_revolution {
+                if self.axisymmetric {
                     spectral.update_rings(&self.markers, &mut self.geometry);
                 }
             }

@@ -181,7 +181,7 @@ fn a_law_given_later_is_the_law_from_then_on() {
 fn the_stabiliser_by_hand() {
     for (c, on, expected) in [(4.0, true, vec![0.15; 64]), (1.0, true, vec![0.0; 64]), (4.0, false, Vec::new())] {
         let mut droplet = droplet(Motion::default());
-        let numbers = droplet.segment_lengths().iter().map(|length| c * length).collect();
+        let numbers = droplet.element_lengths().iter().map(|length| c * length).collect();
         let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
         droplet = ActiveDroplet::new(droplet.markers(), numbers, law, 0.05).unwrap();
         let step = motile_scene::StepInfo { dt: 0.01, stabilised: on };

@@ -18,7 +18,7 @@ fn droplet(count: usize, heading: f64, forces: bool) -> (Vec<Vec2>, Vec<Vec2>, V
         })
         .collect();
     // gamma = 10 + c - Pi(c), as in the reference: A = 2, T = 2, a = 20, c0 = 100.
-    let law = ContractileTension::new(10.0, -1.0, ExcludedVolume::thesis(2.0, 100.0)).unwrap();
+    let law = ContractileTension::new(10.0, -1.0, ExcludedVolume::Step(2.0), 100.0).unwrap();
     let pull = |k: usize| {
         let chord = markers[(k + 1) % count] - markers[k];
         chord.normalize() * law.value(numbers[k] / chord.length())
@@ -38,7 +38,7 @@ fn record(count: usize, heading: f64) -> Observables {
         viscosities: [100.0, 100.0],
         inside: None,
         enclosed: Vec::new(),
-        of_revolution: false,
+        axisymmetric: false,
     };
     observe(&state, Convention::FarField).unwrap()
 }
@@ -96,7 +96,7 @@ fn a_drop_without_particles_at_rest() {
         viscosities,
         inside: None,
         enclosed: Vec::new(),
-        of_revolution: false,
+        axisymmetric: false,
     };
     let record = observe(&state, Convention::AsPrinted).unwrap();
     assert_eq!(record.get("concentration_max"), None);

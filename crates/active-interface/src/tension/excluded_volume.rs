@@ -16,8 +16,11 @@ use crate::InterfaceError;
 pub enum ExcludedVolume {
     /// Pi = 0.
     None,
-    /// The step-like excluded volume of Cowley, eqs. (2.40) and (2.41): negligible below a concentration c_T and a
-    /// repulsion of constant strength A above it.
+    /// Cowley's step-like excluded volume of strength A (tension times length), with her threshold of twice the mean
+    /// concentration and her steepness of 20 (eq. 2.41).
+    Step(f64),
+    /// The step-like excluded volume of Cowley, eqs. (2.40) and (2.41), with a threshold and a steepness of your own:
+    /// negligible below a concentration c_T and a repulsion of constant strength A above it.
     ///
     /// With x = a c / c_T and the steepness a,
     /// ```text
@@ -26,7 +29,7 @@ pub enum ExcludedVolume {
     /// ```
     /// where L(y) = max(y, 0) + ln(1 + e^-|y|). The second forms are the ones evaluated: nothing overflows and nothing
     /// cancels, at any concentration.
-    Step {
+    StepAt {
         /// A >= 0 (tension times length).
         strength: f64,
         /// c_T > 0 (particles per length; T c0 in Cowley).
@@ -34,11 +37,9 @@ pub enum ExcludedVolume {
         /// a in (0, 300] (no dimension).
         steepness: f64,
     },
-    /// Pi = B c^2 / 2, of earlier versions of the model (Cowley, section 2.2.3).
-    Quadratic {
-        /// B >= 0 (tension times length squared).
-        strength: f64,
-    },
+    /// Pi = B c^2 / 2 with the strength B >= 0 (tension times length squared), of earlier versions of the model
+    /// (Cowley, section 2.2.3).
+    Quadratic(f64),
 }
 
 /// Largest steepness a: cosh a, which the plateau is computed from, overflows beyond 710.
@@ -50,26 +51,42 @@ fn softplus(y: f64) -> f64 {
 }
 
 impl ExcludedVolume {
-    /// Cowley's values (eq. 2.41): threshold 2 c0 and steepness 20, with the strength A (tension times length) and
-    /// the mean concentration c0 (particles per length) given.
-    #[must_use]
-    pub fn thesis(strength: f64, mean_concentration: f64) -> Self {
-        Self::Step { strength, threshold: 2.0 * mean_concentration, steepness: 20.0 }
+    /// Returns the law for particles of this mean concentration (particles per length).
+    pub(super) fn law(self, mean_concentration: f64) -> Law {
+        match self {
+            Self::None => Law::None,
+            Self::Step(strength) => Law::Step { strength, threshold: 2.0 * mean_concentration, steepness: 20.0 },
+            Self::StepAt { strength, threshold, steepness } => Law::Step { strength, threshold, steepness },
+            Self::Quadratic(strength) => Law::Quadratic(strength),
+        }
     }
 
     /// Checks that all values are in their ranges.
-    pub(super) fn check(self) -> Result<(), InterfaceError> {
-        if let Self::Step { threshold, steepness, .. } = self {
+    ///
+    /// # Errors
+    /// Returns [`InterfaceError::Input`] for the first value that is not.
+    pub fn check(self) -> Result<(), InterfaceError> {
+        if let Self::StepAt { threshold, steepness, .. } = self {
             positive("the threshold concentration", threshold)?;
             let name = "the steepness of the excluded volume";
             within(name, positive(name, steepness)?, 0.0, STEEPEST)?;
         }
-        if let Self::Step { strength, .. } | Self::Quadratic { strength } = self {
+        if let Self::StepAt { strength, .. } | Self::Step(strength) | Self::Quadratic(strength) = self {
             not_negative("the strength of the excluded volume", strength)?;
         }
         Ok(())
     }
+}
 
+/// An excluded volume whose threshold is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Law {
+    None,
+    Step { strength: f64, threshold: f64, steepness: f64 },
+    Quadratic(f64),
+}
+
+impl Law {
     /// Pi(c) (tension) at the concentration `c` (particles per length).
     pub(super) fn pressure(self, c: f64) -> f64 {
         match self {
@@ -78,7 +95,7 @@ impl ExcludedVolume {
                 let x = a * c / threshold;
                 strength * (threshold / a) * (softplus(x - a) - softplus(-x - a))
             }
-            Self::Quadratic { strength } => 0.5 * strength * c * c,
+            Self::Quadratic(strength) => 0.5 * strength * c * c,
         }
     }
 
@@ -94,7 +111,7 @@ impl ExcludedVolume {
                 let small = (-a - m).exp();
                 strength * (2.0 * small + cosh_x) / ((a - m).exp() + small + cosh_x)
             }
-            Self::Quadratic { strength } => strength * c,
+            Self::Quadratic(strength) => strength * c,
         }
     }
 
@@ -111,7 +128,7 @@ impl ExcludedVolume {
                 let cosh_x = (ratio * a.cosh() - (-a).exp()) / (1.0 - ratio);
                 Some(threshold / a * cosh_x.max(1.0).acosh())
             }
-            Self::Quadratic { strength } if strength > 0.0 => Some(pull / strength),
+            Self::Quadratic(strength) if strength > 0.0 => Some(pull / strength),
             _ => None,
         }
     }

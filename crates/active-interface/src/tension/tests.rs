@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 #[test]
 fn linear_law_is_equation_2_38() {
-    let law = ContractileTension::new(10.0, -2.0, ExcludedVolume::None).unwrap();
+    let law = ContractileTension::new(10.0, -2.0, ExcludedVolume::None, 1.0).unwrap();
     assert_relative_eq!(law.value(100.0), 210.0);
     assert_relative_eq!(law.slope(100.0), 2.0);
     assert_eq!(ConstantTension::new(3.0).unwrap().value(7.0), 3.0);
@@ -16,7 +16,7 @@ fn tension_is_largest_on_the_plateau() {
     let c = law.plateau().unwrap();
     assert!(law.slope(c).abs() < 1e-10);
     assert!(law.value(c) > law.value(c - 5.0) && law.value(c) > law.value(c + 5.0));
-    let quadratic = ContractileTension::new(10.0, -4.0, ExcludedVolume::Quadratic { strength: 0.02 }).unwrap();
+    let quadratic = ContractileTension::new(10.0, -4.0, ExcludedVolume::Quadratic(0.02), 1.0).unwrap();
     assert_relative_eq!(quadratic.plateau().unwrap(), 200.0);
 }
 
@@ -26,7 +26,7 @@ fn a_missing_plateau_is_reported() {
     assert_eq!(law(-9.9).warning(), None);
     assert!(law(-10.0).warning().is_some_and(|message| message.contains("-10")));
     assert_eq!(law(1.0).warning(), None);
-    assert!(ContractileTension::new(10.0, -1.0, ExcludedVolume::None).unwrap().warning().is_some());
+    assert!(ContractileTension::new(10.0, -1.0, ExcludedVolume::None, 1.0).unwrap().warning().is_some());
     assert_eq!(ConstantTension::new(1.0).unwrap().warning(), None);
 }
 
@@ -44,8 +44,9 @@ fn slices_and_errors() {
             .is_some()
     );
     assert!(ConstantTension::new(-1.0).is_err());
-    assert!(ContractileTension::new(1.0, f64::NAN, ExcludedVolume::None).is_err());
-    assert!(ContractileTension::new(1.0, -1.0, ExcludedVolume::Quadratic { strength: -1.0 }).is_err());
+    assert!(ContractileTension::new(1.0, f64::NAN, ExcludedVolume::None, 1.0).is_err());
+    assert!(ContractileTension::new(1.0, -1.0, ExcludedVolume::Quadratic(-1.0), 1.0).is_err());
+    assert!(ContractileTension::new(1.0, -1.0, ExcludedVolume::Step(1.0), -100.0).is_err());
 }
 
 proptest! {

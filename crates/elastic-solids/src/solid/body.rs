@@ -8,7 +8,7 @@ use motile_scene::{
     points,
 };
 
-use crate::{Solid, SolidError, active_springs::Bonds, relaxation::Relaxation, skin::Skin};
+use crate::{Solid, SolidError, active_springs::Bonds, relaxation::Relaxation, surface_elasticity::SurfaceElasticity};
 
 impl From<SolidError> for BodyError {
     fn from(error: SolidError) -> Self {
@@ -196,7 +196,10 @@ impl Body for Solid {
                 "the mean energy of shears of 0.1 and -0.1 with a stretch of 1.05",
                 mean(&|state| self.law.energy(state).unwrap_or(f64::NAN)),
             ),
-            ("the energy of its skin there", mean(&|state| self.skin.as_ref().map_or(0.0, |skin| skin.energy(state)))),
+            (
+                "the energy of its surface there",
+                mean(&|state| self.surface_elasticity.as_ref().map_or(0.0, |surface| surface.energy(state))),
+            ),
         ];
         let relaxing = self.relaxation.iter().flat_map(|relaxation| {
             let [modulus, viscosity] = relaxation.sums();
@@ -248,9 +251,9 @@ impl Body for Solid {
     }
 
     /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h that of the
-    /// grid, mu and kappa the largest moduli in the solid. A skin adds the stiffness of its shortest waves to the sum,
-    /// Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when all of them
-    /// move together.
+    /// grid, mu and kappa the largest moduli in the solid. Surface elasticity adds the stiffness of its shortest waves
+    /// to the sum, Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when
+    /// all of them move together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         // The fluid of a grid resists changes of area that it resolves. Without a grid, nothing says that it does.
@@ -258,10 +261,10 @@ impl Body for Solid {
             let coarseness = self.spacing / spacing;
             BULK_SHARE * moduli.bulk() * coarseness * coarseness
         });
-        let skin = self.skin.as_ref().map_or(0.0, Skin::stiffness);
+        let surface = self.surface_elasticity.as_ref().map_or(0.0, SurfaceElasticity::stiffness);
         let relaxing = self.relaxation.as_ref().map_or(0.0, Relaxation::stiffest);
         let active = self.bonds.as_ref().map_or(0.0, |bonds| bonds.stiffness(self.spacing));
-        let elastic = moduli.shear() + bulk + skin + relaxing + active;
+        let elastic = moduli.shear() + bulk + surface + relaxing + active;
         if let Some(bonds) = &self.bonds {
             let dt = bonds.resolved_step();
             limits(StepLimit { dt, reason: "the rates of the active springs", cause: StepCause::Accuracy });

@@ -141,8 +141,8 @@ impl Solid {
     /// # Errors
     /// An inverted triangle where the energy is not defined for it.
     pub fn elastic_energy(&self) -> Result<f64, SolidError> {
-        let skin = self.skin.as_ref().map_or(0.0, |skin| skin.energy(&self.positions));
-        Ok(self.law.energy(&self.positions)? + skin)
+        let surface = self.surface_elasticity.as_ref().map_or(0.0, |surface| surface.energy(&self.positions));
+        Ok(self.law.energy(&self.positions)? + surface)
     }
 
     /// Energy of the tethers (energy).

@@ -84,7 +84,7 @@ fn collect(window: &Trajectory, criteria: &RegimeCriteria) -> Result<Evidence, A
         speed: late.speeds().iter().sum::<f64>() / late.speeds().len() as f64,
         largest: largest(heights),
         amplitude: largest(late.heights()),
-        half_swing: None,
+        half_height: None,
         midline: None,
         last_height: heights[heights.len() - 1],
         drift: line(&shifted, heights).map_or(unknown, |(_, slope, _)| slope),
@@ -116,8 +116,8 @@ fn rest(window: &Trajectory, criteria: &RegimeCriteria) -> Option<Regime> {
 /// Regime of a droplet that moves and is not on the centre line.
 fn across(window: &Trajectory, evidence: &mut Evidence, criteria: &RegimeCriteria) -> Regime {
     let swings = Swings::new(evidence.extrema.clone());
-    if let (Some(&half_swing), Some(&midline)) = (swings.amplitudes.last(), swings.midlines.last()) {
-        evidence.half_swing = Some(half_swing);
+    if let (Some(&half_height), Some(&midline)) = (swings.amplitudes.last(), swings.midlines.last()) {
+        evidence.half_height = Some(half_height);
         evidence.midline = Some(midline);
         evidence.amplitude = evidence.extrema.iter().rev().take(2).fold(0.0, |a, turn| a.max(turn.height.abs()));
     }

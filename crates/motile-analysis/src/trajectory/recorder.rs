@@ -87,8 +87,8 @@ impl TrajectoryRecorder {
         self
     }
 
-    /// Records the fluxes past the droplet too (see [`active_interface::observables::gap_flow`]). This costs a sampling of the
-    /// flow a record, a little more than half a time step, and works in channels only.
+    /// Records the fluxes past the droplet too (see [`active_interface::observables::gap_flow`]). This costs a sampling
+    /// of the flow a record, a little more than half a time step, and works in channels only.
     #[must_use]
     pub fn with_gap_flow(mut self) -> Self {
         self.with_gap_flow = true;

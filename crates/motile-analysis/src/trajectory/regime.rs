@@ -149,7 +149,7 @@ pub struct Evidence {
     /// quarter of the window where there is no period (length).
     pub amplitude: f64,
     /// Half of the height difference between the last two turning points (length).
-    pub half_swing: Option<f64>,
+    pub half_height: Option<f64>,
     /// Height midway between the last two turning points (length).
     pub midline: Option<f64>,
     /// Height at the end (length).

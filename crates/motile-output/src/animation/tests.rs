@@ -37,7 +37,7 @@ fn frames_come_back_from_the_file() {
 #[test]
 fn an_animation_without_frames_is_refused() {
     let raster = Raster::new([0.0; 2], [1.0; 2], [8; 2], [true; 2]).unwrap();
-    let film = Film::new(Look::default(), raster);
+    let film = Animation::new(Look::default(), raster);
     assert!(matches!(film.write(&[], "/nowhere/none.gif"), Err(OutputError::Empty(_))));
 }
 
@@ -46,12 +46,12 @@ fn frames_have_the_width_that_is_asked_for() {
     use motile::prelude::{Built, Setup};
     let Built { mut scene, .. } = Setup::default().build().unwrap();
     let path = std::env::temp_dir().join(format!("motile-width-{}.gif", std::process::id()));
-    let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap()).of_width(150.0);
+    let mut film = Animation::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap()).of_width(150.0);
     film.observe(scene.system_mut()).unwrap();
     film.write(&[], &path).unwrap();
     let width = || gif::DecodeOptions::new().read_info(File::open(&path).unwrap()).unwrap().width();
     assert_eq!(width(), 150);
-    let mut usual = Film::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap());
+    let mut usual = Animation::new(Look::default(), Raster::of(scene.system(), 0.5).unwrap());
     usual.observe(scene.system_mut()).unwrap();
     usual.write(&[], &path).unwrap();
     assert_eq!(f64::from(width()), Format::FRAME.width);

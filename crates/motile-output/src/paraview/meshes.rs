@@ -43,7 +43,7 @@ const SECTORS: usize = 64;
 /// File of the surfaces of all droplets of revolution of a system; `None` if there are none.
 pub(crate) fn surfaces<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let (mut meridians, mut concentration, mut tension): (Vec<Vec<Vec2>>, Vec<f64>, Vec<f64>) = Default::default();
-    for (_, droplet) in system.bodies::<ActiveDroplet>().filter(|(_, droplet)| droplet.is_of_revolution()) {
+    for (_, droplet) in system.bodies::<ActiveDroplet>().filter(|(_, droplet)| droplet.is_axisymmetric()) {
         let half = droplet.markers().len() / 2 + 1;
         meridians.push(droplet.markers()[..half].to_vec());
         for (out, segments) in [(&mut concentration, droplet.concentrations()), (&mut tension, droplet.tensions())] {

@@ -55,8 +55,8 @@ pub struct Look {
     pub caption: String,
     /// Label of a panel of a figure, such as `a)`, at the upper left; none if empty, as by default.
     pub panel: String,
-    /// Width on paper (cm), 16 by default; the height follows from the region. Frames of a [`crate::Film`] have a size
-    /// of their own.
+    /// Width on paper (cm), 16 by default; the height follows from the region. Frames of a [`crate::Animation`] have a
+    /// size of their own.
     pub width: f64,
     /// Size of the type (pt), 8 by default.
     pub font_size: f64,

@@ -117,7 +117,7 @@ impl SceneRun {
             put("x", seen.centroid.x, "of its centroid, in the end (R0)");
             put("y", seen.centroid.y, "of its centroid, in the end (R0)");
             put("speed", seen.velocity.length(), "of its centroid, in the end (R0 per time)");
-            if !self.region.is_of_revolution() {
+            if !self.region.is_axisymmetric() {
                 let shape = scene.system_mut().deformation(*handle)?;
                 put("deformation", shape.by_moments, "D = (L - B)/(L + B) by area moments");
                 put("angle", shape.angle_of_moments.to_degrees(), "of the long axis by area moments (degrees)");
@@ -164,7 +164,7 @@ impl SceneRun {
 
 /// Area of the smooth curve through a droplet's markers (length squared), or its volume (length cubed).
 fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<ActiveDroplet>) -> Result<f64> {
-    if region.is_of_revolution() {
+    if region.is_axisymmetric() {
         return Ok(scene.observe(droplet)?.area);
     }
     Ok(scene.system_mut().deformation(droplet)?.area)

@@ -8,12 +8,12 @@ use motile::active_interface::observables::{ConcentrationProfile, Frame, concent
 use motile::analysis::trajectory::TrajectoryRecord;
 use motile::base::Vec2;
 use motile::scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
-use motile::setup::{AnyFlow, Built, DropletSetup, Exclusion, GridMethod, MethodKind, Numbers, Particles, Setup};
+use motile::setup::{AnyFlow, Built, DropletSetup, ExcludedVolume, GridMethod, MethodKind, Numbers, Particles, Setup};
 
 use super::scene_run::view as view_of;
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary, words::say};
 use crate::plot::{concentration_plot, time_series};
-use crate::{CsvTable, DropletsCsv, Film, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
+use crate::{Animation, CsvTable, DropletsCsv, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;
@@ -63,7 +63,7 @@ pub struct WatchedRun {
     recorder: TrajectoryCsv,
     /// Table of all droplets, where there are several.
     droplets: Option<DropletsCsv>,
-    pictures: Option<(Look, Film, ParaView)>,
+    pictures: Option<(Look, Animation, ParaView)>,
     gap: SolidGap,
 }
 
@@ -103,7 +103,7 @@ impl WatchedRun {
             let streamline_spacing = Some(STREAMLINES);
             let look = Look { caption, concentration, streamline_spacing, solids, ..Look::default() };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
-            pictures = Some((look.clone(), Film::new(look, watched), vtk));
+            pictures = Some((look.clone(), Animation::new(look, watched), vtk));
         }
         let (raster, droplets) = (still, table.transpose()?);
         Ok(Self {
@@ -230,7 +230,7 @@ impl WatchedRun {
 fn caption(setup: &Setup, particles: &Particles, region: &str) -> String {
     let inside = setup.droplets[0].viscosity.map_or(String::new(), |inside| format!("{inside} in "));
     let strength = match particles.excluded_volume {
-        Exclusion::Step(strength) => format!("A = {strength},  "),
+        ExcludedVolume::Step(strength) => format!("A = {strength},  "),
         _ => String::new(),
     };
     let text = format!("ζΔμ = {},  {strength}η = {inside}{}", particles.activity, setup.viscosity);

@@ -56,7 +56,7 @@ const MEMBERS: [&str; 8] = ["time", "droplet", "x", "y", "heading_x", "heading_y
 /// use motile_output::suspension::SuspensionCsv;
 ///
 /// let suspension = vec![SuspensionSetup { count: Some(3), ..SuspensionSetup::default() }];
-/// let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+/// let method = Method::Integral(IntegralMethod { nodes: 16, elements: 32 });
 /// let Built { mut scene, .. } = Setup { method, suspension, droplets: vec![], ..Setup::default() }.build()?;
 /// let directory = std::env::temp_dir();
 /// let mut tables = SuspensionCsv::create(&directory, scene.system_mut(), 0.1)?;

@@ -43,7 +43,7 @@ fn the_rows_are_those_of_the_droplet_asked_for() {
 #[test]
 fn a_run_that_was_cut_leaves_the_same_file() {
     let setup = Setup {
-        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        method: Method::Integral(IntegralMethod { nodes: 24, elements: 48 }),
         step: StepSize::Fixed(0.01),
         ..Setup::default()
     };
@@ -78,7 +78,7 @@ fn a_run_that_was_cut_leaves_the_same_file() {
 fn a_run_from_the_start_leaves_nothing_of_another_one() {
     let path = std::env::temp_dir().join(format!("motile-again-{}.csv", std::process::id()));
     for x in [0.5, -0.25] {
-        let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+        let method = Method::Integral(IntegralMethod { nodes: 24, elements: 48 });
         let droplets = vec![DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }];
         let Built { mut scene, droplets, .. } = Setup { method, droplets, ..Setup::default() }.build().unwrap();
         let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0]).unwrap();
@@ -97,7 +97,7 @@ fn what_is_inside_has_its_columns() {
         let exchange = Some(ExchangeSetup { diffusion_inside, ..ExchangeSetup::new(0.6, 0.4) });
         let particles = Particles { exchange, ..Particles::default() };
         let droplets = vec![DropletSetup { particles: Some(particles), ..DropletSetup::default() }];
-        let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+        let method = Method::Integral(IntegralMethod { nodes: 24, elements: 48 });
         let setup = Setup { method, droplets, step: StepSize::Fixed(0.002), ..Setup::default() };
         let Built { mut scene, droplets, .. } = setup.build().unwrap();
         let name = format!("motile-inside-{}-{}.csv", diffusion_inside.is_some(), std::process::id());

@@ -104,7 +104,7 @@ fn all_interfaces_are_in_one_table() {
     let of = |height: f64, inside: Side| InterfaceSetup { height, inside, ..InterfaceSetup::active(-0.5) };
     let setup = Setup {
         region: Region::Channel { length: 6.0, width: 6.0, drive: Drive::ZeroGradient },
-        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        method: Method::Integral(IntegralMethod { nodes: 24, elements: 48 }),
         interfaces: vec![of(-1.0, Side::Below), of(1.25, Side::Above)],
         droplets: Vec::new(),
         step: StepSize::Fixed(0.05),

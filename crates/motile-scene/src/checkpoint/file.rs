@@ -11,7 +11,7 @@ use super::{Checkpoint, CheckpointError};
 
 const MARK: [u8; 8] = *b"motile\x00\x1a";
 /// Changes whenever older programs cannot read what is written, or the other way round.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const HEADER: usize = 24;
 
 fn part<const N: usize>(bytes: &[u8], start: usize) -> Option<[u8; N]> {

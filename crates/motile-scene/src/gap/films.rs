@@ -31,7 +31,7 @@ pub(crate) struct Films {
     /// (length squared).
     pub(super) weights: Vec<f64>,
     /// True for bodies of revolution about the x axis.
-    of_revolution: bool,
+    axisymmetric: bool,
     /// Contacts of the corners of some bodies each, in the order of the bodies.
     pieces: Vec<Piece>,
     /// Energy per length at the corners (force).
@@ -52,8 +52,8 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) domain: Domain,
     pub(crate) walls: Option<&'a Boundary>,
     pub(crate) around: &'a [Option<usize>],
-    /// True where bodies are of revolution about the x axis ([`crate::Hydrodynamics::of_revolution`]).
-    pub(crate) of_revolution: bool,
+    /// True where bodies are of revolution about the x axis ([`crate::Hydrodynamics::axisymmetric`]).
+    pub(crate) axisymmetric: bool,
 }
 
 impl Films {
@@ -61,9 +61,9 @@ impl Films {
     pub(crate) fn find(&mut self, surfaces: &Surfaces, surroundings: Surroundings<'_>, reach: f64) {
         self.weights.clear();
         self.weights.resize(surfaces.corners.len(), 0.0);
-        self.of_revolution = surroundings.of_revolution;
+        self.axisymmetric = surroundings.axisymmetric;
         for ((corner, next), side) in surfaces.sides() {
-            let size = side[0].distance(side[1]) * if self.of_revolution { half_circle(side).abs() } else { 1.0 };
+            let size = side[0].distance(side[1]) * if self.axisymmetric { half_circle(side).abs() } else { 1.0 };
             [corner, next].into_iter().for_each(|corner| self.weights[corner] += 0.5 * size);
         }
         let bodies = surfaces.kinds.len();
@@ -85,7 +85,7 @@ impl Films {
 
     /// Adds the forces of a repulsion to `forces`, those of the markers (force).
     pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
-        let Self { weights, pieces, energies, of_revolution } = self;
+        let Self { weights, pieces, energies, axisymmetric } = self;
         energies.clear();
         energies.resize(weights.len(), 0.0);
         let mut push = |corner: usize, force: Vec2| {
@@ -107,7 +107,7 @@ impl Films {
             let tension = 0.5 * (energies[start] + energies[end]);
             if tension != 0.0 {
                 let mut force = tension * (to - from).try_normalize().unwrap_or_default();
-                if *of_revolution {
+                if *axisymmetric {
                     let circle = half_circle([from, to]);
                     force *= circle.abs();
                     // Circles that grow take energy as well.

@@ -48,8 +48,8 @@ pub struct Enclosed {
 }
 
 impl BodyFlow<'_> {
-    /// Bodies inside this one, at any depth: those that lie in its interface, those that fill it ([`crate::Guest`]),
-    /// and of bodies without a surface the markers that lie in it.
+    /// Bodies inside this one, at any depth: those that lie in its interface, those that fill it
+    /// ([`crate::InteriorBody`]), and of bodies without a surface the markers that lie in it.
     #[must_use]
     pub fn enclosed(&self) -> Vec<Enclosed> {
         let Everything { markers, enclosing, viscosity, periods } = self.all;

@@ -1,5 +1,5 @@
 use motile::prelude::*;
-use motile::setup::Exclusion;
+use motile::setup::ExcludedVolume;
 
 use super::*;
 
@@ -7,13 +7,13 @@ fn setup(activity: f64, viscosities: [f64; 2], nodes: usize) -> Setup {
     let mut setup = Setup {
         region: Region::Space,
         viscosity: viscosities[1],
-        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }),
         droplets: vec![DropletSetup::active(activity)],
         ..Setup::default()
     };
     setup.droplets[0].viscosity = Some(viscosities[0]);
     if let Some(particles) = &mut setup.droplets[0].particles {
-        particles.excluded_volume = Exclusion::Step(2.0 * activity.abs());
+        particles.excluded_volume = ExcludedVolume::Step(2.0 * activity.abs());
     }
     setup
 }

@@ -1,5 +1,5 @@
 use motile::base::Region;
-use motile::setup::{ExchangeSetup, Exclusion, IntegralMethod, Method, Setup};
+use motile::setup::{ExchangeSetup, ExcludedVolume, IntegralMethod, Method, Setup};
 use stokes_boundary_integrals::{Interface, Settings};
 
 use super::*;
@@ -64,11 +64,11 @@ fn as_many_bind_as_unbind_in_any_flow() {
 fn equations_are_singular_at_the_threshold() {
     let condition = |activity: f64| {
         let mut setup = Setup { region: Region::Plane, ..Setup::default() };
-        setup.method = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+        setup.method = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
         let particles = setup.droplets[0].particles.as_mut().unwrap();
         let (inside, rates) = (Some(0.5), ExchangeSetup::new(0.4, 0.3));
         particles.exchange = Some(ExchangeSetup { diffusion_inside: inside, ..rates });
-        (particles.activity, particles.excluded_volume) = (activity, Exclusion::None);
+        (particles.activity, particles.excluded_volume) = (activity, ExcludedVolume::None);
         let state = SteadyState::uniform(&setup).unwrap();
         let mut system = System::new(&setup).unwrap();
         system.residual(state.point()).unwrap();

@@ -9,7 +9,7 @@ use crate::system::System;
 /// A circle of another size, or with other particles, is at rest too: it is none of the droplet's states.
 #[test]
 fn the_area_and_the_particles_become_those_of_the_droplet() {
-    let method = Method::Integral(IntegralMethod { nodes: 32, cells: 128 });
+    let method = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
     let droplets = vec![DropletSetup::contractile(-0.2, 10.0)];
     let setup = Setup { method, region: Region::Plane, droplets, ..Setup::default() };
     for (size, filling) in [(1.02, 1.0), (1.0, 0.97)] {

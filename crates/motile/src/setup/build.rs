@@ -91,7 +91,7 @@ impl Setup {
         }
         let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
         let (gels, interfaces) = (handles(&scene), handles(&scene));
-        if self.mirror_symmetric || self.region.is_of_revolution() {
+        if self.mirror_symmetric || self.region.is_axisymmetric() {
             scene = scene.held_symmetric()?;
         }
         Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels, interfaces })
@@ -110,7 +110,7 @@ impl Setup {
         let Some(diffusion) = exchange.diffusion_inside else { return Ok(None) };
         let density = exchange.number(particles.concentration, droplet.initial_area())? / droplet.initial_area();
         let between = |length: f64| (MARKERS_APART * length).min(COARSEST * (droplet.initial_area() / PI).sqrt());
-        let grid = || self.method.spacing().unwrap_or_else(|| between(droplet.segment_lengths()[0]));
+        let grid = || self.method.spacing().unwrap_or_else(|| between(droplet.element_lengths()[0]));
         let spacing = exchange.spacing_inside.unwrap_or_else(grid);
         Ok(Some(ParticlesInDroplet::new(droplet, host, exchange.rates()?, diffusion, |_| density, spacing)?))
     }
@@ -121,7 +121,7 @@ impl Setup {
     /// Parameters out of their range.
     pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
         let shape = self.shape(droplet)?;
-        let (curve, turned, round, share) = match (&shape, self.region.is_of_revolution()) {
+        let (curve, turned, round, share) = match (&shape, self.region.is_axisymmetric()) {
             (&DropletShape::Squeezed { radius, half_height, to }, true) => {
                 let (curve, share) = squeezed_sphere(radius, half_height, to)?;
                 (curve, false, None, share)
@@ -163,14 +163,14 @@ impl Setup {
                     Some(exchange) if exchange.diffusion_inside.is_some() => made.with_open_number(),
                     Some(exchange) => {
                         let number = exchange.number(particles.concentration, made.initial_area())?;
-                        made.with_pool(exchange.rates()?, number)?
+                        made.with_well_mixed_interior(exchange.rates()?, number)?
                     }
                 }
             }
         };
         let made = made.with_name(&droplet.name).with_motion(droplet.motion);
         let made = made.with_area_constraint(droplet.area_constraint);
-        let made = if self.region.is_of_revolution() { made.of_revolution()? } else { made };
+        let made = if self.region.is_axisymmetric() { made.axisymmetric()? } else { made };
         let made = made.with_bending(droplet.bending, droplet.reference_curvature)?;
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
@@ -183,7 +183,7 @@ impl Setup {
     /// that of the polygon is.
     pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         let mut markers = curve.markers(count)?;
-        if !self.flow.is_none() || self.region.is_of_revolution() {
+        if !self.flow.is_none() || self.region.is_axisymmetric() {
             let still = vec![Vec2::ZERO; markers.len()];
             let Deformation { area, centroid, .. } =
                 Deformation::of(&markers, &still).map_err(motile_scene::FlowError::from)?;
@@ -196,9 +196,8 @@ impl Setup {
     /// Number of markers of a body's outline.
     pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         Ok(match &self.method {
-            Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
-                *(cells.max(nodes))
-            }
+            Method::Integral(IntegralMethod { nodes, elements })
+            | Method::Layers(LayersMethod { nodes, elements, .. }) => *(elements.max(nodes)),
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
@@ -268,7 +267,7 @@ impl Setup {
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod) -> Result<AnyFlow, SetupError> {
         let usual = Settings::default();
         let settings = Settings { nodes, tolerance: self.tolerance.unwrap_or(usual.tolerance), ..usual };
-        if self.region.is_of_revolution() {
+        if self.region.is_axisymmetric() {
             let perimeter = self.shortest_perimeter()?.unwrap_or(TAU);
             return Ok(Box::new(AxisymmetricIntegral::new(self.region, self.viscosity, settings, perimeter)?));
         }

@@ -51,7 +51,7 @@ impl Setup {
                 }
             }
         }
-        if self.region.is_of_revolution() {
+        if self.region.is_axisymmetric() {
             self.check_revolution()?;
         }
         match &self.method {
@@ -144,7 +144,7 @@ impl Setup {
             top.refuse(key, value, format!("{remedy}, or a region of the plane"))
         };
         if self.method.kind() != MethodKind::Integral {
-            return refuse("method", &self.method.kind().key(), "three dimensions have no grid: give integral");
+            return refuse("method", &self.method.kind().name(), "three dimensions have no grid: give integral");
         }
         let planar = [
             ("solids", self.solids.len()),
@@ -196,8 +196,8 @@ impl Setup {
         if able.contains(&kind) {
             return Ok(());
         }
-        let able = able.iter().map(|kind| kind.key()).collect::<Vec<_>>().join(" or ");
-        Checked { place: "" }.refuse("method", &kind.key(), format!("it has no {what}: give {able}"))
+        let able = able.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(" or ");
+        Checked { place: "" }.refuse("method", &kind.name(), format!("it has no {what}: give {able}"))
     }
 
     fn check_grid(&self, grid: &GridMethod) -> Result<(), SetupError> {
@@ -233,8 +233,8 @@ impl Setup {
 
     fn check_layers(&self, layers: &LayersMethod) -> Result<(), SetupError> {
         let checked = Checked { place: "method.layers" };
-        let LayersMethod { nodes, cells, spacing, kernel } = *layers;
-        IntegralMethod { nodes, cells }.check("method.layers")?;
+        let LayersMethod { nodes, elements, spacing, kernel } = *layers;
+        IntegralMethod { nodes, elements }.check("method.layers")?;
         checked.positive("spacing", spacing)?;
         self.cells(spacing, self.region.lengths())?;
         if self.spreads() {
@@ -249,7 +249,7 @@ impl Setup {
 
     /// Cells of the grid over these lengths.
     pub(super) fn cells(&self, spacing: f64, lengths: [f64; 2]) -> Result<[usize; 2], SetupError> {
-        let place = format!("method.{}", self.method.kind().key());
+        let place = format!("method.{}", self.method.kind().name());
         let checked = Checked { place: &place };
         let counts = lengths.map(|length| length / spacing);
         let product: f64 = counts.iter().product();

@@ -85,7 +85,7 @@ impl DropletSetup {
     /// length).
     #[must_use]
     pub fn contractile(activity: f64, excluded_volume: f64) -> Self {
-        let excluded_volume = Exclusion::Step(excluded_volume);
+        let excluded_volume = ExcludedVolume::Step(excluded_volume);
         Self { particles: Some(Particles { activity, excluded_volume, ..Particles::default() }), ..Self::default() }
     }
 
@@ -151,7 +151,7 @@ pub struct Particles {
     /// Activity zeta delta-mu (force times length), negative if contractile.
     pub activity: f64,
     /// Excluded volume Pi(c), which keeps the particles from collapsing to a point.
-    pub excluded_volume: Exclusion,
+    pub excluded_volume: ExcludedVolume,
     /// Diffusion constant along the interface (length squared per time).
     pub diffusion: f64,
     /// Mean concentration c0 at the start (1/length).
@@ -168,7 +168,7 @@ impl Default for Particles {
     fn default() -> Self {
         Self {
             activity: -2.0,
-            excluded_volume: Exclusion::Step(10.0),
+            excluded_volume: ExcludedVolume::Step(10.0),
             diffusion: 0.1,
             concentration: 100.0,
             start: Start::Polarised,
@@ -184,12 +184,7 @@ impl Particles {
     /// # Errors
     /// A negative tension, values that are out of their range.
     pub fn law(&self, tension: f64) -> Result<ContractileTension, InterfaceError> {
-        let excluded_volume = match self.excluded_volume {
-            Exclusion::None => ExcludedVolume::None,
-            Exclusion::Step(strength) => ExcludedVolume::thesis(strength, self.concentration),
-            Exclusion::Quadratic(strength) => ExcludedVolume::Quadratic { strength },
-        };
-        ContractileTension::new(tension, self.activity, excluded_volume)
+        ContractileTension::new(tension, self.activity, self.excluded_volume, self.concentration)
     }
 
     /// Refuses values out of their range, but for the exchange with an inside.
@@ -201,9 +196,11 @@ impl Particles {
         let remedy = "the tension that it makes at the mean concentration is not finite: give less";
         checked.require(tension.is_finite(), key, self.activity, remedy)?;
         match self.excluded_volume {
-            Exclusion::None => {}
-            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
-            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+            ExcludedVolume::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
+            ExcludedVolume::Quadratic(strength) => {
+                checked.not_negative("particles.excluded-volume.quadratic", strength)?;
+            }
+            other => other.check().map_err(|error| SetupError::from(error).of("particles.excluded-volume"))?,
         }
         let Start::Perturbed { amplitude, .. } = self.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
@@ -251,19 +248,6 @@ impl ExchangeSetup {
         let density = self.rates()?.concentration_at_rest(concentration);
         Ok(self.number_inside.or_else(|| density.map(|density| density * area)).unwrap_or(0.0))
     }
-}
-
-/// Excluded volume of the particles.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Exclusion {
-    /// None: particles of negative activity collapse.
-    None,
-    /// The step-like law of strength A (force times length), Cowley (2.41), with the threshold 2 c0.
-    Step(f64),
-    /// `Pi = B c^2 / 2` of strength B (force times length squared).
-    Quadratic(f64),
 }
 
 /// Spread of the particles over the interface at the start.
@@ -416,7 +400,7 @@ impl BodySetup for DropletSetup {
         checked.not_negative("bending", self.bending)?;
         checked.finite("reference-curvature", self.reference_curvature)?;
         let remedy = "bending is that of curves in two dimensions: give none to bodies of revolution";
-        let plane = self.bending == 0.0 || !setup.region.is_of_revolution();
+        let plane = self.bending == 0.0 || !setup.region.is_axisymmetric();
         checked.require(plane, "bending", self.bending, remedy)?;
         if self.bending > 0.0 && self.motion == Motion::WithFluid {
             let remedy = "bending needs a fixed number of markers: give equidistributed ones";

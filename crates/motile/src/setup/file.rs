@@ -45,13 +45,16 @@ impl Setup {
 }
 
 /// Keys of earlier versions, and what has taken their place.
-const REPLACED: [(&[&str], &str); 5] = [
+const REPLACED: [(&[&str], &str); 8] = [
+    (&["method", "integral", "cells"], "this key is now called method.integral.elements"),
+    (&["method", "layers", "cells"], "this key is now called method.layers.elements"),
+    (&["solids", "skin"], "this key is now called solids.surface-elasticity"),
     (
         &["method", "grid", "contrast"],
         "a sharp contrast is computed by [method.integral] or [method.layers], an arithmetic one by [method.grid] with \
          corrected = false: take the entry away",
     ),
-    (&["method", "grid", "layers"], "give nodes and cells in [method.layers]"),
+    (&["method", "grid", "layers"], "give nodes and elements in [method.layers]"),
     (
         &["method", "grid", "filter"],
         "the filter is the droplets': give droplets.motion.equidistributed = { relaxation = 50.0, filter = false }, or \

@@ -25,7 +25,7 @@ use crate::SetupError;
 /// // A layer of fluid between two active interfaces in a channel.
 /// let setup = Setup {
 ///     region: Region::Channel { length: 6.0, width: 6.0, drive: Drive::ZeroGradient },
-///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+///     method: Method::Integral(IntegralMethod { nodes: 32, elements: 64 }),
 ///     interfaces: vec![
 ///         InterfaceSetup { height: -1.0, inside: Side::Below, ..InterfaceSetup::active(-0.5) },
 ///         InterfaceSetup { height: 1.0, ..InterfaceSetup::active(-0.5) },
@@ -167,10 +167,11 @@ impl Setup {
         let [length, _] = self.region.lengths();
         let advance = if interface.inside == Side::Above { length } else { -length };
         let count = match &self.method {
-            Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
+            Method::Integral(IntegralMethod { nodes, elements })
+            | Method::Layers(LayersMethod { nodes, elements, .. }) => {
                 // As many to a mode as `membrane_count` gives a shell.
                 let least = if interface.elasticity.is_some() { nodes + nodes.div_ceil(2) } else { *nodes };
-                least.max(*cells)
+                least.max(*elements)
             }
             Method::Grid(grid) => (length / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)).ceil() as usize,
         };

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::checked::Checked;
 use crate::SetupError;
 
-/// Fewest and most markers of an interface, and cells of its concentration.
-pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_CELLS as f64];
+/// Fewest and most markers of an interface, which are as many as its elements.
+pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_ELEMENTS as f64];
 
 /// Method by which velocities come from forces. A scene that a method cannot compute is refused with the ones that can.
 ///
@@ -75,18 +75,9 @@ pub enum MethodKind {
 }
 
 impl MethodKind {
-    /// Its name on the command line and in summaries.
+    /// Returns its name: in a scene file, on the command line, and in summaries.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Integral => "boundary-integral",
-            Self::Layers => "layers",
-            Self::Grid => "immersed-boundary",
-        }
-    }
-
-    /// Its key in a description.
-    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Integral => "integral",
             Self::Layers => "layers",
@@ -103,24 +94,24 @@ impl MethodKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct IntegralMethod {
-    /// Nodes of an interface's shape, 16 to 4096. With fewer than 24 runs warn: the speed is off by up to two per cent
-    /// with however many cells.
+    /// Nodes of an interface's shape, 16 to 4096. With fewer than 24, runs warn, because the speed is off by up to two
+    /// percent with any number of elements.
     pub nodes: usize,
-    /// Cells of the concentration along an interface, which are its markers; at least as many as nodes.
+    /// Elements of an interface, which carry the concentration and end at its markers; at least as many as nodes.
     /// Elastic interfaces, shells and droplets that resist bending have half as many again as nodes if that is more.
-    pub cells: usize,
+    pub elements: usize,
 }
 
 impl IntegralMethod {
     /// Fewest and most nodes.
     pub const NODES: [usize; 2] = Settings::NODES;
-    /// Most cells.
-    pub const MOST_CELLS: usize = 1_000_000;
+    /// Most elements.
+    pub const MOST_ELEMENTS: usize = 1_000_000;
 }
 
 impl Default for IntegralMethod {
     fn default() -> Self {
-        Self { nodes: 72, cells: 288 }
+        Self { nodes: 72, elements: 288 }
     }
 }
 
@@ -133,8 +124,8 @@ impl Default for IntegralMethod {
 pub struct LayersMethod {
     /// Nodes of an interface's shape, 16 to 4096.
     pub nodes: usize,
-    /// Cells of the concentration along an interface, which are its markers; at least as many as nodes.
-    pub cells: usize,
+    /// Elements of an interface, which carry the concentration and end at its markers; at least as many as nodes.
+    pub elements: usize,
     /// Grid spacing h (length); the lengths of the region are whole numbers of it. The grid sees the inner points of
     /// solids and other points with forces on them; its spacing is h/2 beside solids whose forces are spread over
     /// triangles.
@@ -145,8 +136,8 @@ pub struct LayersMethod {
 
 impl Default for LayersMethod {
     fn default() -> Self {
-        let IntegralMethod { nodes, cells } = IntegralMethod::default();
-        Self { nodes, cells, spacing: 0.05, kernel: AnyKernel::BSpline4 }
+        let IntegralMethod { nodes, elements } = IntegralMethod::default();
+        Self { nodes, elements, spacing: 0.05, kernel: AnyKernel::BSpline4 }
     }
 }
 
@@ -210,14 +201,14 @@ impl GridMethod {
 
 impl IntegralMethod {
     pub(super) fn check(&self, place: &str) -> Result<(), SetupError> {
-        let (checked, Self { nodes, cells }) = (Checked { place }, *self);
+        let (checked, Self { nodes, elements }) = (Checked { place }, *self);
         let [least, most] = Self::NODES;
         if !(least..=most).contains(&nodes) {
             checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
         }
-        if cells < nodes || cells as f64 > MARKERS[1] {
+        if elements < nodes || elements as f64 > MARKERS[1] {
             let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
-            checked.refuse("cells", &cells, remedy)?;
+            checked.refuse("elements", &elements, remedy)?;
         }
         Ok(())
     }

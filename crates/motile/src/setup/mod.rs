@@ -23,7 +23,7 @@ mod suspension;
 mod wall;
 
 pub use build::{AnyFlow, Built};
-pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, Particles, Squeezed, Start};
+pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Particles, Squeezed, Start};
 pub use flow::{FlowSetup, PoiseuilleSetup};
 pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
@@ -33,10 +33,13 @@ pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use numbers::Numbers;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
-pub use solid::{ActiveSpringsSetup, Hold, Material, MaxwellSetup, MeshKind, SkinSetup, SolidOutline, SolidSetup};
+pub use solid::{
+    ActiveSpringsSetup, Hold, Material, MaxwellSetup, MeshKind, SolidOutline, SolidSetup, SurfaceElasticitySetup,
+};
 pub use suspension::{Arrangement, Distribution, Headings, SuspensionSetup};
 pub use wall::WallSetup;
 
+pub use active_interface::ExcludedVolume;
 use body::{BodySetup, numbered};
 use motile_base::Region;
 use motile_scene::{StepSize, gap::Repulsion, integrator::IntegratorKind};
@@ -58,7 +61,7 @@ use serde::{Deserialize, Serialize};
 /// // Two droplets of different activity and viscosity, abreast.
 /// let setup = Setup {
 ///     region: Region::Box { lengths: [6.0, 6.0] },
-///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+///     method: Method::Integral(IntegralMethod { nodes: 32, elements: 128 }),
 ///     droplets: vec![
 ///         DropletSetup { centre: [0.0, -1.4], ..DropletSetup::active(-3.0) },
 ///         DropletSetup { centre: [0.0, 1.4], viscosity: Some(1000.0), ..DropletSetup::active(-2.0) },

@@ -2,7 +2,7 @@
 
 use active_interface::{InterfaceError, polygon_moments};
 
-use super::{DropletSetup, DropletShape, Exclusion, Setup};
+use super::{DropletSetup, DropletShape, ExcludedVolume, Setup};
 use crate::SetupError;
 
 /// Markers of the polygon whose area is taken for that of a shape through points.
@@ -48,7 +48,7 @@ impl Setup {
         Ok(Some(Numbers {
             peclet: pull / ((inside + self.viscosity) * particles.diffusion),
             excluded_volume: match particles.excluded_volume {
-                Exclusion::Step(a) => Some(a / strength),
+                ExcludedVolume::Step(a) => Some(a / strength),
                 _ => None,
             },
             bare_tension: droplet.tension / (strength * particles.concentration),

@@ -77,9 +77,9 @@ pub struct SolidSetup {
     /// Its moduli as a function of place.
     #[serde(default)]
     pub grading: Grading,
-    /// A skin on its surface, which keeps a soft one from creasing.
+    /// A surface_elasticity on its surface, which keeps a soft one from creasing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub skin: Option<SkinSetup>,
+    pub surface_elasticity: Option<SurfaceElasticitySetup>,
     /// Maxwell elements beside its elasticity, which make it viscoelastic; their moduli are graded like its own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub relaxation: Vec<MaxwellSetup>,
@@ -97,10 +97,10 @@ pub struct SolidSetup {
     pub tension_grading: Grading,
 }
 
-/// An elastic skin on the surface of a solid ([`Solid::with_skin`]).
+/// An elastic surface_elasticity on the surface of a solid ([`Solid::with_surface_elasticity`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SkinSetup {
+pub struct SurfaceElasticitySetup {
     /// Modulus of stretching (force).
     #[serde(default)]
     pub stretching: f64,
@@ -281,7 +281,7 @@ impl SolidSetup {
             outline,
             material,
             grading: Grading::default(),
-            skin: None,
+            surface_elasticity: None,
             relaxation: Vec::new(),
             relaxation_time_grading: Grading::default(),
             viscosity: None,
@@ -339,8 +339,8 @@ impl SolidSetup {
             (0..if finer { times } else { 0 }).try_fold(mesh, |mesh, _| mesh.with_finer_boundary(|s| !fixed(s)))?;
         let share = mesh.area() / mesh.points().len() as f64;
         let mut solid = self.at_rest(mesh)?.named(&self.name);
-        if let Some(SkinSetup { stretching, bending }) = self.skin {
-            solid = solid.with_skin(stretching, bending)?;
+        if let Some(SurfaceElasticitySetup { stretching, bending }) = self.surface_elasticity {
+            solid = solid.with_surface_elasticity(stretching, bending)?;
         }
         for &MaxwellSetup { modulus, time } in &self.relaxation {
             let times = |s: Vec2| time * self.relaxation_time_grading.factor(s);
@@ -537,9 +537,9 @@ impl BodySetup for SolidSetup {
                 checked.refuse("mesh-spacing", &spacing, remedy)?;
             }
         }
-        if let Some(SkinSetup { stretching, bending }) = self.skin {
-            checked.not_negative("skin.stretching", stretching)?;
-            checked.not_negative("skin.bending", bending)?;
+        if let Some(SurfaceElasticitySetup { stretching, bending }) = self.surface_elasticity {
+            checked.not_negative("surface_elasticity.stretching", stretching)?;
+            checked.not_negative("surface_elasticity.bending", bending)?;
         }
         let spacing = self.spacing(setup);
         let across = |key: &str, length: f64| {

@@ -84,19 +84,20 @@ fn what_makes_no_scene_is_refused_with_its_key() {
             ("droplets[0].particles.diffusion =", with(Particles { diffusion: bad, ..Particles::default() })),
             ("droplets[0].particles.concentration =", with(Particles { concentration: bad, ..Particles::default() })),
             ("droplets[0].particles.excluded-volume.step =", {
-                with(Particles { excluded_volume: Exclusion::Step(bad), ..Particles::default() })
+                with(Particles { excluded_volume: ExcludedVolume::Step(bad), ..Particles::default() })
             }),
         ];
         for (key, setup) in cases {
             assert!(refused(&setup).starts_with(key), "{key}: {}", refused(&setup));
         }
     }
-    let nodes = |nodes, cells| Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+    let nodes =
+        |nodes, elements| Setup { method: Method::Integral(IntegralMethod { nodes, elements }), ..Setup::default() };
     let contrast = DropletSetup { viscosity: Some(10.0), ..DropletSetup::default() };
     let cases = [
         ("method.integral.nodes = 4", nodes(4, 64)),
-        ("method.integral.cells = 32", nodes(64, 32)),
-        ("method.integral.cells", nodes(64, usize::MAX)),
+        ("method.integral.elements = 32", nodes(64, 32)),
+        ("method.integral.elements", nodes(64, usize::MAX)),
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
         ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
         ("method.grid.spacing = 0.1: a length of 1000 would take 10000 cells, 1.0e8 in all", {
@@ -253,8 +254,8 @@ fn layers_that_make_no_scene_are_refused() {
     let solid = |solid: SolidSetup| Setup { solids: vec![solid], ..base.clone() };
     let wall = base.solids[0].clone();
     let cases = [
-        ("method.layers.nodes = 4", of(LayersMethod { nodes: 4, cells: 64, ..method })),
-        ("method.layers.cells = 32", of(LayersMethod { nodes: 64, cells: 32, ..method })),
+        ("method.layers.nodes = 4", of(LayersMethod { nodes: 4, elements: 64, ..method })),
+        ("method.layers.elements = 32", of(LayersMethod { nodes: 64, elements: 32, ..method })),
         ("method.layers.spacing = 0.07: a length of 6 is not", of(LayersMethod::of_spacing(0.07))),
         ("method.layers.spacing = -1", of(LayersMethod::of_spacing(-1.0))),
         ("method.layers.kernel = Peskin4", of(LayersMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
@@ -647,8 +648,8 @@ fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
         }],
         ..Setup::default()
     };
-    let integral = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
-    let layers = LayersMethod { nodes: 32, cells: 64, ..LayersMethod::of_spacing(0.2) };
+    let integral = Method::Integral(IntegralMethod { nodes: 32, elements: 64 });
+    let layers = LayersMethod { nodes: 32, elements: 64, ..LayersMethod::of_spacing(0.2) };
     for method in [integral, Method::Layers(layers)] {
         let Built { mut scene, droplets, rigid_bodies, shells, .. } = inside(method, 0.3, [-0.4, 0.1]).build().unwrap();
         scene.step(1e-3).unwrap();
@@ -708,7 +709,7 @@ mod file {
         }));
         setup.droplets.push(DropletSetup { centre: [12.0, 0.0], ..DropletSetup::passive(3.0) });
         setup.droplets[1].particles = Some(Particles {
-            excluded_volume: Exclusion::Quadratic(0.1),
+            excluded_volume: ExcludedVolume::Quadratic(0.1),
             start: Start::Perturbed { amplitude: 0.05, seed: i64::MAX as u64 },
             ..Particles::default()
         });
@@ -949,7 +950,7 @@ fn interfaces_through_points_from_either_end() {
 /// The energy of bending takes three markers for each two nodes.
 #[test]
 fn droplets_that_bend_have_markers_enough() {
-    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 48 });
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 48 });
     let setup = Setup { method, ..Setup::default() };
     let markers = |bending: f64| {
         let droplet = DropletSetup { bending, ..DropletSetup::passive(1.0) };
@@ -961,7 +962,7 @@ fn droplets_that_bend_have_markers_enough() {
 /// Boxes that a droplet fills, and regions too slender for integrals, are refused with their keys.
 #[test]
 fn narrow_regions_are_refused() {
-    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 72 });
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 72 });
     let of = |region: Region| Setup { region, method, ..Setup::default() };
     let error = refused(&of(Region::Box { lengths: [2.0, 2.0] }));
     assert!(error.contains("droplets[0]") && error.contains("2 x 2 does not hold it"), "{error}");

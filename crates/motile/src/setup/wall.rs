@@ -27,7 +27,7 @@ const MOST_NODES: f64 = 3000.0;
 /// let shape = ChannelShape::Sinusoidal { width: 3.0, amplitude: 0.3, waves: 1, phase: 0.0 };
 /// let setup = Setup {
 ///     region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
-///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+///     method: Method::Integral(IntegralMethod { nodes: 32, elements: 128 }),
 ///     walls: WallSetup::channel(&shape, 0.15),
 ///     ..Setup::default()
 /// };

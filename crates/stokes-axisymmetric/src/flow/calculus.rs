@@ -27,7 +27,7 @@ impl MeridianCalculus {
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of points", len as f64, 4.0, MOST_POINTS)?;
         if !len.is_multiple_of(2) {
-            return Err(LayerError::NotOfRevolution { curve: 0, point: len - 1, x: f64::NAN, y: f64::NAN });
+            return Err(LayerError::NotAxisymmetric { curve: 0, point: len - 1, x: f64::NAN, y: f64::NAN });
         }
         let series = PeriodicSeries::new(len)?;
         let [curve, pull, slope] = [(); 3].map(|()| series.clone());

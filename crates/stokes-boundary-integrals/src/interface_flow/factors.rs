@@ -11,8 +11,8 @@ const PANEL: usize = 48;
 
 /// The lower and upper factor of a dense matrix by Gaussian elimination with row exchanges.
 ///
-/// Use it to solve with one matrix for many right-hand sides. Each solution reads the whole matrix and runs in the widest
-/// vector registers of the processor.
+/// Use it to solve with one matrix for many right-hand sides. Each solution reads the whole matrix and runs in the
+/// widest vector registers of the processor.
 #[derive(Debug, Clone)]
 pub struct DenseFactors {
     /// Exchanges of rows, counted from the first of a panel.

@@ -6,8 +6,8 @@ use super::*;
 /// Largest errors of settings in all scenes of a kind that `recommend` covers, in the table of the documents.
 fn in_table(kind: SceneKind, method: Method) -> Vec<f64> {
     let (settings, grid) = match method {
-        Method::Integral(IntegralMethod { nodes, cells }) | Method::Layers(LayersMethod { nodes, cells, .. }) => {
-            (format!("{nodes} nodes, {cells} cells"), false)
+        Method::Integral(IntegralMethod { nodes, elements }) | Method::Layers(LayersMethod { nodes, elements, .. }) => {
+            (format!("{nodes} nodes, {elements} elements"), false)
         }
         Method::Grid(GridMethod { spacing, .. }) => (format!("h = {spacing}"), true),
         other => panic!("the table has no {other:?}"),

@@ -56,7 +56,7 @@ impl Exact {
                 viscosities,
                 inside,
                 enclosed,
-                of_revolution: false,
+                axisymmetric: false,
             };
             let seen = observe(&state, Convention::FarField)?;
             let [[along, across], _] = seen.moments.stresslet();

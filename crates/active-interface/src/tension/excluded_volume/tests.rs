@@ -2,12 +2,12 @@ use super::*;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
-fn thesis() -> ExcludedVolume {
-    ExcludedVolume::thesis(10.0, 100.0)
+fn thesis() -> Law {
+    ExcludedVolume::Step(10.0).law(100.0)
 }
 
-fn step(strength: f64, threshold: f64, steepness: f64) -> ExcludedVolume {
-    ExcludedVolume::Step { strength, threshold, steepness }
+fn step(strength: f64, threshold: f64, steepness: f64) -> Law {
+    ExcludedVolume::StepAt { strength, threshold, steepness }.law(1.0)
 }
 
 #[test]
@@ -54,26 +54,27 @@ fn plateau_is_where_the_slope_equals_the_pull() {
         }
         assert_eq!(law.plateau(10.0), None);
     }
-    assert_eq!(ExcludedVolume::Quadratic { strength: 0.02 }.plateau(3.0), Some(150.0));
-    assert_eq!(ExcludedVolume::None.plateau(1.0), None);
+    assert_eq!(Law::Quadratic(0.02).plateau(3.0), Some(150.0));
+    assert_eq!(Law::None.plateau(1.0), None);
 }
 
 #[test]
 fn the_quadratic_law_by_hand() {
-    let law = ExcludedVolume::Quadratic { strength: 0.25 };
+    let law = Law::Quadratic(0.25);
     assert_eq!([0.0, 2.0, 12.0].map(|c| law.pressure(c)), [0.0, 0.5, 18.0]);
     assert_eq!([0.0, 2.0, 12.0].map(|c| law.slope(c)), [0.0, 0.5, 3.0]);
 }
 
 #[test]
 fn bad_values_are_refused() {
-    assert!(thesis().check().is_ok() && ExcludedVolume::None.check().is_ok());
+    let step = |strength, threshold, steepness| ExcludedVolume::StepAt { strength, threshold, steepness };
+    assert!(ExcludedVolume::Step(1.0).check().is_ok() && ExcludedVolume::None.check().is_ok());
+    assert!(ExcludedVolume::Step(-1.0).check().is_err());
     assert!(step(-1.0, 200.0, 20.0).check().is_err());
     assert!(step(1.0, 0.0, 20.0).check().is_err());
     assert!(step(1.0, 200.0, f64::NAN).check().is_err());
     assert!(step(1.0, 200.0, 301.0).check().is_err());
-    assert!(ExcludedVolume::thesis(1.0, -100.0).check().is_err());
-    assert!(ExcludedVolume::Quadratic { strength: f64::INFINITY }.check().is_err());
+    assert!(ExcludedVolume::Quadratic(f64::INFINITY).check().is_err());
 }
 
 proptest! {

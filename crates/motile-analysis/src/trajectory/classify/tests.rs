@@ -109,7 +109,7 @@ fn limit_cycles() {
         let evidence = &report.evidence;
         assert_relative_eq!(evidence.period.unwrap().value, period, max_relative = 1e-3);
         assert_relative_eq!(evidence.amplitude, amplitude, max_relative = 1e-3);
-        assert_relative_eq!(evidence.half_swing.unwrap(), amplitude, max_relative = 1e-3);
+        assert_relative_eq!(evidence.half_height.unwrap(), amplitude, max_relative = 1e-3);
         assert!(evidence.midline.unwrap().abs() < 1e-2);
         assert!((evidence.growth_rate.unwrap().value * period).abs() < 0.01);
     }
@@ -132,7 +132,7 @@ fn oscillation_off_the_centre_line() {
     let steady = report(&trajectory(&times, |t| 0.8 + 0.1 * (0.3 * t).sin()));
     assert_eq!(steady.regime, Regime::SteadyOscillation);
     assert_relative_eq!(steady.evidence.midline.unwrap(), 0.8, max_relative = 1e-3);
-    assert_relative_eq!(steady.evidence.half_swing.unwrap(), 0.1, max_relative = 1e-3);
+    assert_relative_eq!(steady.evidence.half_height.unwrap(), 0.1, max_relative = 1e-3);
     assert_relative_eq!(steady.evidence.amplitude, 0.9, max_relative = 1e-3);
     let settling = report(&trajectory(&times, |t| 0.8 + 0.1 * (-0.02 * t).exp() * (0.3 * t).sin()));
     assert_eq!(settling.regime, Regime::Drifting);

@@ -9,7 +9,7 @@ fn a_passive_drop_leaves_its_results() {
     let droplet = DropletSetup { particles: None, centre: [0.4, -0.2], ..DropletSetup::default() };
     let setup = Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, elements: 64 }),
         droplets: vec![droplet],
         ..Setup::default()
     };

@@ -34,19 +34,19 @@ struct Scene {
     domain: Domain,
     walls: Option<Boundary>,
     around: Vec<Option<usize>>,
-    of_revolution: bool,
+    axisymmetric: bool,
 }
 
 impl Scene {
     fn new(domain: Domain) -> Self {
-        Self { markers: Markers::new(), domain, walls: None, around: vec![None; 4], of_revolution: false }
+        Self { markers: Markers::new(), domain, walls: None, around: vec![None; 4], axisymmetric: false }
     }
 
     fn films(&self, reach: f64) -> (Surfaces, Films) {
         let (mut surfaces, mut films) = (Surfaces::default(), Films::default());
         surfaces.update(&self.markers, self.domain.periods[0].unwrap_or(0.0));
-        let (walls, of_revolution) = (self.walls.as_ref(), self.of_revolution);
-        let surroundings = Surroundings { domain: self.domain, walls, around: &self.around, of_revolution };
+        let (walls, axisymmetric) = (self.walls.as_ref(), self.axisymmetric);
+        let surroundings = Surroundings { domain: self.domain, walls, around: &self.around, axisymmetric };
         films.find(&surfaces, surroundings, reach);
         (surfaces, films)
     }
@@ -81,7 +81,7 @@ fn scenes() -> [(&'static str, Scene, bool); 8] {
     let mut pair = Scene::new(PLANE);
     circle(&mut pair.markers, Vec2::ZERO, 1.0);
     circle(&mut pair.markers, Vec2::new(1.6, 0.35), 0.6);
-    let mut rings = Scene { of_revolution: true, ..Scene::new(PLANE) };
+    let mut rings = Scene { axisymmetric: true, ..Scene::new(PLANE) };
     circle(&mut rings.markers, Vec2::ZERO, 1.0);
     circle(&mut rings.markers, Vec2::new(1.75, 0.0), 0.6);
     let mut nested = Scene::new(PLANE);
@@ -135,11 +135,11 @@ fn forces_are_minus_the_gradient_of_the_energy() {
         // Action and reaction.
         let (mut sum, positions) = (forces.iter().sum::<Vec2>(), scene.markers.positions());
         // Forces across the axis are those of a whole ring, which cancel.
-        sum.y = if scene.of_revolution { 0.0 } else { sum.y };
+        sum.y = if scene.axisymmetric { 0.0 } else { sum.y };
         let torque: f64 = positions.iter().zip(&forces).map(|(x, f)| x.perp_dot(*f)).sum();
         assert_eq!(sum.length() < 1e-12 * largest, free, "{name}: {sum}");
         // Across a period a force has another lever on either side.
-        let alone = scene.domain.periods[0].is_none() && !scene.of_revolution;
+        let alone = scene.domain.periods[0].is_none() && !scene.axisymmetric;
         assert!(!free || !alone || torque.abs() < 1e-12 * largest, "{name}: {torque}");
     }
 }

@@ -5,15 +5,16 @@ use motile_base::boxes::Periods;
 use super::parts::{Parts, markers, states};
 use crate::{Body, BodyError, FluidView, Handle, Markers, SceneError, body::StepInfo, gap::Surfaces, scene::SceneId};
 
-/// The bodies of a scene with what they have on the fluid and around them: markers, guests, enclosing interfaces.
+/// The bodies of a scene with what they have on the fluid and around them: markers, interior_bodies, enclosing
+/// interfaces.
 #[derive(Debug)]
 pub(in crate::scene) struct Bodies {
     pub(super) scene: SceneId,
     pub(super) list: Vec<Box<dyn Body>>,
     /// Numbers of a host and of the body that fills it, the later one of the two.
-    pub(super) guests: Vec<[usize; 2]>,
+    pub(super) interior_bodies: Vec<[usize; 2]>,
     /// A body fills one that is not in this scene.
-    pub(super) stray_guest: bool,
+    pub(super) stray_interior_body: bool,
     pub(super) markers: Markers,
     /// Innermost interface around each body.
     pub(super) enclosing: Vec<Option<usize>>,
@@ -28,8 +29,8 @@ impl Bodies {
         Self {
             scene: SceneId::unique(),
             list: Vec::new(),
-            guests: Vec::new(),
-            stray_guest: false,
+            interior_bodies: Vec::new(),
+            stray_interior_body: false,
             markers: Markers::new(),
             enclosing: Vec::new(),
             enclosing_before: Vec::new(),
@@ -38,7 +39,7 @@ impl Bodies {
     }
 
     pub(super) fn push<B: Body>(&mut self, mut body: B) -> Handle<B> {
-        self.push_guest(&mut body);
+        self.push_interior_body(&mut body);
         self.markers.push_body(body.marker_count(), body.kind(), body.surfaces());
         self.list.push(Box::new(body));
         self.enclosing.push(None);
@@ -120,21 +121,21 @@ impl Bodies {
         });
     }
 
-    /// Writes the forces of all bodies, those of guests on their hosts included.
+    /// Writes the forces of all bodies, those of interior_bodies on their hosts included.
     pub(super) fn write_forces(&mut self, view: &FluidView, time: f64) -> Result<(), SceneError> {
         let Self { list, markers: Markers { forces, .. }, viscosity_around, .. } = self;
         let failed = Parts::of(list, forces.len(), forces).each(&markers, &|index, body, _, forces| {
             body.write_forces(&view.in_fluid(viscosity_around[index]), forces)
         });
         self.done(time, failed)?;
-        self.add_guest_forces();
+        self.add_interior_forces();
         Ok(())
     }
 
     /// Writes the explicit rates of all bodies from the velocities at their markers.
     pub(super) fn write_rates(&mut self, rate: &mut [f64]) {
-        let Self { list, markers: Markers { groups, velocities, .. }, guests, .. } = self;
-        if guests.is_empty() {
+        let Self { list, markers: Markers { groups, velocities, .. }, interior_bodies, .. } = self;
+        if interior_bodies.is_empty() {
             Parts::of(list, rate.len(), rate).each(&states, &|index, body, _, rate| {
                 body.rate(&velocities[groups[index].range.clone()], rate);
                 Ok(())
@@ -148,15 +149,15 @@ impl Bodies {
             let rate = part(&mut rest, body.as_ref());
             body.rate(&self.markers.velocities[range], rate);
         }
-        self.add_guest_rates(rate);
+        self.add_interior_rates(rate);
     }
 
     /// Finds the interfaces that the bodies lie in, and the viscosities there.
     pub(super) fn find_surroundings(&mut self, surfaces: &Surfaces, periods: Periods) {
         std::mem::swap(&mut self.enclosing, &mut self.enclosing_before);
         surfaces.surroundings(periods, &mut self.enclosing);
-        for &[host, guest] in &self.guests {
-            self.enclosing[guest] = Some(host);
+        for &[host, interior_body] in &self.interior_bodies {
+            self.enclosing[interior_body] = Some(host);
         }
         for index in 0..self.list.len() {
             let enclosing = std::iter::successors(self.enclosing[index], |&outer| self.enclosing[outer]);
@@ -168,13 +169,17 @@ impl Bodies {
 
     /// Tells the markers what they lie in.
     fn tell_surroundings(&mut self) {
-        let Self { guests, enclosing, viscosity_around, markers, .. } = self;
-        let is_guest = |body: usize| guests.iter().any(|&[_, guest]| guest == body);
-        // A guest has its host for itself if no other body lies inside.
+        let Self { interior_bodies, enclosing, viscosity_around, markers, .. } = self;
+        let is_guest = |body: usize| interior_bodies.iter().any(|&[_, interior_body]| interior_body == body);
+        // A interior_body has its host for itself if no other body lies inside.
         let alone =
             |host: usize| enclosing.iter().enumerate().all(|(body, outer)| *outer != Some(host) || is_guest(body));
-        let host_of =
-            |body: usize| guests.iter().find(|&&[host, guest]| guest == body && alone(host)).map(|&[host, _]| host);
+        let host_of = |body: usize| {
+            interior_bodies
+                .iter()
+                .find(|&&[host, interior_body]| interior_body == body && alone(host))
+                .map(|&[host, _]| host)
+        };
         markers.set_surroundings(viscosity_around.iter().enumerate().map(|(body, outside)| (*outside, host_of(body))));
     }
 
@@ -202,8 +207,8 @@ impl Bodies {
     /// Ends a step of `dt` (time).
     pub(super) fn end_step(&mut self, view: &FluidView, time: f64, dt: f64) -> Result<(), SceneError> {
         self.update_hosts();
-        let Self { list, markers, viscosity_around, guests, .. } = self;
-        if guests.is_empty() {
+        let Self { list, markers, viscosity_around, interior_bodies, .. } = self;
+        if interior_bodies.is_empty() {
             let none: &mut [f64] = &mut [];
             let failed = Parts::of(list, markers.len(), none)
                 .each(&|_, _| 0, &|index, body, _, _| body.end_step(&view.in_fluid(viscosity_around[index]), dt));

@@ -82,12 +82,8 @@ impl Contacts {
             return;
         }
         let (domain, walls) = (flow.fluid_view().domain, flow.walls());
-        let of_revolution = flow.of_revolution();
-        self.films.find(
-            &self.surfaces,
-            Surroundings { domain, walls, around: &bodies.enclosing, of_revolution },
-            reach,
-        );
+        let axisymmetric = flow.axisymmetric();
+        self.films.find(&self.surfaces, Surroundings { domain, walls, around: &bodies.enclosing, axisymmetric }, reach);
         self.looked = Some(reach);
     }
 

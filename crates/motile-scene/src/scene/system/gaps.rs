@@ -193,7 +193,7 @@ impl<H: Hydrodynamics> System<H> {
         if self.known >= Known::Apart {
             return Ok(());
         }
-        self.bodies.check_guests()?;
+        self.bodies.check_interior_bodies()?;
         self.find_gaps();
         let view = self.hydrodynamics.fluid_view();
         if let Some((body, other, viscosities)) = self.contacts.surfaces.conflict(view.domain.periods, view.viscosity) {

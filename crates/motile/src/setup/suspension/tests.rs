@@ -10,7 +10,7 @@ fn small() -> SuspensionSetup {
 }
 
 fn of(suspension: SuspensionSetup, region: Region) -> Setup {
-    let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+    let method = Method::Integral(IntegralMethod { nodes: 16, elements: 32 });
     Setup { region, method, droplets: Vec::new(), suspension: vec![suspension], ..Setup::default() }
 }
 
@@ -184,7 +184,7 @@ fn what_makes_no_suspension_is_refused() {
 #[test]
 fn ten_lines_are_a_thousand_droplets() {
     let text = "region.box.lengths = [102.4, 102.4]\n\
-                method.integral = { nodes = 64, cells = 128 }\n\
+                method.integral = { nodes = 64, elements = 128 }\n\
                 [[suspension]]\n\
                 count = 1000\n\
                 radius = [0.9, 1.1]\n\

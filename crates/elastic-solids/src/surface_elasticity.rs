@@ -1,10 +1,11 @@
-//! Elastic skins on the surfaces of solids.
+//! Surface elasticity of solids.
 
 use motile_base::{Vec2, not_negative};
 
 use crate::{SolidError, forces::Bar, mesh::TriangleMesh};
 
-/// A skin on the whole boundary of a mesh, without stress in the reference state, that resists stretching and bending.
+/// A surface elasticity on the whole boundary of a mesh, without stress in the reference state, that resists stretching
+/// and bending.
 ///
 /// With l the length of a side of the boundary and theta the angle between two that follow each other, L and theta_0
 /// those of the reference state, and S the mean of the reference lengths of the two sides,
@@ -13,10 +14,10 @@ use crate::{SolidError, forces::Bar, mesh::TriangleMesh};
 /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
 /// ```
 ///
-/// A soft solid that is compressed along its surface beyond a stretch of about 0.65 creases; a skin sets the length, of
-/// the order of the cube root of B over the solid's shear modulus, below which it does not fold.
+/// A soft solid that is compressed along its surface beyond a stretch of about 0.65 creases; surface elasticity sets
+/// the length, of the order of the cube root of B over the solid's shear modulus, below which it does not fold.
 #[derive(Debug, Clone)]
-pub(crate) struct Skin {
+pub(crate) struct SurfaceElasticity {
     stretching: f64,
     bending: f64,
     /// Sides of the boundary.
@@ -30,14 +31,14 @@ fn turned(side: Vec2) -> Vec2 {
     side.perp() / side.length_squared().max(f64::MIN_POSITIVE)
 }
 
-impl Skin {
-    /// A skin with its moduli of stretching E_s (force) and bending B (force times length squared).
+impl SurfaceElasticity {
+    /// Surface elasticity with its moduli of stretching E_s (force) and bending B (force times length squared).
     ///
     /// # Errors
     /// Moduli that are negative or not finite.
     pub(crate) fn new(mesh: &TriangleMesh, stretching: f64, bending: f64) -> Result<Self, SolidError> {
-        let stretching = not_negative("the stretching modulus of the skin", stretching)?;
-        let bending = not_negative("the bending modulus of the skin", bending)?;
+        let stretching = not_negative("the stretching modulus of the surface", stretching)?;
+        let bending = not_negative("the bending modulus of the surface", bending)?;
         let (mut sides, mut hinges) = (Vec::new(), Vec::new());
         for outline in mesh.boundary_loops() {
             let (first, count) = (sides.len(), outline.points.len());
@@ -57,7 +58,7 @@ impl Skin {
         Ok(Self { stretching, bending, sides, hinges })
     }
 
-    /// Adds the forces of the skin (force) on the points of the mesh.
+    /// Adds the forces of the surface (force) on the points of the mesh.
     pub(crate) fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) {
         for side in &self.sides {
             let span = side.span(positions);
@@ -75,7 +76,7 @@ impl Skin {
         }
     }
 
-    /// Viscosity times the fastest rate at which the skin relaxes in fluid (force per length): that of waves of two
+    /// Viscosity times the fastest rate at which the surface relaxes in fluid (force per length): that of waves of two
     /// sides, `(E_s/s + 4 B/s^3)/pi` with the mobility `1/(4 eta q)` at the wave number `q = pi/s`, s the shortest
     /// side.
     pub(crate) fn stiffness(&self) -> f64 {
@@ -83,7 +84,7 @@ impl Skin {
         (self.stretching / shortest + 4.0 * self.bending / shortest.powi(3)) / std::f64::consts::PI
     }
 
-    /// Elastic energy of the skin (energy).
+    /// Elastic energy of the surface (energy).
     pub(crate) fn energy(&self, positions: &[Vec2]) -> f64 {
         let sides = self.sides.iter().map(|side| {
             let strain = side.span(positions).length() / side.length - 1.0;

@@ -4,8 +4,8 @@ fn square(x: f64, y: f64) -> Vec<Vec2> {
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| Vec2::new(x + a, y + b)).to_vec()
 }
 
-fn crowd(periodic: [bool; 2]) -> Crowd {
-    Crowd { time: 0.0, droplets: Vec::new(), corner: Vec2::splat(-2.0), size: Vec2::splat(4.0), periodic }
+fn crowd(periodic: [bool; 2]) -> SuspensionPicture {
+    SuspensionPicture { time: 0.0, droplets: Vec::new(), corner: Vec2::splat(-2.0), size: Vec2::splat(4.0), periodic }
 }
 
 #[test]
@@ -31,9 +31,9 @@ fn runs_of_marked_points() {
 #[test]
 fn crowded_parts_are_wide() {
     let drop = Drop { markers: square(-0.5, -0.5), relative: vec![2.0, 2.0, 2.0, 0.5], heading: Vec2::X };
-    let seen = Crowd { droplets: vec![drop], ..crowd([true; 2]) };
+    let seen = SuspensionPicture { droplets: vec![drop], ..crowd([true; 2]) };
     let widths = [600.0, 1200.0].map(|width| -> Vec<f64> {
-        let svg = seen.draw(CrowdColour::Heading, width, None).svg();
+        let svg = seen.draw(SuspensionColour::Heading, width, None).svg();
         let ink = format!("stroke=\"#{}\" stroke-width=\"", Rgb::INK.0.map(|part| format!("{part:02x}")).concat());
         svg.split(&ink).skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect()
     });

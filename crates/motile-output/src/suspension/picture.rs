@@ -25,10 +25,10 @@ const CROWDED: f64 = 1.2;
 /// Corners of the wheel of colours.
 const CORNERS: usize = 72;
 
-/// Meaning of the colours of a [`Crowd`].
+/// Meaning of the colours of a [`SuspensionPicture`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum CrowdColour {
+pub enum SuspensionColour {
     /// Headings ([`Member::heading`]): a colour for each direction, shown by a wheel; crowded parts of interfaces dark.
     #[default]
     Heading,
@@ -43,19 +43,19 @@ pub enum CrowdColour {
 /// ```
 /// use motile::prelude::*;
 /// use motile::setup::SuspensionSetup;
-/// use motile_output::suspension::{Crowd, CrowdColour};
+/// use motile_output::suspension::{SuspensionPicture, SuspensionColour};
 ///
 /// let suspension = vec![SuspensionSetup { count: Some(3), ..SuspensionSetup::default() }];
-/// let method = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+/// let method = Method::Integral(IntegralMethod { nodes: 16, elements: 32 });
 /// let Built { mut scene, .. } = Setup { method, suspension, droplets: vec![], ..Setup::default() }.build()?;
 /// let path = std::env::temp_dir().join("three-droplets.svg");
-/// Crowd::take(scene.system_mut())?.write_picture(CrowdColour::Heading, 600.0, &path)?;
+/// SuspensionPicture::take(scene.system_mut())?.write_picture(SuspensionColour::Heading, 600.0, &path)?;
 /// assert!(std::fs::read_to_string(&path)?.starts_with("<svg"));
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Crowd {
+pub struct SuspensionPicture {
     time: f64,
     droplets: Vec<Drop>,
     /// Lower left corner and size of the region (length), and where it is periodic.
@@ -73,7 +73,7 @@ struct Drop {
     heading: Vec2,
 }
 
-impl Crowd {
+impl SuspensionPicture {
     /// Droplets in the present state; the flow at their markers is computed if it is not known yet.
     ///
     /// # Errors
@@ -126,7 +126,7 @@ impl Crowd {
     }
 
     /// Drawing of so many pixels across.
-    fn draw(&self, colour: CrowdColour, width: f64, scale: Option<&ColourScale>) -> Drawing {
+    fn draw(&self, colour: SuspensionColour, width: f64, scale: Option<&ColourScale>) -> Drawing {
         let em = (width / 45.0).max(9.0);
         let margin = 0.8 * em;
         let unit = (width - 2.0 * margin) / self.size.x;
@@ -139,7 +139,7 @@ impl Crowd {
         let line = (0.035 * unit).max(0.7);
         for Drop { markers, relative, heading } in &self.droplets {
             let fill = match colour {
-                CrowdColour::Heading if *heading != Vec2::ZERO => of_angle(heading.y.atan2(heading.x)),
+                SuspensionColour::Heading if *heading != Vec2::ZERO => of_angle(heading.y.atan2(heading.x)),
                 _ => PALE,
             };
             for shift in self.images(markers) {
@@ -153,7 +153,7 @@ impl Crowd {
                 let closed = || relative.iter().chain(relative.first()).copied();
                 drawing.stroke(&ring, &Pen::new(Rgb::INK, line));
                 match (colour, scale) {
-                    (CrowdColour::Concentration, Some(scale)) if !relative.is_empty() => {
+                    (SuspensionColour::Concentration, Some(scale)) if !relative.is_empty() => {
                         let colours: Vec<Rgb> = closed().map(|c| scale.colour(c)).collect();
                         drawing.stroke_coloured(&ring, &colours, 3.0 * line);
                     }
@@ -176,7 +176,7 @@ impl Crowd {
         let text = format!("t = {:.1}   {} droplets", self.time, self.droplets.len());
         drawing.text([left, 2.1 * em], &text, &TextStyle::new(1.2 * em, Anchor::Start));
         match (colour, scale) {
-            (CrowdColour::Concentration, Some(scale)) => {
+            (SuspensionColour::Concentration, Some(scale)) => {
                 let bar = Rect { left: right - 12.0 * em, top: 2.6 * em, width: 12.0 * em, height: 0.8 * em }.rounded();
                 let ends = [scale.low, scale.high];
                 drawing
@@ -193,7 +193,12 @@ impl Crowd {
     ///
     /// # Errors
     /// [`OutputError::Size`]: a width outside of 100 to 8000 pixels; [`OutputError::Write`].
-    pub fn write_picture(&self, colour: CrowdColour, width: f64, path: impl AsRef<Path>) -> Result<(), OutputError> {
+    pub fn write_picture(
+        &self,
+        colour: SuspensionColour,
+        width: f64,
+        path: impl AsRef<Path>,
+    ) -> Result<(), OutputError> {
         OutputError::check_size("a picture with a width (pixels)", width, 100.0, 8000.0)?;
         let scale = scale(std::slice::from_ref(self));
         self.draw(colour, width, scale.as_ref()).write(path.as_ref(), 1.0)
@@ -206,7 +211,7 @@ fn of_angle(angle: f64) -> Rgb {
 }
 
 /// Colour scale of the concentrations of some states.
-fn scale(all: &[Crowd]) -> Option<ColourScale> {
+fn scale(all: &[SuspensionPicture]) -> Option<ColourScale> {
     let values = all.iter().flat_map(|crowd| &crowd.droplets).flat_map(|droplet| droplet.relative.iter().copied());
     ColourScale::from_zero(values, "concentration")
 }
@@ -235,14 +240,14 @@ fn wheel(drawing: &mut Drawing, [x, y]: Pixel, radius: f64) {
     }
 }
 
-/// Observer that takes the [`Crowd`]s of a run and writes them as an animation in the end.
+/// Observer that takes the [`SuspensionPicture`]s of a run and writes them as an animation in the end.
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile_output::suspension::{CrowdColour, CrowdFilm};
+/// use motile_output::suspension::{SuspensionColour, SuspensionAnimation};
 ///
 /// let Built { mut scene, .. } = Setup::default().build()?;
-/// let mut film = CrowdFilm::new(CrowdColour::Heading, 200.0);
+/// let mut film = SuspensionAnimation::new(SuspensionColour::Heading, 200.0);
 /// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
 /// let path = std::env::temp_dir().join("droplets.gif");
 /// film.write(&path)?;
@@ -250,16 +255,16 @@ fn wheel(drawing: &mut Drawing, [x, y]: Pixel, radius: f64) {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct CrowdFilm {
-    colour: CrowdColour,
+pub struct SuspensionAnimation {
+    colour: SuspensionColour,
     width: f64,
-    crowds: Vec<Crowd>,
+    crowds: Vec<SuspensionPicture>,
 }
 
-impl CrowdFilm {
+impl SuspensionAnimation {
     /// Film without frames yet, so many pixels wide.
     #[must_use]
-    pub fn new(colour: CrowdColour, width: f64) -> Self {
+    pub fn new(colour: SuspensionColour, width: f64) -> Self {
         Self { colour, width, crowds: Vec::new() }
     }
 
@@ -278,9 +283,9 @@ impl CrowdFilm {
     }
 }
 
-impl<H: Hydrodynamics> Observer<H> for CrowdFilm {
+impl<H: Hydrodynamics> Observer<H> for SuspensionAnimation {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        self.crowds.push(Crowd::take(system)?);
+        self.crowds.push(SuspensionPicture::take(system)?);
         Ok(())
     }
 }

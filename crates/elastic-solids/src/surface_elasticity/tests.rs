@@ -25,14 +25,14 @@ proptest! {
         angle in 0.0..TAU,
     ) {
         let mesh = wall(0.25);
-        let skin = Skin::new(&mesh, 3.0, 0.7).unwrap();
+        let surface = SurfaceElasticity::new(&mesh, 3.0, 0.7).unwrap();
         let bend = |s: Vec2| waves.iter().zip(1..).map(|(w, m)| {
             let phase = TAU * f64::from(m) * s.x / 3.0;
             Vec2::new(w[0] * phase.sin(), w[1] * phase.cos() + (stretch - 1.0) * s.y)
         }).sum::<Vec2>();
         let mut points = moved(&mesh, bend);
         let mut forces = vec![Vec2::ZERO; points.len()];
-        skin.add_forces(&points, &mut forces);
+        surface.add_forces(&points, &mut forces);
         let total: Vec2 = forces.iter().sum();
         prop_assert!(total.length() < 1e-12, "{total}");
         let direction = Vec2::from_angle(angle);
@@ -40,7 +40,7 @@ proptest! {
             let there = points[*k];
             let energies = [1e-5, -1e-5].map(|step| {
                 points[*k] = there + step * direction;
-                skin.energy(&points)
+                surface.energy(&points)
             });
             points[*k] = there;
             let slope = (energies[1] - energies[0]) / 2e-5;
@@ -57,7 +57,7 @@ fn energies_of_waves_and_stretches() {
     let spacings = [0.2, 0.1, 0.05];
     let errors = spacings.map(|spacing| {
         let mesh = wall(spacing);
-        let bending = Skin::new(&mesh, 0.0, 2.0).unwrap();
+        let bending = SurfaceElasticity::new(&mesh, 0.0, 2.0).unwrap();
         let wave = moved(&mesh, |s| Vec2::new(0.0, if s.y > -0.5 - 1.0 { 1e-4 * (q * s.x).sin() } else { 0.0 }));
         let exact = 2.0 * 1e-8 * q.powi(4) * 3.0 / 4.0;
         assert!(bending.energy(&moved(&mesh, |_| Vec2::new(0.3, -0.1))) < 1e-20);
@@ -67,25 +67,25 @@ fn energies_of_waves_and_stretches() {
     assert!(errors[2] < 2e-3 && orders.iter().all(|order| (1.8..2.3).contains(order)), "{errors:?} {orders:?}");
 
     let disc = Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(0.2).unwrap();
-    let skin = Skin::new(&disc, 5.0, 2.0).unwrap();
-    let length: f64 = skin.sides.iter().map(|side| side.length).sum();
+    let surface = SurfaceElasticity::new(&disc, 5.0, 2.0).unwrap();
+    let length: f64 = surface.sides.iter().map(|side| side.length).sum();
     let grown = moved(&disc, |s| 0.1 * s);
-    assert!((skin.energy(&grown) / (0.5 * 5.0 * 0.01 * length) - 1.0).abs() < 1e-12);
+    assert!((surface.energy(&grown) / (0.5 * 5.0 * 0.01 * length) - 1.0).abs() < 1e-12);
     let turned = moved(&disc, |s| Vec2::from_angle(0.7).rotate(s) - s);
-    assert!(skin.energy(&turned) < 1e-25);
+    assert!(surface.energy(&turned) < 1e-25);
 }
 
-/// A disc with a skin and the same without: forces, energy and what a scene is told.
+/// A disc with surface elasticity and the same without: forces, energy and what a scene is told.
 #[test]
-fn solids_with_a_skin() {
+fn solids_with_surface_elasticity() {
     let disc = Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(0.2).unwrap();
     let bare = Solid::springs(disc, 10.0).unwrap().deformed(|s| 1.1 * s).unwrap();
-    let skinned = bare.clone().with_skin(5.0, 0.1).unwrap();
-    let more = skinned.elastic_energy().unwrap() - bare.elastic_energy().unwrap();
+    let covered = bare.clone().with_surface_elasticity(5.0, 0.1).unwrap();
+    let more = covered.elastic_energy().unwrap() - bare.elastic_energy().unwrap();
     assert!((more / (0.5 * 5.0 * 0.01 * TAU) - 1.0).abs() < 0.02, "{more}");
-    assert_ne!(bare.properties(), skinned.properties());
+    assert_ne!(bare.properties(), covered.properties());
     for moduli in [[-1.0, 0.0], [0.0, f64::NAN]] {
-        assert!(bare.clone().with_skin(moduli[0], moduli[1]).is_err());
+        assert!(bare.clone().with_surface_elasticity(moduli[0], moduli[1]).is_err());
     }
 }
 
@@ -94,22 +94,22 @@ fn solids_with_a_skin() {
 fn stiffness_is_that_of_the_shortest_waves() {
     let mesh = wall(0.1);
     for moduli in [[5.0, 0.0], [0.0, 2.0], [5.0, 2.0]] {
-        let skin = Skin::new(&mesh, moduli[0], moduli[1]).unwrap();
-        let (amplitude, length) = (1e-6, skin.sides[0].length);
+        let surface = SurfaceElasticity::new(&mesh, moduli[0], moduli[1]).unwrap();
+        let (amplitude, length) = (1e-6, surface.sides[0].length);
         let rates = [Vec2::X, Vec2::Y].map(|direction| {
             let mut positions = mesh.points().to_vec();
-            let surface = &mesh.boundary_loops()[0].points;
-            for (k, &point) in surface.iter().enumerate() {
+            let points = &mesh.boundary_loops()[0].points;
+            for (k, &point) in points.iter().enumerate() {
                 positions[point] += if k % 2 == 0 { amplitude } else { -amplitude } * direction;
             }
             let mut forces = vec![Vec2::ZERO; positions.len()];
-            skin.add_forces(&positions, &mut forces);
+            surface.add_forces(&positions, &mut forces);
             // Far from the ends of an odd number of sides.
-            -forces[surface[8]].dot(direction) / length / amplitude / (2.0 * TAU / length)
+            -forces[points[8]].dot(direction) / length / amplitude / (2.0 * TAU / length)
         });
         let sum: f64 = rates.iter().sum();
-        assert!((skin.stiffness() / sum - 1.0).abs() < 1e-5, "{moduli:?}: {} {rates:?}", skin.stiffness());
-        let solid = Solid::springs(mesh.clone(), 1e-3).unwrap().with_skin(moduli[0], moduli[1]).unwrap();
+        assert!((surface.stiffness() / sum - 1.0).abs() < 1e-5, "{moduli:?}: {} {rates:?}", surface.stiffness());
+        let solid = Solid::springs(mesh.clone(), 1e-3).unwrap().with_surface_elasticity(moduli[0], moduli[1]).unwrap();
         let view = crate::solid::tests::fluid_view();
         let rate = 2.0 / crate::solid::tests::limit(&solid, &view) * view.viscosity;
         assert!((rate / sum - 1.0).abs() < 1e-3, "{moduli:?}: {rate} {sum}");
