@@ -14,6 +14,7 @@ mod hard_cases;
 mod instructions;
 mod many;
 mod nucleus;
+mod pages;
 mod pictures;
 mod scaling;
 mod shared_benchmark;
@@ -67,7 +68,7 @@ enum Study {
     Exchange(exchange::Flags),
     /// Lists the tables that are older than the last change of what they measure
     Stale,
-    Pages(tables::PagesFlags),
+    Pages(pages::PagesFlags),
     Site(site::Flags),
     Pictures(pictures::Flags),
     Animations(animations::Flags),
@@ -97,7 +98,7 @@ fn main() -> ExitCode {
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(flags) => exchange::run(flags),
         Study::Stale => tables::stale(),
-        Study::Pages(flags) => tables::pages(flags),
+        Study::Pages(flags) => pages::pages(flags),
         Study::Site(flags) => site::run(flags),
         Study::Pictures(flags) => pictures::run(flags),
         Study::Animations(flags) => animations::run(flags),

@@ -11,6 +11,7 @@ mod errors;
 mod exchange;
 mod first_pages;
 mod fixed_shapes;
+mod forwarding;
 mod gel;
 mod headings;
 mod imposed_flows;

@@ -32,3 +32,17 @@ fn each_crate_builds_no_more_than_it_uses() {
         }
     }
 }
+
+/// Packages ship the texts of the licences, not links to them.
+#[test]
+fn each_crate_ships_the_licences() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    for name in ["LICENSE-APACHE", "LICENSE-MIT"] {
+        let text = std::fs::read(root.join(name)).expect("a licence");
+        assert!(text.len() > 1000, "{name}");
+        for folder in std::fs::read_dir(root.join("crates")).expect("the crates") {
+            let path = folder.expect("a crate").path().join(name);
+            assert!(std::fs::read(&path).is_ok_and(|found| found == text), "{} differs", path.display());
+        }
+    }
+}

@@ -8,6 +8,7 @@ use crate::{InputError, finite};
 /// walls.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Drive {
     /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (Cowley's channel).
     #[default]

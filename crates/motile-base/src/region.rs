@@ -7,6 +7,7 @@ use crate::{Drive, InputError, positive, within};
 /// Region that the fluid fills, centred on the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Region {
     /// The unbounded plane, the fluid at rest far away.
     Plane,
@@ -50,6 +51,7 @@ pub enum Region {
 /// Shape of the wall of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
+#[non_exhaustive]
 pub enum TubeShape {
     /// Straight.
     #[default]
@@ -107,6 +109,19 @@ impl TubeShape {
             Self::Straight => end,
             Self::Constriction { throat, .. } => throat.min(end),
             Self::Sinusoidal { amplitude, .. } => end - amplitude.abs(),
+        }
+    }
+
+    /// Returns the spacing of nodes (length) that resolves the ramps or waves of the wall, whose ends have the radius
+    /// `end` (length); infinite for a straight wall.
+    #[must_use]
+    pub fn finest_spacing(self, end: f64) -> f64 {
+        match self {
+            Self::Straight => f64::INFINITY,
+            Self::Constriction { ramp, .. } => ramp / 10.0,
+            Self::Sinusoidal { amplitude, period } => {
+                (period / 24.0).min(0.06 * period * self.least_radius(end) / amplitude.abs())
+            }
         }
     }
 

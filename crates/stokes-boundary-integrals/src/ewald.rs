@@ -35,7 +35,7 @@ use crate::{
 use cells::{Cells, FEWEST};
 use cluster::Cluster;
 pub(crate) use cluster::{filling, spread};
-use columns::{Columns, Part};
+use columns::{Columns, Part, write_rows};
 use lattice::Lattice;
 use near::{Carried, Near};
 use rows::Rows;
@@ -328,7 +328,9 @@ impl Ewald {
         }
         {
             let columns = columns.as_slice();
-            shares::each(rows, |share| share.transform_back(columns));
+            shares::each(rows, |share| {
+                share.transform_back(|first, stride, rows| write_rows(columns, first, stride, rows));
+            });
         }
         rows::unfold(rows);
     }

@@ -160,7 +160,6 @@ impl InterfaceFlow {
         match self.region {
             _ if flow.is_none() => {}
             Region::Plane => {}
-            Region::Space | Region::Tube { .. } => return Err(LayerError::InThreeDimensions),
             Region::Box { .. } if flow != ImposedFlow::shear(flow.shear_rate()) => {
                 return refuse(
                     "a flow other than a shear along x, imposed on a box,",
@@ -178,6 +177,7 @@ impl InterfaceFlow {
                 return refuse("sliding walls behind rigid walls", "leave one of them out");
             }
             Region::Channel { .. } => {}
+            _ => return Err(LayerError::InThreeDimensions),
         }
         self.layers.imposed = flow;
         self.layers.set_strain(strain);

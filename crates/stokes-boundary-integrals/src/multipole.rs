@@ -168,12 +168,12 @@ impl Multipoles {
         let offset = self.images.wrap(curves[source].centre - curves[target].centre);
         let offset = [offset.re, offset.im];
         let kernel = match self.region {
-            Region::Plane | Region::Space | Region::Tube { .. } => AnyPair::Free(FreePair { offset }),
             Region::Channel { length, .. } => AnyPair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
             Region::Box { lengths } => match self.images.tilt() {
                 0.0 => AnyPair::Lattice(LatticePair::new(lengths, 0.0, offset, self.tolerance)),
                 tilt => AnyPair::Sheared(LatticePair::new(lengths, tilt, offset, self.tolerance)),
             },
+            _ => AnyPair::Free(FreePair { offset }),
         };
         CurvePair { target, source, own, kernel }
     }

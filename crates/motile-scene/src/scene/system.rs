@@ -22,7 +22,7 @@ use contacts::Contacts;
 pub(crate) use findings::Findings;
 use imposed::Background;
 pub use imposed::Imposed;
-use motile_base::{Drive, FlowSample, SolveReport, Vec2};
+use motile_base::{FlowSample, SolveReport, Vec2};
 use resistance::Resistance;
 
 /// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and
@@ -181,11 +181,9 @@ impl<H: Hydrodynamics> System<H> {
         let mut properties = vec![("the exterior viscosity", view.viscosity)];
         let nodes = view.shape_modes.map(|nodes| ("the number of nodes of an interface", nodes as f64));
         properties.extend(nodes);
-        properties.extend(self.hydrodynamics.drive().map(|drive| match drive {
-            Drive::ZeroGradient => ("the imposed pressure gradient", 0.0),
-            Drive::Gradient(gradient) => ("the imposed pressure gradient", gradient),
-            Drive::ZeroFlux => ("the imposed flux", 0.0),
-            Drive::Flux(flux) => ("the imposed flux", flux),
+        properties.extend(self.hydrodynamics.drive().map(|drive| {
+            let gradient = ("the imposed pressure gradient", drive.gradient());
+            drive.flux().map_or(gradient, |flux| ("the imposed flux", flux))
         }));
         properties.extend(self.flow_properties());
         if let Some(repulsion) = &self.contacts.repulsion {

@@ -2,7 +2,7 @@
 
 use active_interface::Motion;
 use ib_core::AnyKernel;
-use motile_base::{Drive, Region, TubeShape};
+use motile_base::{Region, TubeShape};
 use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
@@ -28,7 +28,6 @@ impl Setup {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
         match self.region {
-            Region::Plane | Region::Space => {}
             Region::Tube { radius, .. } => {
                 top.length("region.tube.radius", radius)?;
                 self.check_tube()?;
@@ -44,12 +43,10 @@ impl Setup {
                 let remedy = "it is less than a hundredth of the width: give more";
                 let wide = self.method.kind() == MethodKind::Integral && width > WIDEST * length;
                 top.require(!wide, "region.channel.length", length, remedy)?;
-                match drive {
-                    Drive::Gradient(value) => top.finite("region.channel.drive.gradient", value)?,
-                    Drive::Flux(value) => top.finite("region.channel.drive.flux", value)?,
-                    Drive::ZeroGradient | Drive::ZeroFlux => {}
-                }
+                top.finite("region.channel.drive.gradient", drive.gradient())?;
+                top.finite("region.channel.drive.flux", drive.flux().unwrap_or(0.0))?;
             }
+            _ => {}
         }
         if self.region.is_axisymmetric() {
             self.check_revolution()?;

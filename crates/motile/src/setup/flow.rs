@@ -102,14 +102,6 @@ impl FlowSetup {
         }
         match setup.region {
             Region::Plane => {}
-            Region::Space | Region::Tube { .. } => {
-                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
-                    return checked.refuse(key, &value, IN_THE_PLANE);
-                }
-                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
-                    return checked.refuse("poiseuille.speed", &speed, IN_THE_PLANE);
-                }
-            }
             Region::Box { .. } => {
                 if let Some((key, value)) = linear.into_iter().skip(1).find(|(_, value)| *value != 0.0) {
                     let remedy = "the images of a box can be sheared along x only: give shear, or the region \"plane\"";
@@ -136,6 +128,14 @@ impl FlowSetup {
                     let flux = short(2.0 / 3.0 * speed * width);
                     let remedy = format!("give region.channel.drive = {{ flux = {flux} }} in its place");
                     return checked.refuse("poiseuille.speed", &speed, remedy);
+                }
+            }
+            _ => {
+                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
+                    return checked.refuse(key, &value, IN_THE_PLANE);
+                }
+                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
+                    return checked.refuse("poiseuille.speed", &speed, IN_THE_PLANE);
                 }
             }
         }

@@ -77,7 +77,6 @@ impl Setup {
         // The polygon of the markers has the area of its curve and so stands out of it a little.
         let slack = 4.0 * extent.length() / (corners.len() * corners.len()) as f64;
         let fits = match self.region {
-            Region::Plane | Region::Space => true,
             Region::Tube { radius, shape, .. } => {
                 let half = self.region.half_length().unwrap_or(f64::INFINITY);
                 let fits = |corner: &Vec2| corner.y.abs() <= shape.radius(radius, half, corner.x) + slack;
@@ -85,6 +84,7 @@ impl Setup {
             }
             Region::Box { .. } => extent.x < APART * length && extent.y < APART * width,
             Region::Channel { .. } => extent.x < APART * length && high.y.max(-low.y) <= 0.5 * width + slack,
+            _ => true,
         };
         if fits {
             return Ok(());

@@ -73,12 +73,7 @@ pub(super) fn resistance(radius: f64, viscosity: f64) -> f64 {
 /// Points and nodes of a tube of a shape: their distance follows from its least radius, and from its ramps and waves.
 pub(super) fn nodes_of(shape: TubeShape, radius: f64, half_length: f64) -> [usize; 2] {
     let narrowest = shape.least_radius(radius);
-    let detail = match shape {
-        TubeShape::Straight => f64::INFINITY,
-        TubeShape::Constriction { ramp, .. } => ramp / 10.0,
-        TubeShape::Sinusoidal { amplitude, period } => (period / 24.0).min(0.06 * period * narrowest / amplitude.abs()),
-    };
-    let spacing = (1.5 * SPACINGS[0] * narrowest).min(detail);
+    let spacing = (1.5 * SPACINGS[0] * narrowest).min(shape.finest_spacing(radius));
     let count = (4.0 * (half_length + radius) / spacing).clamp(64.0, MOST_TUBE_NODES as f64) as usize / 2 * 2;
     [4 * count, count]
 }

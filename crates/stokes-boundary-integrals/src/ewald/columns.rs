@@ -168,12 +168,17 @@ impl Columns {
         }
         let _ = self.transform.inverse(&mut self.values);
     }
+}
 
-    /// Calls `take` with the place of each of its columns in a row and its values.
-    #[inline(always)]
-    pub(super) fn each_column(&self, mut take: impl FnMut(usize, &[Complex64])) {
-        for (index, values) in self.values.chunks_exact(self.size[1]).enumerate() {
-            take(column_of(&self.waves, index, self.size[0]), values);
+/// Copies entries of all columns into rows: from the entry `first` on, into rows at this distance from each other.
+#[inline(always)]
+pub(super) fn write_rows(columns: &[Columns], first: usize, stride: usize, rows: &mut [Complex64]) {
+    for share in columns {
+        for (index, values) in share.values.chunks_exact(share.size[1]).enumerate() {
+            let column = column_of(&share.waves, index, share.size[0]);
+            for (row, value) in rows.chunks_exact_mut(stride).zip(&values[first..]) {
+                row[column] = *value;
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use motile_base::{ComplexTransform, InputError, widely};
 use num_complex::Complex64;
 
-use super::{cells::Cells, columns::Columns, window::Window};
+use super::{cells::Cells, window::Window};
 
 /// Rows that are gathered from the columns at a time: eight complex numbers are two cache lines of each column.
 const BATCH: usize = 8;
@@ -171,19 +171,14 @@ impl Rows {
         self.values[row * self.stride() + column]
     }
 
-    /// Takes its rows out of the columns and transforms them back.
-    pub(super) fn transform_back(&mut self, columns: &[Columns]) {
+    /// Transforms its rows back, which `take` writes some at a time: from the first one's number on, at this distance
+    /// from each other, into memory that is zero.
+    #[inline(always)]
+    pub(super) fn transform_back(&mut self, take: impl Fn(usize, usize, &mut [Complex64])) {
         let (length, stride, own, points) = (self.size[0], self.stride(), self.own, self.reach);
         for (batch, rows) in self.values[..own * stride].chunks_mut(BATCH * stride).enumerate() {
             rows.fill(Complex64::ZERO);
-            let first = self.first + batch * BATCH;
-            for share in columns {
-                share.each_column(|column, values| {
-                    for (row, value) in rows.chunks_exact_mut(stride).zip(&values[first..]) {
-                        row[column] = *value;
-                    }
-                });
-            }
+            take(self.first + batch * BATCH, stride, rows);
             for row in rows.chunks_exact_mut(stride) {
                 let _ = self.transform.inverse(&mut row[..length]);
                 let (inside, beyond) = row.split_at_mut(length);

@@ -102,7 +102,6 @@ impl GreensFunction {
     /// with as many rows of images as bring the rest below `tolerance`.
     pub(crate) fn new(region: &Region, tilt: f64, tolerance: f64) -> Self {
         match *region {
-            Region::Plane | Region::Space | Region::Tube { .. } => Self::Free,
             Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
             Region::Box { lengths } => {
                 let transposed = lengths[1] < lengths[0] && tilt == 0.0;
@@ -111,6 +110,7 @@ impl GreensFunction {
                 let rows = ((-tolerance.ln() / k + 0.5 * along) / across + 0.5).ceil() as usize;
                 Self::Lattice { k, across, rows, transposed, turn: Complex64::cis(k * tilt) }
             }
+            _ => Self::Free,
         }
     }
 

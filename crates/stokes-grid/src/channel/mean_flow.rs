@@ -54,12 +54,10 @@ impl MeanFlow {
             u[j] -= self.pivots[j] * u[j + 1];
         }
         let found = self.h * u.iter().sum::<f64>();
-        let gradient = match drive {
-            Drive::ZeroGradient => return 0.0,
-            Drive::Gradient(gradient) => gradient,
-            Drive::ZeroFlux => found / self.flux,
-            Drive::Flux(flux) => (found - flux) / self.flux,
-        };
+        let gradient = drive.flux().map_or(drive.gradient(), |flux| (found - flux) / self.flux);
+        if gradient == 0.0 {
+            return 0.0;
+        }
         for (u, response) in u.iter_mut().zip(&self.poiseuille) {
             *u -= gradient * response;
         }

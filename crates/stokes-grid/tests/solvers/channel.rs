@@ -67,12 +67,7 @@ fn flows_on_large_grids_are_found_from_their_forces_and_satisfy_the_equations() 
         for drive in DRIVES {
             let solver = &mut driven(grid, eta, &walls, drive);
             // What the drive leaves free is to be found.
-            let (gradient, through) = match drive {
-                Drive::ZeroGradient => (0.0, 0.9),
-                Drive::Gradient(gradient) => (gradient, 0.9),
-                Drive::ZeroFlux => (0.3 * eta / (h * h), 0.0),
-                Drive::Flux(flux) => (0.3 * eta / (h * h), flux),
-            };
+            let (gradient, through) = drive.flux().map_or((drive.gradient(), 0.9), |flux| (0.3 * eta / (h * h), flux));
             let exact = DiscreteFlow::random(grid, eta, &walls, [gradient, 0.0], through, 9);
             assert_abs_diff_eq!(flux(&exact.velocity), through, epsilon = 1e-11);
             let (velocity, pressure, report) = run(solver, &exact.force);

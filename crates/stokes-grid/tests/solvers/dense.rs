@@ -83,15 +83,12 @@ pub(crate) fn solve(grid: Grid, viscosity: f64, walls: &WallMotion, drive: Drive
             }
         }
     }
-    match drive {
-        Drive::ZeroGradient | Drive::Gradient(_) => {
-            matrix[(g, g)] = 1.0;
-            right[g] = if let Drive::Gradient(value) = drive { value } else { 0.0 };
-        }
-        Drive::ZeroFlux | Drive::Flux(_) => {
-            (0..us).for_each(|k| matrix[(g, k)] = h / nx as f64);
-            right[g] = if let Drive::Flux(value) = drive { value } else { 0.0 };
-        }
+    if let Some(flux) = drive.flux() {
+        (0..us).for_each(|k| matrix[(g, k)] = h / nx as f64);
+        right[g] = flux;
+    } else {
+        matrix[(g, g)] = 1.0;
+        right[g] = drive.gradient();
     }
     let solution = matrix.lu().solve(&right).expect("the system is regular");
     let mut y = vec![0.0; nx * (ny + 1)];
