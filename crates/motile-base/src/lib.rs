@@ -25,6 +25,9 @@
 //! |---|---|
 //! | [`ComplexTransform`] | complex numbers, in place |
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
+//! | [`CosineTransform`] | real numbers in cells, DCT-II and DCT-III |
+//! | [`SineTransform`] | real numbers in cells, DST-II and DST-III |
+//! | [`NodeSineTransform`] | real numbers at nodes, DST-I |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
 //! curve ([`PeriodicSeries`]), the forces of energies of such curves ([`CurveForces`]) and elastic membranes along them
@@ -59,6 +62,7 @@ mod quadrature;
 mod real;
 mod region;
 mod series;
+mod sine_cosine;
 pub mod spectrum;
 mod sums;
 mod transform;
@@ -78,6 +82,7 @@ pub use quadrature::gauss_legendre;
 pub use real::RealTransform;
 pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;
+pub use sine_cosine::{CosineTransform, NodeSineTransform, SineTransform};
 pub use sums::{dot, sum, widely};
 pub use vec2::Vec2;
 
