@@ -10,7 +10,7 @@ use crate::{
     CentreField, Grid, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, Work, stencil,
     transform::RowTransform,
 };
-use mean_flow::MeanFlow;
+pub(crate) use mean_flow::MeanFlow;
 use modes::ChannelModes;
 
 /// Stokes flow with one viscosity in a channel, periodic in x with no-slip walls in y, by its streamfunction psi:

@@ -1,7 +1,7 @@
 //! Direct solver for a doubly periodic box, by its streamfunction.
 
 #[cfg(feature = "rayon")]
-mod parallel;
+pub(crate) mod parallel;
 
 use motile_base::{SolveReport, finite, positive, sum};
 

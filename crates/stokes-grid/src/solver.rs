@@ -1,6 +1,6 @@
 //! The trait of Stokes solvers, and the count of their work.
 
-use motile_base::{Drive, SolveReport};
+use motile_base::{Drive, SolveReport, same_length};
 
 use crate::{CentreField, Grid, StaggeredField, StokesError, WallMotion};
 
@@ -14,6 +14,11 @@ pub struct Work {
     pub forward_transforms: usize,
     /// Real transforms from wave numbers to space, each of a whole scalar field.
     pub inverse_transforms: usize,
+    /// Real sine and cosine transforms across a channel, each of a whole scalar field.
+    ///
+    /// [`crate::ProjectionStokes`] uses them in channels. There, a transform in two dimensions as Cowley counts it is
+    /// one of [`Work::forward_transforms`] or [`Work::inverse_transforms`], along x alone, and one of these.
+    pub sine_cosine_transforms: usize,
     /// Iterations; 0 for direct solvers.
     pub iterations: usize,
 }
@@ -63,6 +68,28 @@ pub trait StokesSolver: std::fmt::Debug + Send {
 
     /// Work done since the solver was made.
     fn work(&self) -> Work;
+
+    /// True if a solution depends on the solutions before it, as with [`crate::WallTreatment::Lagged`]; by default
+    /// false.
+    fn has_memory(&self) -> bool {
+        false
+    }
+
+    /// Returns the numbers by which the next solution depends on those before it: empty for a solver without memory,
+    /// and for one that has not solved yet.
+    ///
+    /// To resume a run with the same bits, save them and hand them to [`StokesSolver::set_memory`].
+    fn memory(&self) -> &[f64] {
+        &[]
+    }
+
+    /// Restores the memory, as [`StokesSolver::memory`] returned it. An empty memory makes the solver forget.
+    ///
+    /// # Errors
+    /// Returns [`StokesError::Input`] if the memory is of another solver or not finite; nothing is changed then.
+    fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
+        Ok(same_length("the memory of a solver without any", 0, memory.len())?)
+    }
 }
 
 impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
@@ -97,5 +124,17 @@ impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
 
     fn work(&self) -> Work {
         (**self).work()
+    }
+
+    fn has_memory(&self) -> bool {
+        (**self).has_memory()
+    }
+
+    fn memory(&self) -> &[f64] {
+        (**self).memory()
+    }
+
+    fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
+        (**self).set_memory(memory)
     }
 }

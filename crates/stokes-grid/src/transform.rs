@@ -50,6 +50,11 @@ impl RealFft2 {
         Ok(Self { nx, ny, rows, columns, spectrum })
     }
 
+    /// Numbers of values along x and y.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.nx, self.ny]
+    }
+
     /// Transforms the rows that `input(j, row)` writes, for j = 0, 1, ..., into the plan's own spectrum.
     pub(crate) fn forward_rows(&mut self, mut input: impl FnMut(usize, &mut [f64])) {
         let width = self.rows.width();

@@ -86,6 +86,40 @@ impl ParallelTransform {
         self.totals.iter().fold([0.0; 2], |[x, y], row| [x + row[0], y + row[1]])
     }
 
+    /// Transforms the rows that `input(j, row)` writes, applies the operator with this symbol, and writes the rows of
+    /// the result.
+    pub(crate) fn filter(&mut self, symbol: &Symbol, input: impl Fn(usize, &mut [f64]) + Sync, out: &mut [f64]) {
+        self.forward_rows(input);
+        self.filter_columns(symbol);
+        self.inverse_rows(out);
+    }
+
+    /// Transforms the rows that `input(j, row)` writes along x.
+    fn forward_rows(&mut self, input: impl Fn(usize, &mut [f64]) + Sync) {
+        let (width, count) = (self.width, self.rows_of_share());
+        let shares = self.spectrum.par_chunks_mut(count * width).zip(self.rows.par_iter_mut());
+        shares.enumerate().for_each(|(index, (spectrum, share))| {
+            for (k, out) in spectrum.chunks_exact_mut(width).enumerate() {
+                share.transform.forward(|row| input(index * count + k, row), out);
+            }
+        });
+    }
+
+    /// Transforms the columns back along x.
+    fn inverse_rows(&mut self, out: &mut [f64]) {
+        let (nx, ny, width, count) = (self.nx, self.ny, self.width, self.rows_of_share());
+        let columns = &self.columns;
+        let shares = out.par_chunks_mut(count * nx).zip(self.rows.par_iter_mut());
+        shares.enumerate().for_each(|(index, (out, RowShare { transform, batch, .. }))| {
+            for (b, rows) in out.chunks_mut(BATCH * nx).enumerate() {
+                gather(columns, ny, index * count + b * BATCH, rows.len() / nx, batch, width);
+                for (row, spectrum) in rows.chunks_exact_mut(nx).zip(batch.chunks_exact_mut(width)) {
+                    row.copy_from_slice(transform.inverse(spectrum));
+                }
+            }
+        });
+    }
+
     /// Transforms along y, multiplies by `symbol` and transforms back.
     pub(crate) fn filter_columns(&mut self, symbol: &Symbol) {
         let (width, ny) = (self.width, self.ny);

@@ -13,6 +13,8 @@ mod kinematics;
 #[cfg(test)]
 mod periodic;
 #[cfg(test)]
+mod projection;
+#[cfg(test)]
 mod properties;
 #[cfg(test)]
 mod two_phase;
