@@ -43,6 +43,12 @@ pub enum StokesError {
         /// Constructor of a grid that has them.
         remedy: &'static str,
     },
+    /// Lagged walls where a solution must not depend on the ones before.
+    #[error(
+        "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs solutions \
+         that do not depend on each other: use the exact wall treatment"
+    )]
+    LaggedWalls,
     /// A result beyond the range of double precision.
     #[error("{name} is beyond the range of double precision: scale the forces down")]
     Overflow {

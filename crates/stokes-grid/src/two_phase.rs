@@ -93,6 +93,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         nodes.values_mut().fill(eta);
         let mut imposed = field();
         let gradient = solver.solve(&field(), &mut imposed)?.mean_pressure_gradient;
+        solver.set_memory(&[])?;
         Ok(Self {
             solver,
             force: ViscousForce::new(centres, nodes),
@@ -181,7 +182,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the viscosity (stress times time) to a function of x and y (length).
     ///
     /// # Errors
-    /// A value that is not positive and finite; the viscosity is then left as it was.
+    /// As [`TwoPhaseStokes::set_viscosity_fields`].
     pub fn set_viscosity(&mut self, viscosity: impl Fn(f64, f64) -> f64) -> Result<(), StokesError> {
         let grid = *self.solver.grid();
         let (nx, h, [x0, y0]) = (grid.nx(), grid.spacing(), grid.origin());
@@ -196,18 +197,23 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the viscosity (stress times time) at the centres and at the nodes.
     ///
     /// # Errors
-    /// Fields of another grid, or a value that is not positive and finite; the viscosity is then left as it was.
+    /// Fields of another grid, a value that is not positive and finite, or viscosities that differ from that of a solver
+    /// with lagged walls ([`StokesError::LaggedWalls`]); the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
         self.solver.grid().check(fields)?;
         for &value in centres.values().iter().chain(nodes.values()) {
             positive("viscosity", value)?;
         }
+        let viscosity = self.solver.viscosity();
+        let uniform = centres.values().iter().chain(nodes.values()).all(|value| *value == viscosity);
+        if !uniform && self.solver.has_memory() {
+            return Err(StokesError::LaggedWalls);
+        }
+        self.uniform = uniform;
         let (at_centres, at_nodes) = self.force.viscosity_mut();
         at_centres.copy_from_slice(centres.values());
         at_nodes.copy_from_slice(nodes.values());
-        let viscosity = self.solver.viscosity();
-        self.uniform = centres.values().iter().chain(nodes.values()).all(|value| *value == viscosity);
         Ok(())
     }
 
@@ -325,7 +331,8 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
-    /// Computes the pressure of the solver of one viscosity for the force that is left by the viscous stress.
+    /// Computes the pressure of the solver of one viscosity for the force that is left by the viscous stress. With one
+    /// viscosity it is that of the solver, whose memory, if it has any, must not advance.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -335,6 +342,9 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         let fields =
             [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
         self.solver.grid().check(fields)?;
+        if self.uniform && self.solver.has_memory() {
+            return self.solver.pressure(force, velocity, pressure);
+        }
         self.solution.copy_from(velocity);
         self.fill_residual(force);
         let Self { solver, residual, direction, image, imposed, imposed_pressure: own, .. } = self;
@@ -352,6 +362,18 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     fn work(&self) -> Work {
         let inner = self.solver.work();
         Work { solves: self.work.solves, iterations: self.work.iterations, ..inner }
+    }
+
+    fn has_memory(&self) -> bool {
+        self.solver.has_memory()
+    }
+
+    fn memory(&self) -> &[f64] {
+        self.solver.memory()
+    }
+
+    fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
+        self.solver.set_memory(memory)
     }
 }
 

@@ -3,7 +3,8 @@
 use allocation_counter::measure;
 use motile_base::Drive;
 use stokes_grid::{
-    CentreField, ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes, WallMotion,
+    CentreField, ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver, TwoPhaseStokes,
+    WallMotion, WallTreatment,
 };
 
 fn allocations(solver: &mut dyn StokesSolver) -> u64 {
@@ -32,6 +33,12 @@ fn solving_allocates_nothing() {
         streamfunction.set_drive(Drive::ZeroFlux).unwrap();
         assert_eq!(allocations(&mut PeriodicStokes::new(periodic, 2.0).unwrap()), 0);
         assert_eq!(allocations(&mut streamfunction), 0);
+        assert_eq!(allocations(&mut ProjectionStokes::new(periodic, 2.0).unwrap()), 0);
+        let mut projection = ProjectionStokes::new(channel, 2.0).unwrap();
+        projection.set_drive(Drive::ZeroFlux).unwrap();
+        assert_eq!(allocations(&mut projection), 0);
+        projection.set_wall_treatment(WallTreatment::Lagged).unwrap();
+        assert_eq!(allocations(&mut projection), 0);
         let mut varying = TwoPhaseStokes::new(streamfunction).unwrap();
         varying.set_viscosity(|x, y| 3.0 + x.sin() + y.cos()).unwrap();
         assert_eq!(allocations(&mut varying), 0);

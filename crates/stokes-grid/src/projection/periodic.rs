@@ -182,3 +182,6 @@ impl Transform {
         self.serial.filter(symbol, input, |j, row| out[j * nx..][..nx].copy_from_slice(row))
     }
 }
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests;

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use stokes_grid::{
-    CentreField, ChannelStokes, Grid, NodeField, PeriodicStokes, StaggeredField, StokesSolver, Wall, WallMotion,
-    normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
+    CentreField, ChannelStokes, Grid, NodeField, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver, Wall,
+    WallMotion, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 
 const ETA: f64 = 1.3;
@@ -205,7 +205,18 @@ fn a_channel_is_solved_to_second_order_with_sliding_walls() {
 }
 
 #[test]
+fn a_channel_is_solved_to_second_order_by_projection() {
+    let grid = |n: usize| Grid::channel(n, n, 1.0 / n as f64).unwrap().with_origin([0.0, 0.0]).unwrap();
+    check("channel, projection", &CHANNEL, [40, 80, 160], |n| {
+        let mut solver = ProjectionStokes::new(grid(n), ETA).unwrap();
+        solver.set_walls(WallMotion::from_fn(&grid(n), |x| bottom(x)[0], |x| top(x)[0]).unwrap()).unwrap();
+        Box::new(solver)
+    });
+}
+
+#[test]
 fn a_box_is_solved_to_second_order() {
     let grid = |n: usize| Grid::periodic(n, n, 1.0 / n as f64).unwrap();
+    check("box, projection", &BOX, [32, 64, 128], |n| Box::new(ProjectionStokes::new(grid(n), ETA).unwrap()));
     check("box", &BOX, [32, 64, 128], |n| Box::new(PeriodicStokes::new(grid(n), ETA).unwrap()));
 }

@@ -1,8 +1,9 @@
 //! The projection method against the streamfunction solvers, the discrete equations, and its own order in time.
 
-use motile_base::{Drive, SolveReport};
+use motile_base::{Drive, InputError, SolveReport};
 use stokes_grid::{
-    CentreField, ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver, WallMotion,
+    CentreField, ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesError, StokesSolver,
+    TwoPhaseStokes, Wall, WallMotion, WallTreatment, divergence,
 };
 
 use crate::common::{distance, largest, random_force, relative_distance, residuals};
@@ -123,5 +124,296 @@ fn the_discrete_equations_hold_with_exact_walls() {
             println!("{nx} x {ny} {drive:?}: momentum {momentum:.1e}, divergence {divergence:.1e}");
             assert!(momentum < 2e-12 && divergence < 2e-14, "{nx} x {ny} {drive:?}: {momentum:e} {divergence:e}");
         }
+    }
+}
+
+/// A channel with sliding walls and lagged wall values.
+fn lagged(grid: Grid, eta: f64, drive: Drive) -> ProjectionStokes {
+    let mut solver = channel_solver(grid, eta, &sliding(&grid), drive);
+    solver.set_wall_treatment(WallTreatment::Lagged).unwrap();
+    solver
+}
+
+/// The force at a time: two random ones that come and go.
+fn force_at(grid: Grid, time: f64) -> StaggeredField {
+    let mut force = random_force(grid, 21);
+    force.combine(time.cos(), (1.3 * time).sin(), &random_force(grid, 22));
+    force
+}
+
+/// The solution at time 1 after steps of length `step` from time 0.
+fn at_time_one(solver: &mut ProjectionStokes, steps: usize) -> StaggeredField {
+    let grid = *solver.grid();
+    let mut velocity = StaggeredField::zeros(grid);
+    for step in 0..=steps {
+        solver.solve(&force_at(grid, step as f64 / steps as f64), &mut velocity).unwrap();
+    }
+    velocity
+}
+
+#[test]
+fn lagged_walls_are_of_first_order_in_the_time_step() {
+    for (nx, ny, drive) in [(24, 8, Drive::ZeroGradient), (15, 11, Drive::Flux(0.3)), (12, 2, Drive::ZeroFlux)] {
+        let grid = Grid::channel(nx, ny, 0.1).unwrap();
+        let exact = at_time_one(&mut channel_solver(grid, 2.0, &sliding(&grid), drive), 1);
+        let errors = [100, 200, 400, 800].map(|steps| {
+            let solver = &mut lagged(grid, 2.0, drive);
+            let error = relative_distance(&at_time_one(solver, steps), &exact);
+            // The slip on the walls is of the same order, and tells of the error.
+            let mut slip = vec![0.0; nx];
+            solver.wall_slip(Wall::Top, &mut slip).unwrap();
+            assert!(largest(&slip) > 0.0 && largest(&slip) < 0.5 / steps as f64, "{steps}: {:e}", largest(&slip));
+            error
+        });
+        let orders: Vec<f64> = errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect();
+        println!("{nx} x {ny}: first error {:.1e}, orders {orders:.3?}", errors[0]);
+        assert!(orders.iter().all(|order| (0.9..1.1).contains(order)), "{nx} x {ny}: {orders:?}");
+    }
+}
+
+#[test]
+fn the_first_solution_with_lagged_walls_is_exact_and_a_constant_force_leads_back_to_it() {
+    let grid = Grid::channel(18, 9, 0.1).unwrap();
+    let exact = run(&mut channel_solver(grid, 2.0, &sliding(&grid), Drive::ZeroFlux), &random_force(grid, 5));
+    let mut solver = lagged(grid, 2.0, Drive::ZeroFlux);
+    assert!(solver.has_memory() && solver.memory().is_empty());
+    assert!(relative_distance(&run(&mut solver, &random_force(grid, 5)).0, &exact.0) < 1e-13);
+    // Another force disturbs the walls; each solution for the first one then halves the slip, or nearly so.
+    run(&mut solver, &random_force(grid, 6));
+    let disturbed = relative_distance(&run(&mut solver, &random_force(grid, 5)).0, &exact.0);
+    assert!(disturbed > 1e-3, "{disturbed:e}");
+    let mut velocity = exact.0.clone();
+    for _ in 0..400 {
+        solver.solve(&random_force(grid, 5), &mut velocity).unwrap();
+    }
+    assert!(relative_distance(&velocity, &exact.0) < 1e-12);
+    // And without memory the solution is exact again.
+    solver.set_memory(&[]).unwrap();
+    assert!(relative_distance(&run(&mut solver, &random_force(grid, 5)).0, &exact.0) < 1e-13);
+}
+
+#[test]
+fn with_lagged_walls_the_equations_hold_for_walls_that_move_by_the_slip() {
+    let (eta, grid) = (1.7, Grid::channel(31, 12, 0.05).unwrap());
+    let walls = sliding(&grid);
+    let mut solver = lagged(grid, eta, Drive::Flux(0.2));
+    run(&mut solver, &scaled_force(grid, eta, 1));
+    let force = scaled_force(grid, eta, 2);
+    let (velocity, pressure, report) = run(&mut solver, &force);
+    let moved = [Wall::Bottom, Wall::Top].map(|wall| {
+        let mut slip = vec![0.0; 31];
+        solver.wall_slip(wall, &mut slip).unwrap();
+        assert!(largest(&slip) > 0.01 * largest(velocity.x()));
+        slip.iter_mut().zip(walls.velocities(wall)).for_each(|(slip, wall)| *slip += wall);
+        slip
+    });
+    let column = |x: f64| ((x - grid.origin()[0]) / 0.05).round() as usize;
+    let effective = WallMotion::from_fn(&grid, |x| moved[0][column(x)], |x| moved[1][column(x)]).unwrap();
+    let [momentum, divergence] = residuals(eta, &effective, &force, &velocity, &pressure, &report);
+    let speed = largest(velocity.x());
+    assert!(
+        momentum < 2e-13 * eta * speed / 0.0025 && divergence < 2e-14 * speed / 0.05,
+        "{momentum:e} {divergence:e}"
+    );
+}
+
+#[test]
+fn the_velocity_is_the_intermediate_one_minus_the_slope_of_the_potential() {
+    let (nx, ny, h, eta) = (14, 9, 0.2, 3.0);
+    for walled in [false, true] {
+        let grid = if walled { Grid::channel(nx, ny, h) } else { Grid::periodic(nx, ny, h) }.unwrap();
+        let treatments = if walled { vec![WallTreatment::Exact, WallTreatment::Lagged] } else { vec![] };
+        for treatment in treatments.into_iter().map(Some).chain([None]) {
+            let mut solver = ProjectionStokes::new(grid, eta).unwrap();
+            if walled {
+                solver.set_drive(Drive::Gradient(-0.3)).unwrap();
+                solver.set_walls(sliding(&grid)).unwrap();
+            } else {
+                solver.set_mean_velocity([0.1, -0.2]).unwrap();
+            }
+            if let Some(treatment) = treatment {
+                solver.set_wall_treatment(treatment).unwrap();
+                solver.solve(&random_force(grid, 3), &mut StaggeredField::zeros(grid)).unwrap();
+            }
+            let force = random_force(grid, 4);
+            let (velocity, pressure, _) = run(&mut solver, &force);
+            let (mut starred, mut phi) = (StaggeredField::zeros(grid), CentreField::zeros(grid));
+            solver.intermediate_velocity(&force, &mut starred).unwrap();
+            solver.potential(&force, &mut phi).unwrap();
+            let p = phi.values();
+            let left = |k: usize| if k.is_multiple_of(nx) { k + nx - 1 } else { k - 1 };
+            let along: Vec<f64> = (0..nx * ny).map(|k| starred.x()[k] - (p[k] - p[left(k)]) / h).collect();
+            assert!(distance(&along, velocity.x()) < 1e-13);
+            let inner = if walled { nx..nx * ny } else { 0..nx * ny };
+            let below = |k: usize| if k < nx { k + nx * (ny - 1) } else { k - nx };
+            let across: Vec<f64> = inner.clone().map(|k| starred.y()[k] - (p[k] - p[below(k)]) / h).collect();
+            assert!(distance(&across, &velocity.y()[inner]) < 1e-13);
+            assert!((p.iter().sum::<f64>()).abs() < 1e-12);
+            // (2.30) with its sign, and (2.23): the pressure is minus the viscosity times the divergence of v*.
+            let mut rate = CentreField::zeros(grid);
+            divergence(&starred, &mut rate).unwrap();
+            rate.values_mut().iter_mut().for_each(|rate| *rate *= -eta);
+            assert!(distance(rate.values(), pressure.values()) < 1e-11 * largest(pressure.values()));
+        }
+    }
+}
+
+#[test]
+fn work_is_counted_in_transforms_along_and_across() {
+    let counts = |solver: &ProjectionStokes| {
+        let work = solver.work();
+        assert_eq!(work.iterations, 0);
+        [work.solves, work.forward_transforms, work.inverse_transforms, work.sine_cosine_transforms]
+    };
+    let grid = Grid::periodic(12, 9, 0.1).unwrap();
+    let mut solver = ProjectionStokes::new(grid, 1.0).unwrap();
+    let mut velocity = StaggeredField::zeros(grid);
+    solver.solve(&random_force(grid, 3), &mut velocity).unwrap();
+    assert_eq!(counts(&solver), [1, 3, 3, 0]);
+    solver.pressure(&random_force(grid, 3), &velocity, &mut CentreField::zeros(grid)).unwrap();
+    assert_eq!(counts(&solver), [1, 5, 5, 0]);
+    let grid = Grid::channel(12, 9, 0.1).unwrap();
+    let mut velocity = StaggeredField::zeros(grid);
+    for treatment in [WallTreatment::Exact, WallTreatment::Lagged] {
+        let mut solver = ProjectionStokes::new(grid, 1.0).unwrap();
+        solver.set_wall_treatment(treatment).unwrap();
+        for _ in 0..3 {
+            solver.solve(&random_force(grid, 3), &mut velocity).unwrap();
+        }
+        assert_eq!(counts(&solver), [3, 6, 6, 18]);
+        solver.pressure(&random_force(grid, 3), &velocity, &mut CentreField::zeros(grid)).unwrap();
+        assert_eq!(counts(&solver), [3, 8, 7, 24]);
+    }
+}
+
+#[test]
+fn clones_and_restored_solvers_go_on_with_the_same_bits() {
+    let grid = Grid::channel(20, 7, 0.1).unwrap();
+    let mut solver = lagged(grid, 2.0, Drive::ZeroFlux);
+    for seed in 0..3 {
+        run(&mut solver, &random_force(grid, seed));
+    }
+    let memory = solver.memory().to_vec();
+    let mut copy = solver.clone();
+    let mut restored = lagged(grid, 2.0, Drive::ZeroFlux);
+    restored.set_memory(&memory).unwrap();
+    let mut restored_within = TwoPhaseStokes::new(lagged(grid, 2.0, Drive::ZeroFlux)).unwrap();
+    assert!(restored_within.memory().is_empty());
+    restored_within.set_memory(&memory).unwrap();
+    // What is only computed on request leaves the memory as it is.
+    solver.intermediate_velocity(&random_force(grid, 8), &mut StaggeredField::zeros(grid)).unwrap();
+    solver.potential(&random_force(grid, 8), &mut CentreField::zeros(grid)).unwrap();
+    assert_eq!(solver.memory(), memory);
+    let expected = run(&mut solver, &random_force(grid, 9));
+    assert_eq!(run(&mut copy, &random_force(grid, 9)), expected);
+    assert_eq!(run(&mut restored, &random_force(grid, 9)), expected);
+    assert_eq!(run(&mut restored_within, &random_force(grid, 9)), expected);
+    assert_eq!(restored.memory(), solver.memory());
+    assert_eq!(restored_within.memory(), solver.memory());
+    assert_ne!(solver.memory(), memory);
+}
+
+#[test]
+fn a_viscosity_that_varies_is_solved_around_it_with_exact_walls() {
+    let viscosity = |x: f64, y: f64| 2.0 + (3.0 * x).sin() * y.cos();
+    for walled in [false, true] {
+        let grid = if walled { Grid::channel(20, 14, 0.1) } else { Grid::periodic(20, 14, 0.1) }.unwrap();
+        let mut flow = TwoPhaseStokes::new(ProjectionStokes::new(grid, 1.0).unwrap()).unwrap();
+        let other: Box<dyn StokesSolver> = if walled {
+            Box::new(ChannelStokes::new(grid, 1.0).unwrap())
+        } else {
+            Box::new(PeriodicStokes::new(grid, 1.0).unwrap())
+        };
+        let mut expected = TwoPhaseStokes::new(other).unwrap();
+        flow.set_viscosity(viscosity).unwrap();
+        expected.set_viscosity(viscosity).unwrap();
+        let errors = differences(&mut flow, &mut expected, &random_force(grid, 2));
+        assert!(errors.iter().all(|&e| e < 1e-9), "{errors:?}");
+        assert_eq!(flow.work().iterations, expected.work().iterations);
+    }
+    let grid = Grid::channel(20, 14, 0.1).unwrap();
+    let mut flow = TwoPhaseStokes::new(lagged(grid, 1.0, Drive::ZeroFlux)).unwrap();
+    assert_eq!(flow.set_viscosity(|_, _| 2.0), Err(StokesError::LaggedWalls));
+    assert_eq!(flow.set_viscosity(|_, _| 1.0), Ok(()));
+}
+
+#[test]
+fn forces_on_the_walls_do_nothing() {
+    let grid = Grid::channel(20, 12, 0.1).unwrap();
+    let force = random_force(grid, 3);
+    let mut inner = force.clone();
+    let (_, y) = inner.components_mut();
+    y[..20].fill(f64::NAN);
+    y[240..].fill(f64::NAN);
+    let solver = &mut channel_solver(grid, 3.0, &sliding(&grid), Drive::Flux(0.37));
+    assert_eq!(run(solver, &inner), run(solver, &force));
+}
+
+#[test]
+fn bad_input_ends_in_an_error_that_names_it() {
+    let (periodic, grid) = (Grid::periodic(12, 9, 0.1).unwrap(), Grid::channel(12, 9, 0.1).unwrap());
+    for eta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for grid in [periodic, grid] {
+            let error = ProjectionStokes::new(grid, eta).unwrap_err();
+            assert!(matches!(error, StokesError::Input(InputError::NotPositive { name: "viscosity", .. })), "{error}");
+        }
+    }
+    let mut in_box = ProjectionStokes::new(periodic, 1.0).unwrap();
+    let wrong = Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
+    assert_eq!(in_box.set_drive(Drive::ZeroFlux), wrong);
+    assert_eq!(in_box.set_walls(WallMotion::uniform(&grid, 0.0, 1.0).unwrap()), wrong);
+    assert_eq!(in_box.set_wall_treatment(WallTreatment::Lagged), wrong);
+    assert_eq!(in_box.wall_slip(Wall::Top, &mut [0.0; 12]), wrong);
+    assert_eq!(in_box.wall_treatment(), WallTreatment::Exact);
+    assert!(in_box.set_mean_velocity([f64::NAN, 0.0]).is_err());
+    let mut solver = ProjectionStokes::new(grid, 1.0).unwrap();
+    let wrong = Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
+    assert_eq!(solver.set_mean_velocity([1.0, 0.0]), wrong);
+    assert!(matches!(solver.set_drive(Drive::Flux(f64::NAN)), Err(StokesError::Input(InputError::NotFinite { .. }))));
+    let walls = WallMotion::uniform(&Grid::channel(13, 9, 0.1).unwrap(), 0.0, 1.0).unwrap();
+    let expected = InputError::WrongLength { name: "the wall motion", expected: 12, found: 13 };
+    assert_eq!(solver.set_walls(walls), Err(StokesError::Input(expected)));
+    let expected = InputError::WrongLength { name: "the wall slip", expected: 12, found: 3 };
+    assert_eq!(solver.wall_slip(Wall::Top, &mut [0.0; 3]), Err(StokesError::Input(expected)));
+    assert!(solver.set_memory(&[1.0]).is_err());
+    solver.set_wall_treatment(WallTreatment::Lagged).unwrap();
+    assert!(solver.set_memory(&[1.0]).is_err() && solver.set_memory(&[f64::NAN; 28]).is_err());
+    assert!(solver.memory().is_empty());
+}
+
+#[test]
+fn a_refused_force_leaves_velocity_memory_and_counts_as_they_were() {
+    let (periodic, channel) = (Grid::periodic(12, 9, 0.1).unwrap(), Grid::channel(12, 9, 0.1).unwrap());
+    for mut solver in [ProjectionStokes::new(periodic, 1e-4).unwrap(), lagged(channel, 1e-4, Drive::ZeroGradient)] {
+        let grid = *solver.grid();
+        run(&mut solver, &random_force(grid, 0));
+        let (memory, solves) = (solver.memory().to_vec(), solver.work().solves);
+        let mut velocity = StaggeredField::zeros(grid);
+        let other = Grid::channel(12, 8, 0.1).unwrap();
+        let found = solver.solve(&StaggeredField::zeros(other), &mut velocity);
+        assert_eq!(found, Err(StokesError::GridMismatch { name: "the force" }));
+        let found = solver.solve(&random_force(grid, 1), &mut StaggeredField::zeros(other));
+        assert_eq!(found, Err(StokesError::GridMismatch { name: "the velocity" }));
+        for (bad, along_x) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().zip([true, false, true]) {
+            let mut force = random_force(grid, 1);
+            let (x, y) = force.components_mut();
+            if along_x {
+                x[17] = bad
+            } else {
+                y[17] = bad
+            }
+            let named = |found: Result<(), StokesError>| {
+                matches!(found, Err(StokesError::Input(InputError::NotFinite { name: "the force", .. })))
+            };
+            assert!(named(solver.solve(&force, &mut velocity).map(drop)));
+            assert!(named(solver.pressure(&force, &velocity, &mut CentreField::zeros(grid))));
+            assert!(named(solver.potential(&force, &mut CentreField::zeros(grid))));
+            assert!(named(solver.intermediate_velocity(&force, &mut StaggeredField::zeros(grid))));
+        }
+        let mut force = random_force(grid, 1);
+        force.components_mut().0.iter_mut().for_each(|f| *f *= 1e307);
+        assert_eq!(solver.solve(&force, &mut velocity), Err(StokesError::Overflow { name: "the velocity" }));
+        assert_eq!(velocity, StaggeredField::zeros(grid));
+        assert_eq!((solver.memory(), solver.work().solves), (&memory[..], solves));
     }
 }

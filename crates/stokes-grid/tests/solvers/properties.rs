@@ -2,7 +2,7 @@
 
 use motile_base::Drive;
 use proptest::prelude::*;
-use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver};
+use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver};
 
 use crate::common::{largest, random_force, relative_distance};
 
@@ -17,10 +17,15 @@ fn solvers(nx: usize, ny: usize) -> Vec<Box<dyn StokesSolver>> {
     let (periodic, channel) = (Grid::periodic(nx, ny, 0.2).unwrap(), Grid::channel(nx, ny, 0.2).unwrap());
     let mut closed = ChannelStokes::new(channel, 1.5).unwrap();
     closed.set_drive(Drive::ZeroFlux).unwrap();
+    let mut closed_projection = ProjectionStokes::new(channel, 1.5).unwrap();
+    closed_projection.set_drive(Drive::ZeroFlux).unwrap();
     vec![
         Box::new(PeriodicStokes::new(periodic, 1.5).unwrap()),
         Box::new(ChannelStokes::new(channel, 1.5).unwrap()),
         Box::new(closed),
+        Box::new(ProjectionStokes::new(periodic, 1.5).unwrap()),
+        Box::new(ProjectionStokes::new(channel, 1.5).unwrap()),
+        Box::new(closed_projection),
     ]
 }
 
