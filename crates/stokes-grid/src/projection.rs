@@ -287,4 +287,10 @@ impl StokesSolver for ProjectionStokes {
             _ => Ok(same_length("the memory of a solver without any", 0, memory.len())?),
         }
     }
+
+    fn rewind(&mut self) {
+        if let Method::Channel(channel) = &mut self.method {
+            channel.lagged.rewind();
+        }
+    }
 }

@@ -75,8 +75,8 @@ pub trait StokesSolver: std::fmt::Debug + Send {
         false
     }
 
-    /// Returns the numbers by which the next solution depends on those before it: empty for a solver without memory,
-    /// and for one that has not solved yet.
+    /// Returns the numbers by which the next solution depends on those before it. They are empty for a solver without
+    /// memory, and before the first solution.
     ///
     /// To resume a run with the same bits, save them and hand them to [`StokesSolver::set_memory`].
     fn memory(&self) -> &[f64] {
@@ -90,6 +90,11 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
         Ok(same_length("the memory of a solver without any", 0, memory.len())?)
     }
+
+    /// Takes the last solution back, so that the next one, for the same force, repeats it; does nothing without memory.
+    ///
+    /// Use this to compute the same flow again, for example to sample it, without a step forward in time.
+    fn rewind(&mut self) {}
 }
 
 impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
@@ -136,5 +141,9 @@ impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
 
     fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
         (**self).set_memory(memory)
+    }
+
+    fn rewind(&mut self) {
+        (**self).rewind();
     }
 }

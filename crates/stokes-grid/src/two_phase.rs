@@ -375,6 +375,10 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
         self.solver.set_memory(memory)
     }
+
+    fn rewind(&mut self) {
+        self.solver.rewind();
+    }
 }
 
 /// Scalar product of two fields.
