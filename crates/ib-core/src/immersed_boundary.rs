@@ -5,7 +5,9 @@ mod smeared_contrast;
 pub use smeared_contrast::SmearedContrast;
 
 use motile_base::{Drive, FlowSample, SolveReport, Vec2, all_points_finite, positive, same_length};
-use motile_scene::{Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers};
+use motile_scene::{
+    Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState,
+};
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, sample_flow};
 
 use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
@@ -233,6 +235,8 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         same_length("the samples", points.len(), out.len())?;
         all_points_finite("the points to sample", points)?;
         self.check(markers)?;
+        // The flow that the markers have, even if the solver has a memory.
+        self.solver.rewind();
         self.solve(markers)?;
         let pressure = self.pressure_field().map_err(flow_error)?;
         sample_flow(&self.velocity, &pressure, points, out).map_err(flow_error)
@@ -240,6 +244,26 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn work(&self) -> FlowWork {
         self.work
+    }
+
+    fn save(&self) -> SavedState {
+        SavedState { reals: self.solver.memory().to_vec(), ..SavedState::default() }
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        load_memory(&mut self.solver, &saved.reals);
+    }
+
+    fn rewind(&mut self) {
+        self.solver.rewind();
+    }
+}
+
+/// Restores the memory of a solver; numbers of another solver are of no use, and it starts afresh.
+fn load_memory(solver: &mut impl StokesSolver, memory: &[f64]) {
+    if solver.set_memory(memory).is_err() {
+        let forgotten = solver.set_memory(&[]);
+        debug_assert!(forgotten.is_ok());
     }
 }
 

@@ -182,6 +182,10 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// Takes back what [`Hydrodynamics::save`] wrote. What another flow wrote is of no use and ignored.
     fn load(&mut self, _saved: &SavedState) {}
+
+    /// Takes the last evaluation back, so that the next one, with the same markers, repeats it; by default nothing has
+    /// to be taken back, because evaluations do not depend on each other beyond a tolerance.
+    fn rewind(&mut self) {}
 }
 
 /// Hydrodynamics that were chosen at run time.
@@ -236,5 +240,9 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn load(&mut self, saved: &SavedState) {
         self.as_mut().load(saved);
+    }
+
+    fn rewind(&mut self) {
+        self.as_mut().rewind();
     }
 }

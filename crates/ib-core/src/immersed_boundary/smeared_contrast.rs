@@ -5,7 +5,7 @@ use stokes_grid::{
     CentreField, Grid, NodeField, RealFft2, StaggeredField, StokesError, StokesSolver, Symbol, TwoPhaseStokes,
 };
 
-use super::{flow_error, other_viscosities};
+use super::{flow_error, load_memory, other_viscosities};
 use crate::{ImmersedBoundary, Kernel, Transfer};
 use motile_base::{FlowSample, SolveReport, Vec2};
 use motile_scene::{FlowError, FlowWork, FluidView, Hydrodynamics, Markers, Warning, checkpoint::SavedState};
@@ -226,6 +226,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
             saved.reals.extend_from_slice(solution.y());
             saved.counts.push(solution.x().len() as u64);
         }
+        saved.reals.extend_from_slice(self.flow.solver().memory());
         saved
     }
 
@@ -249,5 +250,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         // All are on the solver's grid.
         let taken = self.flow.solver_mut().set_solutions(&solutions);
         debug_assert!(taken.is_ok());
+        load_memory(self.flow.solver_mut(), values);
+    }
+
+    fn rewind(&mut self) {
+        self.flow.rewind();
     }
 }

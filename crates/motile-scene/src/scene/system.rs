@@ -244,6 +244,7 @@ impl<H: Hydrodynamics> System<H> {
         // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only
         // to the tolerance of its iterations, so those that were found take their place, and so does what the next
         // iteration starts from.
+        self.hydrodynamics.rewind();
         self.compute_flow()?;
         let here = &self.bodies.markers.velocities;
         let fastest = here.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
