@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion};
-use motile::stokes_grid::{Grid, PeriodicStokes, RealFft2, Symbol};
+use motile::stokes_grid::{Grid, PeriodicStokes, ProjectionStokes, RealFft2, Symbol};
 use motile_timing::{PlainPair, print_ratios};
 
 use crate::solve;
@@ -33,12 +33,19 @@ pub(crate) fn benches(criterion: &mut Criterion) {
         let mut plain = PlainPair::new(n, n);
         let mut own = own_pair(n);
         let mut streamfunction = solve(PeriodicStokes::new(grid, 100.0).expect("a solver"));
+        let mut projection = solve(ProjectionStokes::new(grid, 100.0).expect("a solver"));
         group.bench_function(BenchmarkId::new("plain pair", &size), |b| b.iter(|| plain.run()));
         group.bench_function(BenchmarkId::new("own pair", &size), |b| b.iter(&mut own));
         group.bench_function(BenchmarkId::new("streamfunction", &size), |b| b.iter(&mut streamfunction));
+        group.bench_function(BenchmarkId::new("projection", &size), |b| b.iter(&mut projection));
         print_ratios(
             &size,
-            &mut [("plain pair", &mut || plain.run()), ("own pair", &mut own), ("streamfunction", &mut streamfunction)],
+            &mut [
+                ("plain pair", &mut || plain.run()),
+                ("own pair", &mut own),
+                ("streamfunction", &mut streamfunction),
+                ("projection", &mut projection),
+            ],
         );
     }
     group.finish();
