@@ -138,6 +138,10 @@ fn a_swimmer_by_the_method_of_the_thesis() {
     compare(|| scene(&setup), 2.0, StepSize::Fixed(0.01), &stops(6, 80));
     let contrast = filled(1000.0, &setup);
     compare(|| scene(&contrast), 0.4, StepSize::Fixed(0.02), &stops(7, 8));
+    // Walls that lag remember the solution before.
+    let between_walls = Setup { region: channel(2.8, Drive::ZeroGradient), ..setup };
+    compare(|| scene(&between_walls), 1.0, StepSize::Fixed(0.01), &stops(17, 80));
+    compare(|| scene(&between_walls), 1.0, ADAPTIVE, &stops(18, 5));
 }
 
 #[test]

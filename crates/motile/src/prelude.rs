@@ -3,7 +3,7 @@
 
 pub use crate::SetupError;
 pub use crate::setup::{
-    Built, DropletSetup, FlowSetup, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup,
+    Built, DropletSetup, FlowSetup, GridMethod, GridSolver, IntegralMethod, LayersMethod, Method, Particles, Setup,
 };
 pub use motile_base::{Drive, Region, Vec2};
 pub use motile_scene::{Every, Scene, SceneError, StepSize};

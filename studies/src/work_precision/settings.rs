@@ -109,6 +109,7 @@ impl Settings {
             Preset::Default => Setup::default(),
             Preset::Thesis => Setup::thesis(),
         };
+        let grid = if let Method::Grid(grid) = base.method { grid } else { GridMethod::default() };
         let method = match self.flow {
             Flow::Integrals { nodes, elements } => Method::Integral(IntegralMethod { nodes, elements }),
             Flow::Grid { h, ratio } => Method::Grid(GridMethod {
@@ -116,6 +117,7 @@ impl Settings {
                 marker_spacing: Some(ratio * h),
                 kernel: self.kernel,
                 corrected: self.corrected,
+                ..grid
             }),
         };
         Setup { method, step: self.step, ..base }

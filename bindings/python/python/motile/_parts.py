@@ -48,7 +48,7 @@ def layers(**more: Any) -> Part:
 
 
 def grid(**more: Any) -> Part:
-    """Immersed boundary method: `spacing` of the grid and `marker_spacing` (length), `kernel`, `corrected`."""
+    """Immersed boundary method: `spacing` (grid) and `marker_spacing` (length), `kernel`, `corrected`, `solver`."""
     return {"grid": more}
 
 

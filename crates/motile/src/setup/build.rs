@@ -9,11 +9,11 @@ use motile_base::{Region, Vec2, polygon, spectrum::is_product};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
 use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
-use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
+use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesSolver, WallTreatment};
 
 use super::{
-    DropletSetup, DropletShape, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup, Squeezed, Start,
-    droplet::squeezed_sphere, method::MARKERS,
+    DropletSetup, DropletShape, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup,
+    Squeezed, Start, droplet::squeezed_sphere, method::MARKERS,
 };
 use crate::SetupError;
 
@@ -231,13 +231,20 @@ impl Setup {
         Ok(match &self.method {
             Method::Integral(method) => self.integrals(method)?,
             Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => Box::new(ImmersedLayers::new(
-                self.solver(if self.spreads() { 0.5 * spacing } else { *spacing })?,
+                self.streamfunction(if self.spreads() { 0.5 * spacing } else { *spacing })?,
                 *kernel,
                 *nodes,
                 self.tolerance.unwrap_or(LAYER_TOLERANCE),
             )?),
             Method::Grid(grid) => {
-                let solver = self.solver(grid.spacing)?;
+                let solver = match grid.solver {
+                    GridSolver::Streamfunction => self.streamfunction(grid.spacing)?,
+                    GridSolver::Projection => self.projection(grid.spacing, WallTreatment::Exact)?,
+                    GridSolver::LaggedProjection if self.iterates() => {
+                        self.projection(grid.spacing, WallTreatment::Exact)?
+                    }
+                    GridSolver::LaggedProjection => self.projection(grid.spacing, WallTreatment::Lagged)?,
+                };
                 if grid.corrected {
                     Box::new(ImmersedBoundary::new(solver, grid.kernel))
                 } else {
@@ -252,8 +259,26 @@ impl Setup {
         self.solids.iter().any(|solid| solid.spread_over_triangles)
     }
 
+    /// True if a flow is found by iterations on a grid: with other viscosities and with solids that damp.
+    fn iterates(&self) -> bool {
+        let damps = |solid: &SolidSetup| solid.viscosity.is_some_and(|own| own > self.viscosity);
+        self.has_contrast() || self.solids.iter().any(damps)
+    }
+
+    /// The projection solver on a grid; boxed like the other one.
+    fn projection(&self, spacing: f64, treatment: WallTreatment) -> Result<Box<dyn StokesSolver>, SetupError> {
+        let [nx, ny] = self.cells(spacing, self.region.lengths())?;
+        let Region::Channel { drive, .. } = self.region else {
+            return Ok(Box::new(ProjectionStokes::new(Grid::periodic(nx, ny, spacing)?, self.viscosity)?));
+        };
+        let mut solver = ProjectionStokes::new(Grid::channel(nx, ny, spacing)?, self.viscosity)?;
+        solver.set_drive(drive)?;
+        solver.set_wall_treatment(treatment)?;
+        Ok(Box::new(solver))
+    }
+
     /// A solver on a grid; boxed, so that methods are compiled once, not once for each kind.
-    fn solver(&self, spacing: f64) -> Result<Box<dyn StokesSolver>, SetupError> {
+    fn streamfunction(&self, spacing: f64) -> Result<Box<dyn StokesSolver>, SetupError> {
         let [nx, ny] = self.cells(spacing, self.region.lengths())?;
         if let Region::Channel { drive, .. } = self.region {
             let mut solver = ChannelStokes::new(Grid::channel(nx, ny, spacing)?, self.viscosity)?;

@@ -170,19 +170,45 @@ pub struct GridMethod {
     /// wrong sign. The correction needs markers of equal spacing, see [`active_interface::Motion`], and one viscosity,
     /// and is refused beside solids.
     pub corrected: bool,
+    /// Solver of the Stokes equations on the grid.
+    pub solver: GridSolver,
 }
 
 impl Default for GridMethod {
     fn default() -> Self {
-        Self { spacing: 0.05, marker_spacing: None, kernel: AnyKernel::BSpline4, corrected: true }
+        let solver = GridSolver::default();
+        Self { spacing: 0.05, marker_spacing: None, kernel: AnyKernel::BSpline4, corrected: true, solver }
     }
 }
 
+/// Solver of the Stokes equations on a grid.
+///
+/// Apart from lagged walls, all give the same flow to round-off, so choose by cost; see
+/// [`stokes_grid::ProjectionStokes`] for numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum GridSolver {
+    /// The streamfunction, which is fastest ([`stokes_grid::PeriodicStokes`], [`stokes_grid::ChannelStokes`]).
+    #[default]
+    Streamfunction,
+    /// Cowley's projection with exact no-slip walls ([`stokes_grid::ProjectionStokes`]).
+    Projection,
+    /// Cowley's projection as in the thesis: in a channel, wall values come from the solution before
+    /// ([`stokes_grid::WallTreatment::Lagged`]), so that fluid slips along walls at first order in the time step.
+    ///
+    /// Walls are exact all the same if droplets have another viscosity, or if solids damp: flows of these are iterated,
+    /// and the iteration needs solutions that do not depend on each other. In a box there are no walls, and nothing
+    /// lags.
+    LaggedProjection,
+}
+
 impl GridMethod {
-    /// Cowley's grid: Peskin's 4-point function, no mobility correction, h = 0.05, markers h/2 apart.
+    /// Cowley's grid: the projection method with lagged walls, Peskin's 4-point function, no mobility correction,
+    /// h = 0.05, markers h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
-        Self { kernel: AnyKernel::Peskin4, corrected: false, ..Self::default() }
+        Self { kernel: AnyKernel::Peskin4, corrected: false, solver: GridSolver::LaggedProjection, ..Self::default() }
     }
 
     /// The default on a grid of this spacing (length).

@@ -29,7 +29,7 @@ pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
 pub use grading::{Axis, Grading};
 pub use interface::{ElasticitySetup, InterfaceSetup, InterfaceShape, Side};
-pub use method::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind};
+pub use method::{GridMethod, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use numbers::Numbers;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;

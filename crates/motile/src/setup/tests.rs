@@ -672,6 +672,63 @@ fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
     assert!(refused(&pulled).starts_with("shells[0].bending = -1"), "{}", refused(&pulled));
 }
 
+#[cfg(feature = "toml")]
+#[test]
+fn the_solver_on_a_grid_is_chosen_by_its_key() {
+    let scene = |solver: &str| {
+        let grid = format!("{{ spacing = 0.2, corrected = false, solver = \"{solver}\" }}");
+        Setup::from_toml(&format!("region.channel = {{ length = 4.0, width = 2.4 }}\nmethod = {{ grid = {grid} }}"))
+    };
+    let solvers = [GridSolver::Streamfunction, GridSolver::Projection, GridSolver::LaggedProjection];
+    let names = ["streamfunction", "projection", "lagged-projection"];
+    for (solver, name) in solvers.into_iter().zip(names) {
+        let Method::Grid(grid) = scene(name).unwrap().method else { panic!("another method") };
+        assert_eq!(grid.solver, solver);
+    }
+    assert_eq!(GridMethod::default().solver, GridSolver::Streamfunction);
+    assert_eq!(GridMethod::thesis().solver, GridSolver::LaggedProjection);
+    let error = scene("spectral").unwrap_err().to_string();
+    assert!(error.contains("spectral") && error.contains("lagged-projection"), "{error}");
+}
+
+/// A droplet in a channel or box by each solver, in steps of 0.01; returns its markers and transforms per evaluation.
+fn swum(setup: &Setup, solver: GridSolver) -> (Vec<Vec2>, usize) {
+    let grid = GridMethod { spacing: 0.2, solver, ..GridMethod::thesis() };
+    let setup = Setup { method: Method::Grid(grid), step: StepSize::Fixed(0.01), ..setup.clone() };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    scene.run(0.2).go().unwrap();
+    let work = scene.system().hydrodynamics().work();
+    (scene.body(droplets[0]).unwrap().markers().to_vec(), work.transforms / work.evaluations)
+}
+
+fn farthest(one: &[Vec2], other: &[Vec2]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn scenes_by_projection_are_those_by_streamfunction_except_for_lagging_walls() {
+    use GridSolver::{LaggedProjection, Projection, Streamfunction};
+    let in_box = Setup::thesis();
+    let in_channel = Setup { region: channel(2.4), ..Setup::thesis() };
+    for (setup, transforms, lags) in [(&in_box, 6, false), (&in_channel, 4, true)] {
+        let (expected, pair) = swum(setup, Streamfunction);
+        let (exact, found) = swum(setup, Projection);
+        let (lagged, _) = swum(setup, LaggedProjection);
+        assert_eq!((pair, found), (2, transforms));
+        assert!(farthest(&exact, &expected) < 1e-11, "{:e}", farthest(&exact, &expected));
+        let lag = farthest(&lagged, &exact);
+        if lags {
+            assert!((1e-7..1e-3).contains(&lag), "{lag:e}");
+        } else {
+            assert_eq!(lag, 0.0);
+        }
+    }
+    // Flows that are iterated have exact walls.
+    let droplet = DropletSetup { viscosity: Some(300.0), ..DropletSetup::thesis() };
+    let contrast = Setup { droplets: vec![droplet], ..in_channel };
+    assert_eq!(swum(&contrast, LaggedProjection).0, swum(&contrast, Projection).0);
+}
+
 #[test]
 fn fingerprints_tell_scenes_apart_but_not_steps() {
     let setup = Setup::default();
