@@ -12,8 +12,8 @@ use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, StokesSolv
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
 /// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. The discrete
-/// solution is that of Cowley's projection (2.21)-(2.30), by one forward and one inverse transform of a real field in
-/// place of three and three.
+/// solution is that of Cowley's projection (2.21)-(2.30), [`crate::ProjectionStokes`], by one forward and one inverse
+/// transform of a real field in place of three and three.
 ///
 /// **Mean force and mean velocity.** The velocity has exactly the mean that [`PeriodicStokes::set_mean_velocity`]
 /// prescribes, zero by default. A uniform force moves nothing: it is balanced by a uniform pressure gradient,

@@ -26,6 +26,82 @@ use periodic::PeriodicProjection;
 ///
 /// In a channel, Fourier transforms along x go with the sine and cosine transforms across (appendix 3.A). The thesis
 /// prints (2.30) without the minus sign, which the momentum balance needs.
+///
+/// # When to use which solver
+///
+/// Use [`crate::PeriodicStokes`] or [`crate::ChannelStokes`] to compute: with exact walls, the projection solves the
+/// same discrete equations, so both give the same velocity and pressure to round-off. The streamfunction needs a third
+/// of the transforms in a box, and none across a channel. Use this solver to reproduce the thesis, to compare speeds
+/// with its method, and to check the other solvers by a method that shares nothing with them.
+///
+/// Errors and costs, measured side by side. Errors are the largest ones of the x velocity against exact smooth flows
+/// (`a_box_is_solved_to_second_order` and the tests around it). Costs in a box are in pairs of a forward and an inverse
+/// real transform of the field. In a channel they are in pairs of transforms along x alone (`cargo bench --bench
+/// solvers`).
+///
+/// | region, cells | solver | error | transforms forward, inverse, across | cost |
+/// |---|---|---|---|---|
+/// | box, 128 x 128 | streamfunction | 1.24e-3 | 1, 1, 0 | 1.1 |
+/// | box, 128 x 128 | projection | 1.24e-3 | 3, 3, 0 | 3.1 |
+/// | box, 1024 x 1024 | streamfunction | second order | 1, 1, 0 | 0.8 |
+/// | box, 1024 x 1024 | projection | second order | 3, 3, 0 | 2.2 |
+/// | channel, 160 x 160 (cost: 240 x 100) | streamfunction | 1.83e-4 | 1, 1, 0 | 2.0 |
+/// | channel, 160 x 160 (cost: 240 x 100) | projection, exact walls | 1.83e-4 | 2, 2, 6 | 12.6 |
+/// | channel, 24 x 8, 100 steps | projection, lagged walls | 3.3e-5 of lag | 2, 2, 6 | 12.6 |
+///
+/// A lag of the walls adds an error that is proportional to the time step: 3.3e-5, 1.7e-5 and 8.4e-6 of the largest
+/// velocity in 100, 200 and 400 steps over a force that changes within the time 1.
+///
+/// # Walls of a channel
+///
+/// [`WallTreatment`] says how the walls are kept free of slip. Walls may slide, uniformly or as functions of x
+/// ([`WallMotion`]). Forces along y in the first and last row lie on the walls, which take up any force; they are
+/// ignored. [`Drive`] prescribes the mean pressure gradient or the flux along the channel.
+///
+/// **Lagged walls remember.** With [`WallTreatment::Lagged`] a solution depends on the one before, so the order of
+/// solutions matters. The first solution is exact, because there is none before it. A clone remembers what the original
+/// does. With several solutions per time step, such as the stages of an integrator, each lags behind the stage before
+/// it. To resume a run with the same bits, save [`StokesSolver::memory`]. To compute the same flow again without a step
+/// forward, call [`StokesSolver::rewind`]. What is computed on request ([`StokesSolver::pressure`],
+/// [`ProjectionStokes::potential`], [`ProjectionStokes::intermediate_velocity`]) uses the wall values of the last
+/// solution and changes nothing.
+///
+/// # Periodic box
+///
+/// The velocity has exactly the mean that [`ProjectionStokes::set_mean_velocity`] prescribes, zero by default. A uniform
+/// pressure gradient balances a mean force. With the feature `rayon`, boxes of 800,000 cells or more use the threads of
+/// the current pool, with bitwise identical results for any number of them.
+///
+/// # Sizes
+///
+/// Any numbers of cells work. Numbers without prime factors other than 2, 3, 5, 7 and 11 are fast, in both directions.
+///
+/// # Example
+///
+/// Both solvers compute Couette flow between a wall at rest and a wall that slides with the velocity 2. They differ by
+/// round-off.
+///
+/// ```
+/// use stokes_grid::{ChannelStokes, Grid, ProjectionStokes, StaggeredField, StokesSolver, WallMotion};
+///
+/// let grid = Grid::channel(16, 10, 0.1)?;
+/// let (mut projection, mut streamfunction) = (ProjectionStokes::new(grid, 3.0)?, ChannelStokes::new(grid, 3.0)?);
+/// projection.set_walls(WallMotion::uniform(&grid, 0.0, 2.0)?)?;
+/// streamfunction.set_walls(WallMotion::uniform(&grid, 0.0, 2.0)?)?;
+/// let mut force = StaggeredField::zeros(grid);
+/// force.components_mut().1[5 * 16 + 3] = 400.0;
+///
+/// let (mut velocity, mut expected) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
+/// projection.solve(&force, &mut velocity)?;
+/// streamfunction.solve(&force, &mut expected)?;
+/// println!("velocity at the force: {:.4}", velocity.y()[5 * 16 + 3]);
+/// assert_eq!(format!("{:.4}", velocity.y()[5 * 16 + 3]), "0.2768");
+/// assert!(velocity.x().iter().zip(expected.x()).all(|(u, v)| (u - v).abs() < 1e-13));
+///
+/// let work = projection.work();
+/// assert_eq!((work.forward_transforms, work.inverse_transforms, work.sine_cosine_transforms), (2, 2, 6));
+/// # Ok::<(), stokes_grid::StokesError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct ProjectionStokes {
     grid: Grid,
@@ -251,8 +327,8 @@ impl StokesSolver for ProjectionStokes {
         Ok(SolveReport { mean_pressure_gradient, ..SolveReport::default() })
     }
 
-    /// Computes `-eta lap phi` from the force; the velocity is not needed. With lagged walls, the wall values are those
-    /// of the last solution.
+    /// Computes `-eta lap phi` from the force; the velocity is not needed. With lagged walls, it uses the wall
+    /// values of the last solution.
     fn pressure(
         &mut self,
         force: &StaggeredField,

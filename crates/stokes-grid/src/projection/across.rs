@@ -24,9 +24,9 @@ pub(crate) struct Across {
     k: f64,
     /// Force, then intermediate velocity along x, in the cells.
     pub(crate) u: Vec<f64>,
-    /// Force, then coefficients of the intermediate velocity along y; in the end that itself, on the inner nodes.
+    /// Force, then coefficients of the intermediate velocity along y, and finally its values on the inner nodes.
     pub(crate) v: Vec<f64>,
-    /// Coefficients of the potential, in the end that itself, in the cells.
+    /// Coefficients of the potential, and finally its values in the cells.
     pub(crate) phi: Vec<f64>,
 }
 

@@ -12,7 +12,7 @@ use crate::channel::MeanFlow;
 use crate::transform::{RowTransform, second_difference};
 use crate::{CentreField, Grid, StaggeredField, StokesError, Wall, WallMotion, WallTreatment, Work};
 
-/// The projection method in a channel: transforms along x, and for each wave number those of [`Across`].
+/// The projection method in a channel: transforms along x, and for each wave number the transforms of [`Across`].
 ///
 /// First the intermediate velocity is zero on the walls, and its projection slips along them with the velocity
 /// `k phi`. Whatever the intermediate velocity is on the walls adds a Stokes flow between moving walls, which
@@ -29,7 +29,7 @@ pub(crate) struct ChannelProjection {
     wall_spectra: [Vec<Complex64>; 2],
     rows: RowTransform,
     across: Across,
-    /// Those of wave numbers from 1 on.
+    /// Responses to the walls at the wave numbers 1, 2, ...
     responses: Vec<WallResponse>,
     mean: MeanFlow,
     mean_u: Vec<f64>,
@@ -191,8 +191,8 @@ impl ChannelProjection {
         }
     }
 
-    /// Everything between the transforms along x: leaves the spectra of vectors in `u` and `v`, or that of a scalar in
-    /// `u`; returns the mean pressure gradient.
+    /// Everything between the transforms along x: leaves the spectra of vectors in `u` and `v`, or the spectrum of a scalar
+    /// in `u`; returns the mean pressure gradient.
     fn columns(&mut self, force: &StaggeredField, goal: Goal, work: &mut Work) -> f64 {
         self.transform_force(force);
         let vectors = matches!(goal, Goal::Velocity | Goal::Intermediate);

@@ -8,7 +8,7 @@ const NUMBERS: usize = 4;
 /// Values of the intermediate velocity at both walls, in the solution before and for the next one.
 #[derive(Debug, Clone)]
 pub(crate) struct LaggedWalls {
-    /// Solutions so far, two for more; then the values for the next solution, then those of the last one.
+    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one.
     numbers: Vec<f64>,
     /// The same values after the present solution.
     coming: Vec<f64>,
@@ -36,7 +36,7 @@ impl LaggedWalls {
         Ok(())
     }
 
-    /// Takes back the last solution, so that the next one starts from the same values; that of the first one from none.
+    /// Takes back the last solution, so that the next one starts from the same values. The first solution starts from none.
     pub(crate) fn rewind(&mut self) {
         if self.numbers[0] < 2.0 {
             self.numbers[0] = 0.0;
