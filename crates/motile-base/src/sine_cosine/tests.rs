@@ -86,18 +86,18 @@ fn second_differences_become_factors() {
     };
     let f = values(len);
     let (first, last) = (f[0], f[len - 1]);
-    let check = |mut transform: Box<dyn FnMut(&mut [f64])>, ends: [f64; 2], n0: usize, cells: usize| {
+    let check = |transform: &mut dyn FnMut(&mut [f64]), ends: [f64; 2], n0: usize, cells: usize| {
         let (mut of_f, mut of_difference) = (f.clone(), difference(&f, ends[0], ends[1]));
         transform(&mut of_f);
         transform(&mut of_difference);
         assert_close(&of_difference, |k| eigenvalue(k + n0, cells) * of_f[k], 1.0, &format!("{n0}, {cells}"));
     };
     let mut cosines = CosineTransform::new(len).unwrap();
-    check(Box::new(move |f| cosines.forward(f).unwrap()), [first, last], 0, len);
+    check(&mut |f| cosines.forward(f).unwrap(), [first, last], 0, len);
     let mut sines = SineTransform::new(len).unwrap();
-    check(Box::new(move |f| sines.forward(f).unwrap()), [-first, -last], 1, len);
+    check(&mut |f| sines.forward(f).unwrap(), [-first, -last], 1, len);
     let mut nodes = NodeSineTransform::new(len).unwrap();
-    check(Box::new(move |f| nodes.transform(f).unwrap()), [0.0, 0.0], 1, len + 1);
+    check(&mut |f| nodes.transform(f).unwrap(), [0.0, 0.0], 1, len + 1);
 }
 
 #[test]

@@ -413,9 +413,9 @@ fn a_refused_force_leaves_velocity_memory_and_counts_as_they_were() {
             let mut force = random_force(grid, 1);
             let (x, y) = force.components_mut();
             if along_x {
-                x[17] = bad
+                x[17] = bad;
             } else {
-                y[17] = bad
+                y[17] = bad;
             }
             let named = |found: Result<(), StokesError>| {
                 matches!(found, Err(StokesError::Input(InputError::NotFinite { name: "the force", .. })))
