@@ -89,8 +89,8 @@ mod field;
 mod grid;
 mod kinematics;
 mod periodic;
-mod sampling;
 mod projection;
+mod sampling;
 mod solver;
 mod stencil;
 mod transform;
@@ -104,12 +104,12 @@ pub use grid::Grid;
 pub use kinematics::{
     divergence, flux, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
-pub use sampling::{sample_flow, sample_pressure};
 pub use motile_base::{
     CosineTransform, Drive, FlowSample, InputError, NodeSineTransform, SineTransform, SolveReport, Vec2,
 };
 pub use periodic::PeriodicStokes;
 pub use projection::{ProjectionStokes, WallTreatment};
+pub use sampling::{sample_flow, sample_pressure};
 pub use solver::{StokesSolver, Work};
 pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;
