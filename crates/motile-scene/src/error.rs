@@ -106,6 +106,9 @@ impl FlowError {
         if let Self::Count { body, .. } | Self::NonFinite { body, .. } | Self::BeyondWall { body, .. } = &mut self {
             *body = number(*body);
         }
+        if let Self::Layers(LayerError::ThinFilm { curve, .. }) = &mut self {
+            *curve = number(*curve);
+        }
         self
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile_base::{
-    Vec2, same_length,
+    InputError, Vec2, same_length,
     spectrum::{copy_band, differentiate, largest_wave},
 };
 use num_complex::Complex64;
@@ -13,7 +13,7 @@ use crate::{
     calculus::MOST_POINTS,
     error::finite_vectors,
     greens::{GreensFunction, Vectors, half_turns},
-    transforms::{Transform, Transforms},
+    transforms::{REFINEMENT, Transform, Transforms},
 };
 use motile_base::{Region, widely};
 
@@ -116,6 +116,12 @@ pub(crate) struct Curve {
     pub(crate) fine: Samples,
     /// True once the fine nodes belong to the present shape.
     refined: bool,
+    /// Samples of the present shape finer than the fine nodes, for the images in a wall that is close, and a density of
+    /// the double layer there; used where `factor` is above [`REFINEMENT`].
+    finer: Samples,
+    finer_density: Vec<Complex64>,
+    /// Nodes in place of each node that the images in walls are summed over.
+    factor: usize,
     /// Second derivative of the position by the parameter at the nodes (length).
     second: Vec<Complex64>,
     /// Largest distance between neighbouring nodes along the curve (length).
@@ -144,6 +150,18 @@ impl Curve {
     /// The nodes or the fine nodes.
     pub(crate) fn samples(&self, fine: bool) -> &Samples {
         if fine { &self.fine } else { &self.nodes }
+    }
+
+    /// The samples that images in walls are summed over: the nodes, or the fine nodes and where these are too far apart
+    /// for the gap finer ones.
+    pub(crate) fn wall_samples(&self, fine: bool) -> &Samples {
+        if fine && self.factor > REFINEMENT { &self.finer } else { self.samples(fine) }
+    }
+
+    /// The density of the double layer at the samples of [`Curve::wall_samples`] other than nodes, `fine` being that at
+    /// the fine nodes.
+    pub(crate) fn wall_density<'a>(&'a self, fine: &'a [Complex64]) -> &'a [Complex64] {
+        if self.factor > REFINEMENT { &self.finer_density } else { fine }
     }
 
     /// True for an open curve, which continues periodically.
@@ -233,6 +251,7 @@ impl Curve {
         self.radius = self.nodes.position.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
         self.spacing = self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
         self.refined = false;
+        self.factor = 1;
         if self.is_open() || self.signed_area() > 0.0 { Ok(()) } else { Err(LayerError::Clockwise { curve }) }
     }
 
@@ -245,6 +264,25 @@ impl Curve {
                 self.fine.half_turns.extend(self.fine.position.iter().map(|z| half_turns(*z, k)));
             }
             self.refined = true;
+        }
+    }
+
+    /// Sums images in walls over so many nodes in place of each node from now on: a number above that of the fine nodes
+    /// takes samples of its own.
+    pub(crate) fn refine_for_walls(&mut self, transforms: &mut Transforms, factor: usize) -> Result<(), InputError> {
+        self.factor = factor;
+        if factor > REFINEMENT {
+            self.finer.fill(transforms.finer(factor)?, [&self.shape, &self.force], self.period, None);
+        }
+        Ok(())
+    }
+
+    /// Takes over a density of the double layer at the nodes, x then y, for the images in walls.
+    pub(crate) fn set_wall_density(&mut self, transforms: &mut Transforms, values: &[f64]) {
+        if self.factor > REFINEMENT {
+            self.finer_density.resize(self.factor * self.len(), Complex64::default());
+            // The transform is there since the samples were taken, so that this cannot fail.
+            let _ = transforms.at_finer(self.factor, values, &mut self.finer_density);
         }
     }
 
@@ -266,6 +304,11 @@ impl Curve {
     pub(crate) fn refine_forces(&mut self, transforms: &mut Transforms) {
         if self.refined {
             self.fine.fill_force(&mut transforms.fine, &self.force);
+        }
+        if self.factor > REFINEMENT
+            && let Ok(transform) = transforms.finer(self.factor)
+        {
+            self.finer.fill_force(transform, &self.force);
         }
         self.refine(transforms);
     }

@@ -83,6 +83,25 @@ pub enum LayerError {
         /// Distance that passes for round-off (length).
         allowed: f64,
     },
+    /// A film between a wall and a rigid body that the nodes of the body do not resolve.
+    #[error(
+        "the gap between rigid body {curve} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
+         so narrow a gap, and its speed would be off by more than 1 %. Use {needed} nodes or more, or keep the body \
+         away from the wall",
+        told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
+    )]
+    ThinFilm {
+        /// Number of the curve.
+        curve: usize,
+        /// The gap (length).
+        gap: f64,
+        /// The narrowest gap that the nodes resolve (length).
+        least: f64,
+        /// Number of nodes.
+        nodes: usize,
+        /// Number of nodes that resolve the gap.
+        needed: usize,
+    },
     /// Rigid walls in a region that is no channel.
     #[error("rigid walls and obstacles need a channel around them: use a channel wider than they are")]
     NoChannel,

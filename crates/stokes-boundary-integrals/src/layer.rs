@@ -462,9 +462,11 @@ impl Layers {
         let len = REFINEMENT * nodes;
         self.fine.resize(len * density.contrasts.len(), Complex64::default());
         let values = density.values.chunks_exact((2 * nodes).max(1));
-        let all = self.fine.chunks_exact_mut(len.max(1)).zip(values).zip(&self.curves).enumerate();
+        let all = self.fine.chunks_exact_mut(len.max(1)).zip(values).zip(&mut self.curves).enumerate();
         for (_, ((fine, values), curve)) in all.filter(|(index, _)| of(*index)) {
-            self.plans[curve.plan].transforms.at_fine(values, fine);
+            let transforms = &mut self.plans[curve.plan].transforms;
+            transforms.at_fine(values, fine);
+            curve.set_wall_density(transforms, values);
         }
     }
 

@@ -43,6 +43,7 @@ impl Transform {
 pub(crate) struct Transforms {
     pub(crate) nodes: Transform,
     pub(crate) fine: Transform,
+    finer: Vec<Transform>,
     points: Vec<Transform>,
     buffer: Vec<Complex64>,
     spectrum: Vec<Complex64>,
@@ -53,10 +54,22 @@ impl Transforms {
         Ok(Self {
             nodes: Transform::new(nodes)?,
             fine: Transform::new(REFINEMENT.saturating_mul(nodes))?,
+            finer: Vec::new(),
             points: Vec::new(),
             buffer: Vec::new(),
             spectrum: vec![Complex64::default(); nodes],
         })
+    }
+
+    /// The transform of the values at so many nodes in place of each node, made at the first use of a number.
+    pub(crate) fn finer(&mut self, factor: usize) -> Result<&mut Transform, InputError> {
+        let len = factor.saturating_mul(self.nodes.len());
+        let known = self.finer.iter().position(|plan| plan.len() == len);
+        if known.is_none() {
+            self.finer.push(Transform::new(len)?);
+        }
+        let index = known.unwrap_or(self.finer.len() - 1);
+        Ok(&mut self.finer[index])
     }
 
     /// The transform of `len` values at points with a buffer of that length, made at the first use of a length.
@@ -129,5 +142,12 @@ impl Transforms {
     pub(crate) fn at_fine(&mut self, values: &[f64], out: &mut [Complex64]) {
         copy_band(self.coefficients(values), out, largest_wave(values.len() / 2));
         self.fine.inverse(out);
+    }
+
+    /// Values at so many nodes in place of each node, from values at nodes, x then y.
+    pub(crate) fn at_finer(&mut self, factor: usize, values: &[f64], out: &mut [Complex64]) -> Result<(), InputError> {
+        copy_band(self.coefficients(values), out, largest_wave(values.len() / 2));
+        self.finer(factor)?.inverse(out);
+        Ok(())
     }
 }

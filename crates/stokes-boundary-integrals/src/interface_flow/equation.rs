@@ -168,6 +168,9 @@ impl Equation {
         // Of few interfaces the iteration finds the rigid motions by itself.
         let preconditioned = layers.sums_fast();
         let finest = if preconditioned { layers.sharpness * tolerance } else { tolerance };
+        // In a film next to a rigid body the sides cancel but for a small part, which products must not lose at any
+        // iteration.
+        let rigid = sides.iter().any(|sides| sides.is_rigid());
         if preconditioned {
             operator.scale_motions(&layers.curves, solution, f64::recip);
         }
@@ -179,7 +182,8 @@ impl Equation {
                 operator.scale_motions(&layers.curves, scaled, |factor| factor);
                 v = scaled;
             }
-            operator.apply(layers, walls.as_deref_mut(), v, accuracy.max(finest), out);
+            let accuracy = if rigid { finest } else { accuracy.max(finest) };
+            operator.apply(layers, walls.as_deref_mut(), v, accuracy, out);
         };
         let mut outcome = gmres.solve(&mut product, right, solution, goal, most_iterations);
         while outcome.iterations > TRUSTED {
