@@ -1,9 +1,12 @@
 //! The fastest decay of displacements of markers under a law for their forces.
 
+mod tree;
+
 use std::f64::consts::PI;
 
 use crate::FluidView;
 use motile_base::Vec2;
+use tree::Tree;
 
 /// Fewest and most evaluations of the law.
 const EVALUATIONS: [usize; 2] = [10, 30];
@@ -11,7 +14,7 @@ const EVALUATIONS: [usize; 2] = [10, 30];
 const PERTURBATION: f64 = 1e-6;
 /// Part of the estimate that may be missing when it is taken.
 const TOLERANCE: f64 = 0.1;
-/// Most markers of which every pair is looked at in each iteration: beyond that it costs more than steps do.
+/// Most markers of which every pair is summed by itself.
 const MOST_PAIRED: usize = 1000;
 
 /// Mobility of markers, from above: forces at the distance r move a marker by `(ln(L/r) + 1)/(4 pi eta)`, with the
@@ -48,6 +51,19 @@ impl<'a> Mobility<'a> {
         self.at(self.finest).max(self.positions.len() as f64 * self.at(self.gyration.max(self.finest)))
     }
 
+    /// [`Mobility::at`] with its derivative, forces within the resolution counting as that far away.
+    fn with_slope(&self, r: f64) -> [f64; 2] {
+        let flat = r < self.finest || r > self.width || r == 0.0;
+        [self.at(r.max(self.finest)), if flat { 0.0 } else { -1.0 / (4.0 * PI * self.viscosity * r) }]
+    }
+
+    /// Turns forces at many markers into velocities.
+    fn apply_tree(&self, tree: &Tree<'_>, forces: &[Vec2], velocities: &mut [Vec2]) {
+        tree.sum(forces, |r| self.with_slope(r), velocities);
+        let own = self.at(self.finest);
+        velocities.iter_mut().zip(forces).for_each(|(velocity, force)| *velocity += own * *force);
+    }
+
     /// Turns forces at all markers into velocities.
     fn apply(&self, forces: &[Vec2], velocities: &mut [Vec2]) {
         let own = self.at(self.finest);
@@ -62,11 +78,12 @@ impl<'a> Mobility<'a> {
     }
 
     /// The fastest decay of displacements under a law (1/time): the largest eigenvalue of the mobility times the
-    /// derivative of the forces, by the power method. Of more than [`MOST_PAIRED`] markers the product of the largest
-    /// ones of both.
+    /// derivative of the forces, by the power method. Of more than [`MOST_PAIRED`] markers, those far away are taken
+    /// together.
     pub(super) fn fastest_decay(&self, law: &mut dyn FnMut(&[Vec2], &mut [Vec2])) -> f64 {
         if self.positions.len() > MOST_PAIRED {
-            self.largest() * self.power_method(law, |forces, out| out.copy_from_slice(forces))
+            let tree = Tree::new(self.positions);
+            self.power_method(law, |forces, out| self.apply_tree(&tree, forces, out))
         } else {
             self.power_method(law, |forces, out| self.apply(forces, out))
         }
