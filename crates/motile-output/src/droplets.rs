@@ -9,13 +9,18 @@ use motile::scene::{Handle, Hydrodynamics, Observer, System};
 use crate::trajectory::meter::DropletMeter;
 use crate::{CsvTable, OutputError};
 
+/// Column of the number of the droplet.
+const DROPLET: &str = "droplet";
+
 /// Observer that measures all droplets and writes their observables to one CSV file, at each call a row for each of
 /// them.
 ///
 /// The columns are `time`, `droplet` (the [`Handle::index`] of the droplet in its scene) and the observables of
-/// [`crate::TrajectoryCsv`] without those of solids and of particles inside. Centroids `x` and `y` (length) are not
+/// [`crate::TrajectoryCsv`] without those of solids and of particles inside: all that some droplet has, with empty fields
+/// for a droplet that lacks them. Centroids `x` and `y` (length) are not
 /// wrapped: a droplet that leaves a periodic region on one side goes on beyond it, and does not return on the other.
-/// Droplets that are added or removed during the run have rows for as long as they are there.
+/// Droplets that are added or removed during the run have rows for as long as they are there; one that is added may not
+/// have observables that no droplet had at the start.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -45,10 +50,14 @@ impl DropletsCsv {
     /// [`OutputError::Empty`]: a scene without droplets; [`OutputError::Write`]; [`OutputError::Observer`]: a state
     /// that cannot be measured.
     pub fn create<H: Hydrodynamics>(path: impl AsRef<Path>, system: &mut System<H>) -> Result<Self, OutputError> {
-        let first = system.bodies::<ActiveDroplet>().next().map(|(handle, _)| handle);
-        let first = first.ok_or(OutputError::Empty("a table of a scene without droplets"))?;
-        let mut names = DropletMeter::of(system, first)?.names().to_vec();
-        names.insert(1, "droplet");
+        let mut names = Vec::new();
+        for droplet in all(system) {
+            merge(&mut names, DropletMeter::of(system, droplet)?.names());
+        }
+        if names.is_empty() {
+            return Err(OutputError::Empty("a table of a scene without droplets"));
+        }
+        names.insert(1, DROPLET);
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of all droplets")? })
     }
 
@@ -61,14 +70,34 @@ impl DropletsCsv {
 
 impl<H: Hydrodynamics> Observer<H> for DropletsCsv {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn Error + Send + Sync>> {
-        let droplets: Vec<Handle<ActiveDroplet>> = system.bodies().map(|(handle, _)| handle).collect();
+        let droplets = all(system);
         let mut rows = Vec::with_capacity(droplets.len());
         for droplet in droplets {
             let meter = DropletMeter::of(system, droplet)?;
-            let mut row = meter.row(&meter.record(system)?);
-            row.insert(1, droplet.index() as f64);
-            rows.push(row);
+            let values = meter.row(&meter.record(system)?);
+            let named = meter.names().iter().copied().zip(values).chain([(DROPLET, droplet.index() as f64)]);
+            rows.push(self.table.row(named)?);
         }
         Ok(self.table.push_rows(system, &rows)?)
     }
 }
+
+/// All droplets.
+fn all<H: Hydrodynamics>(system: &System<H>) -> Vec<Handle<ActiveDroplet>> {
+    system.bodies().map(|(handle, _)| handle).collect()
+}
+
+/// Adds the names that are missing, each behind the name that it follows.
+fn merge(names: &mut Vec<&'static str>, others: &[&'static str]) {
+    let mut place = 0;
+    for other in others {
+        let known = names.iter().position(|name| name == other);
+        if known.is_none() {
+            names.insert(place, other);
+        }
+        place = known.unwrap_or(place) + 1;
+    }
+}
+
+#[cfg(test)]
+mod tests;

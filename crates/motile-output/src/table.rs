@@ -150,6 +150,24 @@ impl CsvTable {
         Ok(())
     }
 
+    /// A row from values by the names of their columns; not a number in the others.
+    ///
+    /// # Errors
+    /// [`OutputError::Column`]: a name that is no column.
+    pub(crate) fn row<'a>(&self, values: impl Iterator<Item = (&'a str, f64)>) -> Result<Vec<f64>, OutputError> {
+        let mut row = vec![f64::NAN; self.names.len()];
+        for (name, value) in values {
+            row[self.index(name)?] = value;
+        }
+        Ok(row)
+    }
+
+    /// Number of a column.
+    fn index(&self, name: &str) -> Result<usize, OutputError> {
+        let missing = || OutputError::Column { name: name.to_string(), known: self.names.clone() };
+        self.names.iter().position(|n| n == name).ok_or_else(missing)
+    }
+
     /// Line of a file for a row, without its end. Numbers that are not finite become empty fields.
     #[must_use]
     pub fn line(row: &[f64]) -> String {
@@ -168,11 +186,7 @@ impl CsvTable {
     /// # Errors
     /// [`OutputError::Column`]: a table without one of the columns.
     pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, OutputError> {
-        let index = |name: &str| {
-            let missing = || OutputError::Column { name: name.to_string(), known: self.names.clone() };
-            self.names.iter().position(|n| n == name).ok_or_else(missing)
-        };
-        let (x, y) = (index(x)?, index(y)?);
+        let (x, y) = (self.index(x)?, self.index(y)?);
         Ok(self.rows.iter().map(|row| (row[x], row[y])).collect())
     }
 
