@@ -62,11 +62,18 @@ impl Raster {
         let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
         let coarsening = (width.max(height) / spacing / MOST_OF_SCENE).max(1.0);
         let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
-        let hydrodynamics = system.hydrodynamics();
-        let moves = !hydrodynamics.imposed().is_none() || hydrodynamics.strain() != 0.0;
-        let tilt = domain.periods[1].filter(|_| moves).map(|_| domain.periods.tilt);
+        let tilt = tilt(system);
         let periodic = [domain.periods[0].is_some(), domain.periods[1].is_some() && tilt.is_none()];
         Ok(Self { tilt, ..Self::new(origin, [width, height], cells, periodic)? })
+    }
+
+    /// The same cells for the present state of a system: a shear displaces images while a run goes on.
+    pub(crate) fn in_state_of<H: Hydrodynamics>(self, system: &System<H>) -> Self {
+        if self.tilt.is_none() && !self.periodic[1] {
+            return self;
+        }
+        let tilt = tilt(system);
+        Self { tilt, periodic: [self.periodic[0], tilt.is_none()], ..self }
     }
 
     /// Raster over all bodies of a scene and a margin around them (length), with cells as [`Raster::of`] has: for
@@ -137,6 +144,14 @@ impl Raster {
         let second = if self.periodic[axis] { (first + 1) % n } else { (first + 1).min(n - 1) };
         (first, second, t - first as f64)
     }
+}
+
+/// Displacement along x of images above (length), where a shear moves them.
+fn tilt<H: Hydrodynamics>(system: &System<H>) -> Option<f64> {
+    let hydrodynamics = system.hydrodynamics();
+    let moves = !hydrodynamics.imposed().is_none() || hydrodynamics.strain() != 0.0;
+    let periods = hydrodynamics.fluid_view().domain.periods;
+    periods[1].filter(|_| moves).map(|_| periods.tilt)
 }
 
 /// Scalar (`f64`) or vector ([`Vec2`]) field sampled on a raster.

@@ -65,7 +65,7 @@ impl InteriorField {
 pub struct Snapshot {
     /// Time of the snapshot.
     pub time: f64,
-    /// Raster of the sample points of the flow.
+    /// Raster of the sample points of the flow, with the images where they are at this time.
     pub raster: Raster,
     /// Velocity, its gradient and the pressure at the sample points; empty without the flow.
     pub flow: Vec<FlowSample>,
@@ -120,7 +120,7 @@ impl Snapshot {
             gels: system.bodies().map(gel).collect(),
             inside: system.bodies().map(|(_, body)| InteriorField::of(body)).collect(),
             time: system.time(),
-            raster,
+            raster: raster.in_state_of(system),
             flow: Vec::new(),
             droplets: system.bodies().map(shape).collect::<Result<_, OutputError>>()?,
             interfaces: system.bodies().map(|(_, body): (_, &ActiveInterface)| InterfaceLine::of(body)).collect(),

@@ -38,3 +38,32 @@ fn a_raster_around_bodies_holds_them_and_the_margin() {
         assert!(Raster::around(scene.system(), margin, spacing).is_err());
     }
 }
+
+/// A shear displaces the images of a box during a run: in every later state, a raster that was made before it is the one
+/// that is made then, with pixels of the same pictures.
+#[test]
+fn a_raster_from_before_a_run_is_that_of_the_state() {
+    use crate::{Look, Snapshot};
+    use motile::prelude::*;
+    use motile::setup::DropletSetup;
+    let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+    // In the upper corner, so that its images above are in the picture.
+    let droplets = vec![DropletSetup { centre: [1.8, 1.8], ..DropletSetup::active(-2.0) }];
+    let flow = FlowSetup { shear: 0.3, ..FlowSetup::default() };
+    let mut scene = Setup { method, droplets, flow, ..Setup::default() }.build().unwrap().scene;
+    let before = Raster::of(scene.system(), 0.5).unwrap();
+    assert_eq!(before.tilt, Some(0.0));
+    for time in [2.0, 4.0] {
+        scene.run(time).go().unwrap();
+        let after = Raster::of(scene.system(), 0.5).unwrap();
+        // A strain of 0.3 in a time of 1, and a height of 6.
+        let displaced = 6.0 * 0.3 * scene.system().time();
+        let periods = (after.tilt.unwrap() - displaced) / 6.0;
+        assert!((periods - periods.round()).abs() < 1e-9, "{after:?} {displaced}");
+        assert_ne!(before.tilt, after.tilt);
+        let [old, new] = [before, after].map(|raster| Snapshot::take(scene.system_mut(), raster).unwrap());
+        assert_eq!(old.raster, new.raster);
+        let look = Look::default();
+        assert_eq!(look.svg(&old, &[]).unwrap(), look.svg(&new, &[]).unwrap());
+    }
+}
