@@ -17,6 +17,20 @@ pub enum InterfaceError {
         /// y coordinate of the marker (length).
         y: f64,
     },
+    /// Particles of a body of revolution that are not those of their mirror image.
+    #[error(
+        "segment {segment} of a body of revolution has {} particles and its mirror image {}: give numbers that are \
+         symmetric about the x axis, such as those of a heading along it",
+        told_apart([*number, *image])[0], told_apart([*number, *image])[1]
+    )]
+    ParticlesNotAxisymmetric {
+        /// Number of the segment.
+        segment: usize,
+        /// Its number of particles.
+        number: f64,
+        /// That of its mirror image.
+        image: f64,
+    },
     /// A number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),

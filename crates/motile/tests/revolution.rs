@@ -327,3 +327,23 @@ fn what_has_no_meaning_in_three_dimensions_is_refused() {
     }
     assert!(lengths(Drive::ZeroGradient, 3.51).is_ok());
 }
+
+/// Perturbed starts keep to the axis, have the particles of the uniform state, and lead to the steady swimmer.
+#[test]
+fn a_perturbed_start_runs_and_swims() {
+    for (seed, angle) in [(1, 0.0), (2, 0.0), (3, PI)] {
+        let mut setup = scene(Region::Space, [32, 128]);
+        setup.droplets[0].angle = angle;
+        let particles = setup.droplets[0].particles.as_mut().unwrap();
+        particles.start = motile::setup::Start::Perturbed { amplitude: 0.1, seed };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let seen = scene.observe(droplets[0]).unwrap();
+        let [most, least] = seen.concentration_range.unwrap();
+        println!("{seed}: {:e} {most} {least}", seen.particle_number / (400.0 * PI) - 1.0);
+        assert!((seen.particle_number / (400.0 * PI) - 1.0).abs() < 1e-12 && most > 101.0 && least < 99.0);
+        scene.run(60.0).go().unwrap();
+        let seen = scene.observe(droplets[0]).unwrap();
+        println!("{}", seen.speed());
+        assert!((seen.speed() / 0.126_082 - 1.0).abs() < 5e-3 && seen.velocity.y.abs() < 1e-12, "{}", seen.speed());
+    }
+}

@@ -24,7 +24,7 @@ pub struct InitialConcentration(Kind);
 #[derive(Debug, Clone)]
 enum Kind {
     Polarised { mean: f64, heading: f64 },
-    Perturbed { mean: f64, amplitude: f64, seed: u64 },
+    Perturbed { mean: f64, amplitude: f64, seed: u64, axisymmetric: bool },
     PolarAngle(Function<f64>),
     ArcFraction(Function<f64>),
 }
@@ -60,7 +60,17 @@ impl InitialConcentration {
     pub fn perturbed(mean: f64, amplitude: f64, seed: u64) -> Result<Self, InterfaceError> {
         let mean = positive("the mean concentration", mean)?;
         within("the amplitude of the perturbation", amplitude, 0.0, 1.0 - f64::EPSILON)?;
-        Ok(Self(Kind::Perturbed { mean, amplitude, seed }))
+        Ok(Self(Kind::Perturbed { mean, amplitude, seed, axisymmetric: false }))
+    }
+
+    /// Makes a perturbation that of a body of revolution whose first marker is on the axis y = 0: only the parts of its
+    /// modes remain that are even about this marker, and the mean is that over the surface. Other concentrations stay.
+    #[must_use]
+    pub fn axisymmetric(mut self) -> Self {
+        if let Kind::Perturbed { axisymmetric, .. } = &mut self.0 {
+            *axisymmetric = true;
+        }
+        self
     }
 
     /// The uniform state with the mean concentration c0 (particles per length).
@@ -115,7 +125,9 @@ impl InitialConcentration {
         let perimeter: f64 = lengths.iter().sum();
         let mut concentrations = match &self.0 {
             Kind::Polarised { heading, .. } => polarised(markers, centre, *heading),
-            Kind::Perturbed { amplitude, seed, .. } => perturbed(lengths, perimeter, *amplitude, *seed),
+            Kind::Perturbed { amplitude, seed, axisymmetric, .. } => {
+                perturbed(lengths, *amplitude, *seed, *axisymmetric)
+            }
             Kind::PolarAngle(f) => edges(markers)
                 .map(|(a, b)| simpson(f, [a, (a + b) * 0.5, b].map(|p| (p.y - centre.y).atan2(p.x - centre.x))))
                 .collect(),
@@ -136,7 +148,12 @@ impl InitialConcentration {
         for (c, length) in concentrations.iter_mut().zip(lengths) {
             *c *= length;
         }
-        if let Kind::Polarised { mean, .. } | Kind::Perturbed { mean, .. } = self.0 {
+        if let Kind::Perturbed { mean, axisymmetric: true, .. } = self.0 {
+            let weights: Vec<f64> = edges(markers).map(|(a, b)| (a.y + b.y).abs()).collect();
+            let sum = |values: &[f64]| values.iter().zip(&weights).map(|(value, weight)| value * weight).sum::<f64>();
+            let factor = mean * sum(lengths) / sum(&concentrations);
+            concentrations.iter_mut().for_each(|number| *number *= factor);
+        } else if let Kind::Polarised { mean, .. } | Kind::Perturbed { mean, .. } = self.0 {
             let factor = mean * perimeter / concentrations.iter().sum::<f64>();
             concentrations.iter_mut().for_each(|number| *number *= factor);
         }
@@ -163,8 +180,9 @@ fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Means of 1 + amplitude p over the segments.
-fn perturbed(lengths: &[f64], perimeter: f64, amplitude: f64, seed: u64) -> Vec<f64> {
+/// Means of 1 + amplitude p over the segments, p with its even part alone if `even`.
+fn perturbed(lengths: &[f64], amplitude: f64, seed: u64, even: bool) -> Vec<f64> {
+    let perimeter: f64 = lengths.iter().sum();
     let mut random = SplitMix64::new(seed);
     let weights: [f64; MODES] = std::array::from_fn(|_| random.uniform());
     let phases: [f64; MODES] = std::array::from_fn(|_| TAU * random.uniform());
@@ -179,8 +197,9 @@ fn perturbed(lengths: &[f64], perimeter: f64, amplitude: f64, seed: u64) -> Vec<
             let wave: f64 = (1u32..)
                 .zip(weights.iter().zip(&phases))
                 .map(|(k, (weight, phase))| {
-                    let half = 0.5 * f64::from(k) * width;
-                    weight * (f64::from(k) * middle + phase).cos() * half.sin() / half
+                    let (angle, half) = (f64::from(k) * middle, 0.5 * f64::from(k) * width);
+                    let wave = if even { angle.cos() * phase.cos() } else { (angle + phase).cos() };
+                    weight * wave * half.sin() / half
                 })
                 .sum();
             1.0 + amplitude * wave / total

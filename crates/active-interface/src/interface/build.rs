@@ -213,8 +213,8 @@ impl ActiveInterface {
     /// truncation of the motion to the modes of the flow does not keep it.
     ///
     /// # Errors
-    /// An odd number of markers, markers that are not the mirror image of one another, markers that move with the
-    /// fluid.
+    /// An odd number of markers, markers that are not the mirror image of one another, particle numbers that are not
+    /// those of the mirror image, markers that move with the fluid.
     pub fn axisymmetric(mut self) -> Result<Self, InterfaceError> {
         let (markers, count) = (self.markers(), self.markers().len());
         let differs = |k: &usize| {
@@ -227,6 +227,13 @@ impl ActiveInterface {
         }
         if self.law.motion == Motion::WithFluid {
             return Err(InterfaceError::NotAxisymmetric { x: f64::NAN, y: f64::NAN });
+        }
+        let numbers = &self.state.numbers;
+        let most = numbers.iter().copied().fold(0.0, f64::max);
+        for (segment, (&number, &image)) in numbers.iter().zip(numbers.iter().rev()).enumerate() {
+            if (number - image).abs() > 1e-9 * most {
+                return Err(InterfaceError::ParticlesNotAxisymmetric { segment, number, image });
+            }
         }
         // The meridian runs from the largest x, also of a droplet that swims backwards.
         if markers[0].x < markers[count / 2].x {

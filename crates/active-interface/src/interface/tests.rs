@@ -267,3 +267,22 @@ fn crushed_interfaces_are_refused() {
     let error = body(0.95).unwrap_err().to_string();
     assert!(error.contains("compressed to 0.050 of its length") && error.contains(", 0.5000)"), "{error}");
 }
+
+/// Particles of a body of revolution lie on rings: numbers that differ on the two sides of the axis are refused.
+#[test]
+fn particles_on_one_side_of_the_axis_are_refused() {
+    let markers = Curve::circle(1.0).unwrap().markers(40).unwrap();
+    let droplet = |start: InitialConcentration| {
+        let numbers = start.particle_numbers(&markers).unwrap();
+        let law = ContractileTension::new(10.0, -1.0, crate::ExcludedVolume::None).unwrap();
+        ActiveDroplet::new(&markers, numbers, law, 0.1).unwrap().axisymmetric()
+    };
+    let perturbed = || InitialConcentration::perturbed(100.0, 0.1, 3).unwrap();
+    for start in [perturbed(), InitialConcentration::polarised(100.0, 0.3).unwrap()] {
+        let error = droplet(start).unwrap_err();
+        assert!(matches!(error, crate::InterfaceError::ParticlesNotAxisymmetric { segment: 0, .. }), "{error}");
+    }
+    for start in [perturbed().axisymmetric(), InitialConcentration::polarised(100.0, std::f64::consts::PI).unwrap()] {
+        assert!(droplet(start).is_ok());
+    }
+}

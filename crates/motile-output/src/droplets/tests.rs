@@ -22,7 +22,7 @@ fn droplets_with_and_without_exchange_are_in_one_table() {
     exchanging.particles.as_mut().unwrap().exchange = Some(exchange);
     for droplets in [vec![plain.clone(), exchanging.clone()], vec![exchanging, plain]] {
         let exchanges = [0, 1].map(|k: usize| droplets[k].particles.as_ref().unwrap().exchange.is_some());
-        let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+        let method = Method::Integral(IntegralMethod { nodes: 24, elements: 48 });
         let Built { mut scene, .. } = Setup { method, droplets, ..Setup::default() }.build().unwrap();
         let mut rows = DropletsCsv::create(&path, scene.system_mut()).unwrap();
         scene.run(0.02).observe(Every::Time(0.01), &mut rows).go().unwrap();

@@ -46,7 +46,7 @@ fn a_raster_from_before_a_run_is_that_of_the_state() {
     use crate::{Look, Snapshot};
     use motile::prelude::*;
     use motile::setup::DropletSetup;
-    let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+    let method = Method::Integral(IntegralMethod { nodes: 24, elements: 48 });
     // In the upper corner, so that its images above are in the picture.
     let droplets = vec![DropletSetup { centre: [1.8, 1.8], ..DropletSetup::active(-2.0) }];
     let flow = FlowSetup { shear: 0.3, ..FlowSetup::default() };

@@ -259,7 +259,8 @@ pub enum Start {
     Polarised,
     /// c0 everywhere.
     Uniform,
-    /// Uniform with small random Fourier modes.
+    /// Uniform with small random Fourier modes; in three dimensions with the parts of them that are symmetric about the
+    /// axis.
     Perturbed {
         /// Relative amplitude.
         amplitude: f64,
