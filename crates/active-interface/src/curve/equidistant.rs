@@ -4,9 +4,16 @@ use motile_base::{Vec2, all_points_finite};
 
 use crate::InterfaceError;
 
+/// Largest relative difference of chords.
+const TOLERANCE: f64 = 1e-12;
+/// Round-offs of a coordinate that the difference of two chords may have (measured for ellipses: up to 9).
+const ROUND_OFFS: f64 = 16.0;
+/// Sweeps without improvement after which a difference that round-off explains is taken.
+const STALLED: usize = 5;
+
 /// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them,
-/// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates, if that is
-/// more).
+/// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates and of the
+/// parameter, if that is more).
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
@@ -23,8 +30,10 @@ pub(crate) fn equidistant(
     let samples: Vec<Vec2> = (0..fine).map(|i| point(i as f64 / fine as f64)).collect();
     all_points_finite("the points of the curve", &samples)?;
     let mut arc = vec![0.0; fine + 1];
+    let mut fastest = 0.0_f64;
     for (i, chord) in chords(&samples).into_iter().enumerate() {
         arc[i + 1] = arc[i] + chord;
+        fastest = fastest.max(fine as f64 * chord);
     }
     let mut parameters: Vec<f64> = (0..count)
         .map(|k| {
@@ -37,17 +46,25 @@ pub(crate) fn equidistant(
 
     let mut points: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
     let extent = points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
-    let mut best = f64::INFINITY;
+    let (mut best, mut nearest, mut stalled, mut attainable) = (f64::INFINITY, points.clone(), 0, TOLERANCE);
     for _ in 0..200 {
         all_points_finite("the points of the curve", &points)?;
         let chords = chords(&points);
         let mean = chords.iter().sum::<f64>() / count as f64;
         let residual = chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max);
-        let tolerance = 1e-12f64.max(8.0 * f64::EPSILON * extent / mean);
-        if residual <= tolerance {
+        if residual <= TOLERANCE.max(8.0 * f64::EPSILON * extent / mean) {
             return Ok(points);
         }
-        best = residual.min(best);
+        attainable = TOLERANCE.max(ROUND_OFFS * f64::EPSILON * (extent + fastest) / mean);
+        if residual < best {
+            (best, stalled) = (residual, 0);
+            nearest.clone_from(&points);
+        } else if best <= attainable {
+            stalled += 1;
+        }
+        if stalled == STALLED {
+            return Ok(nearest);
+        }
         let old = parameters.clone();
         let mut deficit = 0.0;
         for k in 1..count {
@@ -61,10 +78,13 @@ pub(crate) fn equidistant(
             points[k] = point(parameters[k]);
         }
     }
+    if best <= attainable {
+        return Ok(nearest);
+    }
     Err(InterfaceError::NoConvergence {
         what: "the search for equidistant markers",
         residual: best,
-        tolerance: 1e-12,
+        tolerance: attainable,
         remedy: "use more markers or a curve with less sharp corners",
     })
 }

@@ -171,3 +171,18 @@ fn a_stadium_is_two_half_circles_and_straight_sides() {
     assert!(Curve::stadium(-0.1, 1.0).is_err() && Curve::stadium(1.0, 0.0).is_err());
     assert!(Curve::stadium(f64::INFINITY, 1.0).is_err());
 }
+
+/// Round-off of coordinates and of the parameter grows with the number of markers relative to their distances.
+#[test]
+fn ellipses_take_any_number_of_markers() {
+    for axis in [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9] {
+        for count in [512, 768, 1000, 1024, 1536, 2048, 3072, 4096, 10_000, 30_000] {
+            for (angle, shift) in [(0.0, 0.0), (0.4, 3.0)] {
+                let curve = Curve::ellipse(1.0, axis).unwrap().rotated(angle).translated(Vec2::new(shift, 0.3 * shift));
+                let markers = curve.markers(count).unwrap();
+                let round_off = 16.0 * f64::EPSILON * (7.0 + shift) * count as f64 / 4.0;
+                assert!(unevenness(&markers) < 2.0 * round_off.max(1e-12), "{axis} {count} {angle}");
+            }
+        }
+    }
+}

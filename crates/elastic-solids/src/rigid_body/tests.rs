@@ -58,3 +58,27 @@ fn what_is_no_body_is_refused() {
     assert!(body().with_load(Vec2::ZERO, f64::INFINITY).is_err());
     assert!(body().read_state(&[0.0, f64::NAN, 0.0]).is_err());
 }
+
+/// Warned of is a body whose nodes are so far apart that its sides are not resolved, with the number that does; bodies
+/// of any shape that is round enough are not.
+#[test]
+fn slender_bodies_need_more_nodes() {
+    let ellipse = |[a, b]: [f64; 2], count: usize| {
+        let at = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+        let points: Vec<Vec2> = (0..count).map(|k| Vec2::new(a * at(k).cos(), b * at(k).sin())).collect();
+        RigidBody::new(&points).unwrap().named("rod")
+    };
+    let look = |body: &RigidBody, nodes: usize| body.warnings(&FluidView { shape_modes: Some(nodes), ..view() });
+    // The sides of an ellipse are 2 b apart where nodes are 2 pi a/nodes apart, for which 76 nodes do; towards its tips
+    // it is a sixth less.
+    for count in [200, 3000] {
+        let rod = ellipse([1.0, 0.1], count);
+        let [warning] = &look(&rod, 64)[..] else { panic!("no warning") };
+        let needed: usize = (64..4096).find(|nodes| look(&rod, *nodes).is_empty()).unwrap();
+        println!("{warning}");
+        assert!((85..95).contains(&needed), "{needed}");
+        assert!(warning.to_string().contains(&format!("use {needed} nodes instead of 64")), "{warning}");
+        assert!((warning.excess - needed as f64 / 64.0).abs() < 0.02, "{}", warning.excess);
+        assert!(look(&ellipse([1.0, 0.5], count), 24).is_empty() && look(&ellipse([1.0, 1.0], count), 8).is_empty());
+    }
+}
