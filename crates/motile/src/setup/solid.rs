@@ -1,5 +1,6 @@
 //! Descriptions of elastic solids.
 
+use boundary_integral::Settings;
 use elastic_solids::mesh::TriangleMesh;
 use elastic_solids::{ActiveSprings, Channel, ChannelShape, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
@@ -327,7 +328,8 @@ impl SolidSetup {
     /// The solid of this description on a mesh of one's own, in place of its outline: for shapes that data cannot say.
     ///
     /// # Errors
-    /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region.
+    /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region; with
+    /// layers, a surface of fewer than 16 points.
     pub fn on_mesh(&self, mesh: TriangleMesh, setup: &Setup) -> Result<Solid, SetupError> {
         let half = 0.5 * setup.region.lengths()[1];
         let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
@@ -337,6 +339,9 @@ impl SolidSetup {
         let times = if self.spread_over_triangles { 2 } else { 1 };
         let mesh =
             (0..if finer { times } else { 0 }).try_fold(mesh, |mesh, _| mesh.with_finer_boundary(|s| !fixed(s)))?;
+        if layers {
+            self.check_surface(&mesh, setup)?;
+        }
         let share = mesh.area() / mesh.points().len() as f64;
         let mut solid = self.at_rest(mesh)?.named(&self.name);
         if let Some(SurfaceElasticitySetup { stretching, bending }) = self.surface_elasticity {
@@ -363,6 +368,22 @@ impl SolidSetup {
 }
 
 impl SolidSetup {
+    /// Refuses a surface with fewer points than a layer needs.
+    fn check_surface(&self, mesh: &TriangleMesh, setup: &Setup) -> Result<(), SetupError> {
+        let [least, _] = Settings::NODES;
+        let found = mesh.boundary_loops().iter().map(|points| points.points.len()).min().unwrap_or(least);
+        if found >= least {
+            return Ok(());
+        }
+        let spacing = self.spacing(setup);
+        let remedy = format!(
+            "its surface would have {found} points, and with layers it needs {least}: give {:.2e} or less, with half \
+             of it as the spacing of the grid, or finer-surface = true, or the method grid",
+            spacing * found as f64 / least as f64
+        );
+        Checked { place: &self.name }.refuse("mesh-spacing", &spacing, remedy)
+    }
+
     /// Spacing of its points (length); infinite where there is no grid to give it.
     pub(super) fn spacing(&self, setup: &Setup) -> f64 {
         let usual = match setup.method {
