@@ -47,16 +47,20 @@ pub struct DiscMesh {
 }
 
 impl DiscMesh {
-    /// Mesh for a curve of a number of markers, with a spacing that grows inwards from that of the markers to
-    /// `spacing`, in units of the radius of a circle of the curve's length, by a quarter from ring to ring.
+    /// Largest spacing over the radius: that of a mesh of two or three rings.
+    pub const COARSEST: f64 = 0.5;
+
+    /// Mesh for a curve of a number of markers, with a spacing that changes inwards from that of the markers to
+    /// `spacing`, larger or smaller, in units of the radius of a circle of the curve's length, by a quarter from ring to
+    /// ring.
     ///
     /// # Errors
-    /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes.
+    /// Fewer than 8 markers, a spacing that is not positive or above 0.5, more than 131072 nodes.
     pub fn new(markers: usize, spacing: f64) -> Result<Self, InteriorError> {
         Self::graded(markers, spacing, GROWTH)
     }
 
-    /// Mesh as of [`new`](Self::new) whose spacing grows by a factor from ring to ring: with 2 there are half as many
+    /// Mesh as of [`new`](Self::new) whose spacing changes by a factor from ring to ring: with 2 there are half as many
     /// nodes where the markers are much closer than `spacing`, and triangles of sharper angles.
     ///
     /// # Errors
@@ -66,16 +70,16 @@ impl DiscMesh {
         positive("the spacing of the mesh inside", spacing)?;
         within("the growth of the spacing inside", growth, 1.0, 2.0)?;
         let first = TAU / markers as f64;
-        let coarsest = spacing.max(first).min(0.5);
-        let estimate = markers as f64 + PI / (HEIGHT * coarsest * coarsest) + 4.0 * markers as f64;
+        within("the spacing of the mesh inside over the radius", spacing, 0.0, Self::COARSEST)?;
+        let estimate = markers as f64 + PI / (HEIGHT * spacing * spacing) + 4.0 * markers as f64;
         if estimate > MOST_NODES as f64 {
             return Err(InteriorError::TooFine { nodes: estimate, most: MOST_NODES });
         }
-        let sizes = sizes(first, coarsest, growth);
+        let sizes = sizes(first, spacing, growth);
         let (mut triangles, mut rings) = (Vec::new(), Vec::new());
         let mut outer = Ring { start: 0, count: markers, turn: 0.0 };
         for (number, &(radius, spacing)) in sizes.iter().enumerate() {
-            let count = ((TAU * radius / spacing).round() as usize).clamp(3, outer.count);
+            let count = ((TAU * radius / spacing).round() as usize).max(3);
             // Half a spacing from ring to ring, so that triangles are closer to equilateral.
             let turn = outer.turn + PI / count as f64;
             let inner = Ring { start: outer.start + outer.count, count, turn };
@@ -123,12 +127,13 @@ impl DiscMesh {
     }
 }
 
-/// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the innermost ring is a triangle.
-fn sizes(first: f64, coarsest: f64, growth: f64) -> Vec<(f64, f64)> {
+/// Radii and spacings of the rings within the unit circle, whose spacing is `first`, towards another spacing; the
+/// innermost ring is a triangle.
+fn sizes(first: f64, last: f64, growth: f64) -> Vec<(f64, f64)> {
     let (mut spacing, mut depth) = (first, 0.0);
     let mut sizes = Vec::new();
     while 1.0 - depth > spacing {
-        spacing = (growth * spacing).min(coarsest);
+        spacing = if last < spacing { (spacing / growth).max(last) } else { (growth * spacing).min(last) };
         depth += HEIGHT * spacing;
         sizes.push((depth, spacing));
     }

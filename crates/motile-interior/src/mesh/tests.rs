@@ -52,7 +52,11 @@ fn the_number_of_nodes_is_that_of_the_spacing() {
     let [coarse, fine] = [0.1, 0.05].map(|spacing| DiscMesh::new(200, spacing).unwrap().node_count() as f64);
     assert!((fine / (PI / (0.866 * 0.05 * 0.05)) - 1.0).abs() < 0.2, "{fine}");
     assert!(coarse < 0.6 * fine, "{coarse} {fine}");
-    for (markers, spacing) in [(7, 0.1), (100, 0.0), (100, f64::NAN), (100_000, 1e-6)] {
+    // Also where it is smaller than that of the markers.
+    let counts = [0.04, 0.02, 0.01].map(|spacing| DiscMesh::new(64, spacing).unwrap().node_count() as f64);
+    assert!(counts.windows(2).all(|pair| (3.0..4.5).contains(&(pair[1] / pair[0]))), "{counts:?}");
+    assert!(counts[0] > 1000.0, "{counts:?}");
+    for (markers, spacing) in [(7, 0.1), (100, 0.0), (100, 0.51), (100, f64::NAN), (100, 1e-6), (100_000, 1e-6)] {
         DiscMesh::new(markers, spacing).unwrap_err();
     }
     for growth in [0.99, 2.01, f64::NAN] {

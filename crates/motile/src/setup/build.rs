@@ -13,7 +13,7 @@ use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesS
 
 use super::{
     DropletSetup, DropletShape, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup,
-    Squeezed, Start, droplet::squeezed_sphere, method::MARKERS,
+    Squeezed, Start, droplet::squeezed_sphere, gel::spacing_inside, method::MARKERS,
 };
 use crate::SetupError;
 
@@ -110,8 +110,9 @@ impl Setup {
         let Some(diffusion) = exchange.diffusion_inside else { return Ok(None) };
         let density = exchange.number(particles.concentration, droplet.initial_area())? / droplet.initial_area();
         let between = |length: f64| (MARKERS_APART * length).min(COARSEST * (droplet.initial_area() / PI).sqrt());
-        let grid = || self.method.spacing().unwrap_or_else(|| between(droplet.element_lengths()[0]));
-        let spacing = exchange.spacing_inside.unwrap_or_else(grid);
+        let usual = self.method.spacing().unwrap_or_else(|| between(droplet.element_lengths()[0]));
+        let key = "particles.exchange.spacing-inside";
+        let spacing = spacing_inside((&setup.name, key), exchange.spacing_inside, usual, droplet)?;
         Ok(Some(ParticlesInDroplet::new(droplet, host, exchange.rates()?, diffusion, |_| density, spacing)?))
     }
 

@@ -1,8 +1,10 @@
 //! Descriptions of gels inside droplets.
 
-use active_interface::Motion;
+use std::f64::consts::TAU;
+
+use active_interface::{ActiveDroplet, Motion};
 use motile_base::polygon::contains;
-use motile_interior::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
+use motile_interior::{Anchoring, DirectorStart, DiscMesh, GelInDroplet, GelMaterial};
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
@@ -90,13 +92,32 @@ impl GelSetup {
     }
 }
 
+/// Spacing of a mesh inside a droplet (length): the one given, or the usual one as far as the droplet has room for it.
+pub(super) fn spacing_inside(
+    (name, key): (&str, &str),
+    given: Option<f64>,
+    usual: f64,
+    droplet: &ActiveDroplet,
+) -> Result<f64, SetupError> {
+    let radius = droplet.segment_lengths().iter().sum::<f64>() / TAU;
+    let most = DiscMesh::COARSEST * radius;
+    match given {
+        None => Ok(usual.min(most)),
+        Some(spacing) if spacing <= most => Ok(spacing),
+        Some(spacing) => {
+            let remedy = format!("it is for a droplet of radius {radius:.3}: give {most:.3} or less");
+            Checked { place: name }.refuse(key, &spacing, remedy)
+        }
+    }
+}
+
 impl Setup {
     /// The gel of a droplet, made to be the body `host`.
     pub(super) fn gel(
         &self,
         setup: &DropletSetup,
-        droplet: &active_interface::ActiveDroplet,
-        host: Handle<active_interface::ActiveDroplet>,
+        droplet: &ActiveDroplet,
+        host: Handle<ActiveDroplet>,
     ) -> Result<Option<GelInDroplet>, SetupError> {
         let (Some(gel), Some(grid)) = (&setup.gel, self.method.spacing()) else { return Ok(None) };
         let start = match gel.start {
@@ -105,7 +126,7 @@ impl Setup {
             }
             start => start,
         };
-        let spacing = gel.spacing.unwrap_or(grid);
+        let spacing = spacing_inside((&setup.name, "gel.spacing"), gel.spacing, grid, droplet)?;
         Ok(Some(GelInDroplet::new(droplet, host, gel.material, gel.anchoring, &start, spacing)?))
     }
 

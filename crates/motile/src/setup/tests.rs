@@ -162,6 +162,8 @@ fn exchanges_that_make_no_scene_are_refused() {
         let error = of(droplet).check().unwrap_err().to_string();
         assert!(error.contains(key), "{error}");
     }
+    let coarse = refused(&of(with(ExchangeSetup { spacing_inside: Some(0.7), ..diffusing })));
+    assert!(coarse.starts_with("droplet.particles.exchange.spacing-inside = 0.7: it is for"), "{coarse}");
     of(with(diffusing)).build().unwrap();
 }
 
@@ -180,6 +182,10 @@ fn gels_that_make_no_scene_are_refused() {
         ("droplets[0].gel.material.alignment =", of(GelMaterial { alignment: f64::NAN, ..usual })),
         ("droplets[0].gel.material.activity =", of(GelMaterial { activity: f64::INFINITY, ..usual })),
         ("droplets[0].gel.spacing =", with(GelSetup { spacing: Some(0.0), ..GelSetup::default() })),
+        ("droplet.gel.spacing = 0.6: it is for a droplet of radius 1.000: give 0.500 or less", {
+            with(GelSetup { spacing: Some(0.6), ..GelSetup::default() })
+        }),
+        ("droplets[0]: the mesh would have some 3", with(GelSetup { spacing: Some(1e-6), ..GelSetup::default() })),
         ("droplets[0].gel.start.uniform.noise =", {
             let start = DirectorStart::Uniform { angle: 0.0, noise: -1.0, seed: 0 };
             with(GelSetup { start, ..GelSetup::default() })
@@ -328,6 +334,28 @@ fn walls_through_points() {
     own.solids[0].outline = SolidOutline::WallBelowPoints(flat(-2.5));
     let said = own.check().unwrap_err().to_string();
     assert!(said.starts_with("solids[0].outline.wall-below-points = -2.5: give heights between"), "{said}");
+}
+
+/// A layer needs sixteen points: a solid with fewer on its surface is refused by name and key before any work, and the
+/// spacing that the error gives is enough.
+#[test]
+fn a_surface_of_too_few_points_is_refused() {
+    let of = |grid: f64, finer_surface: Option<bool>| Setup {
+        method: Method::Layers(LayersMethod::of_spacing(grid)),
+        solids: vec![SolidSetup {
+            name: "bead".to_owned(),
+            outline: SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.5 },
+            hold: Hold::Free,
+            finer_surface,
+            ..elastic(3.0, layers()).solids[0].clone()
+        }],
+        droplets: vec![],
+        ..Setup::default()
+    };
+    let said = refused(&of(0.125, Some(false)));
+    assert!(said.starts_with("bead.mesh-spacing = 0.25: its surface would have 13 points"), "{said}");
+    assert!(said.contains("give 2.03e-1 or less"), "{said}");
+    assert!(of(0.1, Some(false)).build().is_ok() && of(0.125, Some(true)).build().is_ok());
 }
 
 #[test]
