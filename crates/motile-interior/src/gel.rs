@@ -31,11 +31,12 @@ use crate::{
     mesh::GROWTH,
 };
 
-/// Error of growth rates around an aster on a mesh of that spacing over the radius, and its order in the spacing
-/// (`tests/rates.rs`): the director turns by itself within the triangles of a core.
-const CORE_ERROR: f64 = 0.06;
+/// Relative error of the activity at which an aster or a vortex loses its stability, on a mesh and a grid of that
+/// spacing over the radius, and its order in the spacing (`tests/rates.rs`). At the distance r from a core, stresses and
+/// gradients are off by (spacing/r)^2, so that the error falls like the square of the spacing but for logarithms.
+const CORE_ERROR: f64 = 0.117;
 const CORE_SPACING: f64 = 0.05;
-const CORE_ORDER: f64 = 1.4;
+const CORE_ORDER: f64 = 1.45;
 
 /// Active polar gel that fills a droplet: a body of a scene ([`motile_scene::InteriorBody`] of the droplet) that puts
 /// forces on the fluid at the nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary nodes are the droplet's markers.
@@ -164,8 +165,8 @@ impl Body for GelInDroplet {
         let spacing = (4.0 * PI * largest / (3.0_f64.sqrt() * areas.iter().sum::<f64>())).sqrt();
         let error = CORE_ERROR * (spacing / CORE_SPACING).powf(CORE_ORDER);
         let message = format!(
-            "around defects growth rates of the director err by some {:.1} %: use a finer mesh, of a spacing of {:.3} \
-             radii for one per cent",
+            "the activity at which the director around a defect becomes unstable is off by up to {:.1} %, and growth \
+             rates by half as much: use a finer mesh and a finer grid, both with a spacing of {:.3} radii for 1 %",
             100.0 * error,
             CORE_SPACING * (0.01 / CORE_ERROR).powf(1.0 / CORE_ORDER)
         );
