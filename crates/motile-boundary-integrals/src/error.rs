@@ -19,6 +19,9 @@ pub(crate) fn of_layers(error: LayerError) -> FlowError {
         LayerError::Count { kind: "curve", curve, what, found, least, most } => {
             FlowError::Count { body: curve, what, found, least, most }
         }
+        LayerError::NarrowGap { curve, gap, least, nodes, needed } => {
+            FlowError::NarrowGap { body: curve, gap, least, nodes, needed }
+        }
         LayerError::Input(error) => FlowError::Input(error),
         LayerError::Clockwise { .. } => FlowError::Unsupported {
             what: "an interface whose markers run clockwise or that crosses itself",

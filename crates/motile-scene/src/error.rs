@@ -64,6 +64,25 @@ pub enum FlowError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
+    /// A gap between a wall and a rigid body that the nodes of the body do not resolve.
+    #[error(
+        "the gap between rigid body {body} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
+         so narrow a gap, and its speed would be off by more than 1 %. Use {needed} nodes or more, or keep the body \
+         away from the wall",
+        told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
+    )]
+    NarrowGap {
+        /// Number of the body, in the order of addition.
+        body: usize,
+        /// The gap (length).
+        gap: f64,
+        /// The narrowest gap that the nodes resolve (length).
+        least: f64,
+        /// Number of nodes.
+        nodes: usize,
+        /// Number of nodes that resolve the gap.
+        needed: usize,
+    },
     /// An iteration did not converge.
     #[error(
         "{what} stopped at a relative residual of {} after {iterations} iterations, above {}: \
@@ -103,11 +122,12 @@ impl FlowError {
     /// Returns the error with the number of the body in place of the number of its curve.
     #[must_use]
     pub fn of_body(mut self, number: impl Fn(usize) -> usize) -> Self {
-        if let Self::Count { body, .. } | Self::NonFinite { body, .. } | Self::BeyondWall { body, .. } = &mut self {
+        if let Self::Count { body, .. }
+        | Self::NonFinite { body, .. }
+        | Self::BeyondWall { body, .. }
+        | Self::NarrowGap { body, .. } = &mut self
+        {
             *body = number(*body);
-        }
-        if let Self::Layers(LayerError::ThinFilm { curve, .. }) = &mut self {
-            *curve = number(*curve);
         }
         self
     }

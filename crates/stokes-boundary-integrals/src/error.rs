@@ -90,7 +90,7 @@ pub enum LayerError {
          away from the wall",
         told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
     )]
-    ThinFilm {
+    NarrowGap {
         /// Number of the curve.
         curve: usize,
         /// The gap (length).

@@ -274,7 +274,7 @@ fn particles_on_one_side_of_the_axis_are_refused() {
     let markers = Curve::circle(1.0).unwrap().markers(40).unwrap();
     let droplet = |start: InitialConcentration| {
         let numbers = start.particle_numbers(&markers).unwrap();
-        let law = ContractileTension::new(10.0, -1.0, crate::ExcludedVolume::None).unwrap();
+        let law = ContractileTension::new(10.0, -1.0, crate::ExcludedVolume::None, 1.0).unwrap();
         ActiveDroplet::new(&markers, numbers, law, 0.1).unwrap().axisymmetric()
     };
     let perturbed = || InitialConcentration::perturbed(100.0, 0.1, 3).unwrap();

@@ -150,7 +150,7 @@ impl Setup {
                     Start::Uniform => InitialConcentration::uniform(c0)?,
                     Start::Perturbed { amplitude, seed } => InitialConcentration::perturbed(c0, amplitude, seed)?,
                 };
-                let initial = if self.region.is_of_revolution() { initial.axisymmetric() } else { initial };
+                let initial = if self.region.is_axisymmetric() { initial.axisymmetric() } else { initial };
                 let numbers = match round {
                     // A droplet that starts squeezed has the particles of the circle that it is squeezed from.
                     Some(radius) => {

@@ -99,7 +99,7 @@ pub(super) fn spacing_inside(
     usual: f64,
     droplet: &ActiveDroplet,
 ) -> Result<f64, SetupError> {
-    let radius = droplet.segment_lengths().iter().sum::<f64>() / TAU;
+    let radius = droplet.element_lengths().iter().sum::<f64>() / TAU;
     let most = DiscMesh::COARSEST * radius;
     match given {
         None => Ok(usual.min(most)),

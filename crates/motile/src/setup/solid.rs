@@ -1,10 +1,10 @@
 //! Descriptions of elastic solids.
 
-use boundary_integral::Settings;
 use elastic_solids::mesh::TriangleMesh;
 use elastic_solids::{ActiveSprings, Channel, ChannelShape, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
 use motile_base::{Region, Vec2};
+use motile_boundary_integrals::Settings;
 use motile_scene::{MarkerKind, Scene, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 

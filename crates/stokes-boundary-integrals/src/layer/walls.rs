@@ -171,7 +171,7 @@ impl Walls {
             return Ok(());
         }
         let needed = (nodes * (least / gap).sqrt()).ceil() as usize;
-        Err(LayerError::ThinFilm { curve: number, gap, least, nodes: curve.len(), needed })
+        Err(LayerError::NarrowGap { curve: number, gap, least, nodes: curve.len(), needed })
     }
 
     /// Takes over the sources, if those of some curve are its fine nodes.

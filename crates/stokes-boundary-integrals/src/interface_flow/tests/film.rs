@@ -116,7 +116,7 @@ fn a_film_that_nodes_do_not_resolve_is_refused() {
     let load = |gap: f64, nodes: usize| disc_in_a_channel(gap, nodes, 6.0, Vec2::X).map(drop);
     assert!(load(0.01, 96).is_ok() && load(0.03, 64).is_ok());
     let error = load(0.008, 96).unwrap_err();
-    let LayerError::ThinFilm { curve: 0, nodes: 96, needed, gap, least } = error else { panic!("{error}") };
+    let LayerError::NarrowGap { curve: 0, nodes: 96, needed, gap, least } = error else { panic!("{error}") };
     println!("{error}");
     assert!((gap - 0.008).abs() < 1e-5 && (least - 0.00985).abs() < 1e-5 && needed == 107, "{error}");
     assert!(load(0.008, needed).is_ok() && load(0.004, needed).is_err());
