@@ -19,9 +19,9 @@ use clap::{Parser, ValueEnum};
 use motile::active_interface::Motion;
 use motile::base::{Drive, Region};
 use motile::setup::{DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
+use motile_cli::run::{OutputFlags, SceneRun};
 use motile_examples::{DropletFlags, MethodFlags, activity, pair, positive};
 use motile_output::Look;
-use motile_output::run::{OutputFlags, SceneRun};
 
 /// Body between the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

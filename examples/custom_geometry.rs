@@ -13,8 +13,8 @@ use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::{Channel, SolidError};
 use motile::scene::Scene;
 use motile::setup::{Built, Setup};
+use motile_cli::run::say;
 use motile_examples::{ElasticFlags, SceneFlags};
-use motile_output::run::say;
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {

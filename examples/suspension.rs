@@ -26,8 +26,8 @@ use motile::scene::gap::Repulsion;
 use motile::setup::{
     Arrangement, Built, Distribution, Headings, IntegralMethod, LayersMethod, Method, Setup, SuspensionSetup,
 };
+use motile_cli::run::{Job, OutputFlags, Summary};
 use motile_examples::{DropletFlags, MethodFlags, distribution, not_negative, positive, scene_file};
-use motile_output::run::{Job, OutputFlags, Summary};
 use motile_output::suspension::{
     SuspensionAnimation, SuspensionColour, SuspensionCsv, SuspensionPicture, suspension_plots,
 };
@@ -153,7 +153,7 @@ fn simulate(flags: &Flags) -> Result<()> {
     let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "suspension")?;
     let mut tables = SuspensionCsv::create(&job.directory, scene.system_mut(), flags.contact)?;
     let mut film = SuspensionAnimation::new(flags.colour.into(), FILM);
-    let mut observers: Vec<motile_output::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut tables)];
+    let mut observers: Vec<motile_cli::run::Watch<'_>> = vec![(Every::StepAfter(job.end / ROWS), &mut tables)];
     if job.draws() {
         observers.push((Every::StepAfter(job.end / FRAMES), &mut film));
     }

@@ -18,8 +18,9 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
+use motile_cli::run::SceneRun;
 use motile_examples::{BoxFlags, SceneFlags, scene_file};
-use motile_output::{Look, run::SceneRun};
+use motile_output::Look;
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]

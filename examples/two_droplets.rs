@@ -21,8 +21,8 @@ use motile::base::Region;
 use motile::base::Vec2;
 use motile::scene::{Handle, System};
 use motile::setup::{AnyFlow, Built, DropletSetup, Particles};
+use motile_cli::run::{Job, OutputFlags, Summary};
 use motile_examples::{DropletFlags, MethodFlags, pair, positive};
-use motile_output::run::{Job, OutputFlags, Summary};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
 
 /// How the droplets start.

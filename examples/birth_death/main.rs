@@ -12,8 +12,8 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
+use motile_cli::run::say;
 use motile_examples::positive;
-use motile_output::run::say;
 
 /// Compares closed form, series and simulation of the extinction of a birth-death process.
 #[derive(Debug, Parser)]

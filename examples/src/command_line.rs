@@ -7,7 +7,7 @@ use clap::{
     Parser,
     error::{ContextKind, ContextValue, ErrorKind},
 };
-use motile_output::run::explained;
+use motile_cli::run::explained;
 
 /// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
 const MISUSE: u8 = 2;
@@ -17,7 +17,7 @@ const MISUSE: u8 = 2;
 ///
 /// ```no_run
 /// use motile_examples::{BoxFlags, DropletFlags, MethodFlags};
-/// use motile_output::run::OutputFlags;
+/// use motile_cli::run::OutputFlags;
 ///
 /// /// A droplet swims in a periodic box.
 /// #[derive(clap::Parser)]

@@ -5,7 +5,7 @@ use clap::Args;
 use motile::elastic_solids::ChannelShape;
 use motile::scene::Body;
 use motile::setup::{ActiveSpringsSetup, MaxwellSetup, Setup};
-use motile_output::run::say;
+use motile_cli::run::say;
 
 use crate::parse::{not_negative, positive, seed};
 use crate::{ElasticFlags, SceneFlags};

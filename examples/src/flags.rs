@@ -8,7 +8,7 @@ use clap::Args;
 use motile::base::Drive;
 use motile::base::Region;
 use motile::setup::{Built, DropletSetup, ExcludedVolume, Setup, Start};
-use motile_output::run::{OutputFlags, View, WatchedRun};
+use motile_cli::run::{OutputFlags, View, WatchedRun};
 
 use crate::MethodFlags;
 use crate::parse::{activity, finite, not_negative, one_of, pair, positive, seed};

@@ -3,7 +3,7 @@
 //! | for | there are |
 //! |---|---|
 //! | flags | [`run`]; [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`], [`ElasticFlags`] |
-//! | runs and their results | [`motile_output::run`], [`SceneFlags::watch`] |
+//! | runs and their results | [`motile_cli::run`], [`SceneFlags::watch`] |
 //! | elastic walls | [`swim_between_walls`] with [`RelaxationFlags`], [`TwitchingFlags`] |
 //! | constrictions | [`Passage`] |
 //!

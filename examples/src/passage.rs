@@ -5,7 +5,7 @@ use motile::scene::{Hydrodynamics, Observer, System};
 use serde::Serialize;
 use serde_json::json;
 
-use motile_output::run::{Decided, Summary};
+use motile_cli::run::{Decided, Summary};
 
 /// How far back from the furthest it has come a droplet counts as turned back (R0).
 const BACK: f64 = 1.0;

@@ -13,8 +13,8 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 use motile::base::Vec2;
+use motile_cli::run::{Summary, make_directory, say};
 use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
-use motile_output::run::{Summary, make_directory, say};
 use motile_output::{CsvTable, Progress};
 use motile_steady_examples::SteadyFlags;
 use motile_steady_states::{

@@ -20,8 +20,8 @@ use motile::active_interface::ActiveDroplet;
 use motile::base::Region;
 use motile::scene::{Deformation, Handle, System, integrator::IntegratorKind};
 use motile::setup::{AnyFlow, Built, DropletSetup, FlowSetup, IntegralMethod, Method, PoiseuilleSetup, Setup};
+use motile_cli::run::{CheckpointFlags, Job, OutputFlags, Summary, say};
 use motile_examples::{pair, positive};
-use motile_output::run::{CheckpointFlags, Job, OutputFlags, Summary, say};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
 use motile_steady_states::SteadyState;
 

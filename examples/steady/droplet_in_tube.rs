@@ -17,8 +17,8 @@ use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
 use motile::base::{Drive, Region, TubeShape};
 use motile::setup::{DropletShape, MethodKind, Setup};
+use motile_cli::run::{Summary, say};
 use motile_examples::{MethodFlags, Passage, RegionFlags, SceneFlags, positive};
-use motile_output::run::{Summary, say};
 use motile_steady_states::{Measured, SteadyState};
 
 /// Shapes of tubes.

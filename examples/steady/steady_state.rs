@@ -10,9 +10,9 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Parser;
+use motile_cli::run::{Summary, make_directory, say};
 use motile_output::CsvTable;
 use motile_output::plot::{AxisScale, Figure, Plot, Series};
-use motile_output::run::{Summary, make_directory, say};
 use motile_steady_examples::SteadyFlags;
 use motile_steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
 

@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 use motile::scene::checkpoint::Checkpoint;
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 
 /// Part of a run after which it is killed.
 const LATE: f64 = 0.8;

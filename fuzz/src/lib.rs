@@ -10,7 +10,7 @@ use motile_scene::{Scene, checkpoint::Checkpoint};
 use ib_core::{BSpline, ImmersedBoundary};
 use stokes_grid::{Grid, PeriodicStokes};
 use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, SceneFlags};
-use motile_output::run::OutputFlags;
+use motile_cli::run::OutputFlags;
 
 type Small = Scene<ImmersedBoundary<PeriodicStokes, BSpline<4>>>;
 

@@ -12,7 +12,8 @@ use clap::Args;
 use motile::base::Region;
 use motile::scene::Every;
 use motile::setup::{Built, Setup};
-use motile_output::{Animation, Look, Raster, run::say};
+use motile_cli::run::say;
+use motile_output::{Animation, Look, Raster};
 use motile_tests::validation::Table;
 
 use crate::tables::{self, root};

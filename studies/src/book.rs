@@ -20,8 +20,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
+use motile_cli::run::{explained, say};
 use motile_output::plot::Figure as Picture;
-use motile_output::run::{explained, say};
 use serde::{Deserialize, Serialize};
 
 use crate::tables;

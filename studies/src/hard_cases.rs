@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use crate::tables;
 use anyhow::Result;
 use clap::Args;
-use motile_output::run::{Summary, make_directory, say, write_results};
+use motile_cli::run::{Summary, make_directory, say, write_results};
 use motile_output::{Look, Raster, Snapshot};
 use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
 use motile_tests::validation::Table;

@@ -181,7 +181,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let mut rows = known.lines().filter_map(|line| line.split_once(';'));
         let before = rows.find(|row| row.0 == *name).and_then(|row| row.1.parse::<f64>().ok());
         let change = before.map_or(f64::INFINITY, |before| now as f64 / before - 1.0);
-        motile_output::run::say(format_args!("{name:<46} {now:>12} {:>+8.2} %", 100.0 * change));
+        motile_cli::run::say(format_args!("{name:<46} {now:>12} {:>+8.2} %", 100.0 * change));
         if change.abs() > TOLERANCE {
             changed.push(*name);
         }

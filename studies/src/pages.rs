@@ -14,7 +14,7 @@ use std::fs;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use motile_output::run::say;
+use motile_cli::run::say;
 
 use crate::tables::{comment, file, name, pages_of};
 

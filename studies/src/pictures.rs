@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
 use clap::Args;
-use motile_output::run::say;
+use motile_cli::run::say;
 
 use crate::tables::root;
 

@@ -18,8 +18,8 @@ use motile::elastic_solids::mesh::fitted_strip;
 use motile::ib_core::{BSpline, ImmersedBoundary, Transfer};
 use motile::scene::{Body, Hydrodynamics};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver};
+use motile_cli::run::say;
 use motile_examples::positive;
-use motile_output::run::say;
 use motile_timing::{PlainPair, Turns};
 use serde_json::{Value, json};
 
@@ -44,7 +44,7 @@ const SPACING: f64 = 1.0;
 const ASPECT: f64 = 4.0;
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    motile_output::run::make_directory(&flags.out)?;
+    motile_cli::run::make_directory(&flags.out)?;
     let budget = Duration::from_secs_f64(flags.seconds);
     say(format_args!(
         "{:>6} {:>10} {:>10} {:>8} {:>10} {:>12} {:>10}",

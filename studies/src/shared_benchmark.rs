@@ -11,7 +11,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_tests::validation::interfaces::relax;
 use motile_tests::validation::{Reference, ReferenceFile, Table, relaxation};
 use motile_timing::median;

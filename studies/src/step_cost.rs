@@ -19,8 +19,8 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 use clap::Args;
+use motile_cli::run::{Summary, say};
 use motile_examples::positive;
-use motile_output::run::{Summary, say};
 use serde_json::{Value, json};
 
 use crate::step_cost::phases::PHASES;
@@ -40,7 +40,7 @@ pub(crate) struct Flags {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    motile_output::run::make_directory(&flags.out)?;
+    motile_cli::run::make_directory(&flags.out)?;
     say(header());
     let mut results = Vec::new();
     for (name, run) in scenes::jobs()? {

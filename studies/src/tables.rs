@@ -21,7 +21,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_tests::validation::Table;
 
 /// Sources that every run of a droplet depends on.

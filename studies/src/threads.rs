@@ -14,7 +14,7 @@ use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::scene::{Hydrodynamics, Scene, integrator::Dynamics as _};
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup};
-use motile_output::run::say;
+use motile_cli::run::say;
 
 use crate::many;
 

@@ -25,7 +25,7 @@ use motile::base::Region;
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::scene::StepSize;
 use motile::setup::{DropletSetup, GridMethod, Method, Setup};
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_tests::validation::growth::Mode;
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
 use motile_tests::validation::swimmers::{LongRun, long_run, speeds, steady, transient};

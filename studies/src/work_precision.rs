@@ -23,8 +23,8 @@ mod swimmers;
 use crate::tables;
 use anyhow::{Context, Result};
 use clap::Args;
-use motile_output::run::{OutputFlags, Summary, say, write_results};
-use motile_output::sweep::RunPool;
+use motile_cli::run::{OutputFlags, Summary, say, write_results};
+use motile_cli::sweep::RunPool;
 
 use crate::work_precision::front::Point;
 use crate::work_precision::settings::Settings;
@@ -90,7 +90,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         figure.write(&directory, study.name())?;
         if flags.write {
             let pictures = tables::root().join("docs/images/work_precision");
-            motile_output::run::make_directory(&pictures)?;
+            motile_cli::run::make_directory(&pictures)?;
             let path = pictures.join(format!("{}.svg", study.name()));
             std::fs::copy(directory.join(format!("{}.svg", study.name())), &path)
                 .with_context(|| format!("writing {}", path.display()))?;

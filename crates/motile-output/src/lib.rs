@@ -31,7 +31,6 @@
 //! | many droplets | the module [`suspension`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
-//! | whole runs, parameter sweeps | the modules `run` and `sweep` of the feature `sweep` |
 //!
 //! Pictures and plots are drawn once, as vectors, and written as SVG or PNG. They need no fonts of the system and no C
 //! libraries: Noto Sans is bundled (SIL Open Font License). Failures end in an [`OutputError`].
@@ -47,14 +46,10 @@ mod picture;
 pub mod plot;
 mod progress;
 mod raster;
-#[cfg(feature = "sweep")]
-pub mod run;
 mod snapshot;
 mod solids;
 mod streamlines;
 pub mod suspension;
-#[cfg(feature = "sweep")]
-pub mod sweep;
 mod table;
 mod trajectory;
 

@@ -111,6 +111,12 @@ impl Raster {
         self.origin
     }
 
+    /// Returns whether fields repeat in x and in y.
+    #[must_use]
+    pub fn periodic(&self) -> [bool; 2] {
+        self.periodic
+    }
+
     /// Sides along x and y (length).
     #[must_use]
     pub fn size(&self) -> [f64; 2] {

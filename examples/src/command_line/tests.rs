@@ -5,7 +5,7 @@ use motile::base::Region;
 use motile::ib_core::AnyKernel;
 use motile::scene::StepSize;
 use motile::setup::{DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
-use motile_output::run::OutputFlags;
+use motile_cli::run::OutputFlags;
 
 #[derive(Debug, Parser)]
 struct Flags {

@@ -7,7 +7,7 @@ use motile::base::{FlowSample, Region, Vec2};
 use motile::scene::SceneError;
 use motile::scene::checkpoint::Checkpoint;
 use motile::setup::{Built, Setup};
-use motile_output::run::{Summary, explained, make_directory, say};
+use motile_cli::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
 use motile_steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
 use serde::Deserialize;
@@ -20,7 +20,7 @@ use super::Making;
 use super::expression::Row;
 use crate::tables;
 use bisection::Bisection;
-use motile_output::sweep::{Plan, RunPool, State, Trial};
+use motile_cli::sweep::{Plan, RunPool, State, Trial};
 
 /// Where on a swimmer's axis the flow is looked at: distances from the interface (length), each that times the last.
 const NEAREST: f64 = 0.01;
@@ -45,7 +45,7 @@ const LONGEST: usize = 40;
 pub(super) struct Source {
     /// Description in words.
     about: String,
-    /// A plan as those of [`motile_output::sweep`], its scene in it.
+    /// A plan as those of [`motile_cli::sweep`], its scene in it.
     #[serde(default)]
     plan: Option<Table>,
     /// Changes with `--quick`.

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use motile::setup::Method;
-use motile_output::sweep::Trial;
+use motile_cli::sweep::Trial;
 
 use super::*;
 

@@ -190,7 +190,7 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", &header);
     let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: [String; 4]| {
         let cells = [format!("{at:.5}"), format!("{amplitude:.4}"), format!("{period:.3}"), format!("{speed:.6}")];
-        motile_output::run::say(format_args!("{cells:?} {rest:?}"));
+        motile_cli::run::say(format_args!("{cells:?} {rest:?}"));
         table.push(cells.into_iter().chain(rest));
     };
     push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, Default::default());

@@ -7,7 +7,7 @@ use motile::active_interface::ActiveDroplet;
 use motile::base::{Drive, Region, TubeShape, Vec2};
 use motile::scene::Scene;
 use motile::setup::{DropletSetup, Particles, Setup};
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 use motile_tests::validation::Table;
 

@@ -7,7 +7,7 @@ use motile::base::Vec2;
 use motile::ib_core::{AnyKernel, Transfer};
 use motile::scene::{FlowWork, Hydrodynamics, Scene};
 use motile::stokes_grid::{Grid, RealFft2, StaggeredField, Symbol};
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 use motile_timing::{PlainPair, median};
 
 use crate::step_cost::watched::Stopwatches;

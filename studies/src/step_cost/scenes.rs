@@ -9,7 +9,7 @@ use motile::ib_core::{ImmersedBoundary, SmearedContrast};
 use motile::scene::{Body, Hydrodynamics, Scene};
 use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 
 use crate::step_cost::phases::Case;
 use crate::step_cost::watched::{Stopwatches, Watched};

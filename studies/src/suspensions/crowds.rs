@@ -4,7 +4,7 @@ use anyhow::Result;
 use motile::analysis::suspension::rotational_diffusion;
 use motile::scene::Every;
 use motile::setup::Built;
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_output::suspension::SuspensionCsv;
 use motile_tests::validation::Table;
 

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use motile::analysis::suspension::Member;
 use motile::base::Region;
 use motile::setup::{Built, DropletSetup, Setup};
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_tests::validation::Table;
 
 use super::{Rows, held, integral};

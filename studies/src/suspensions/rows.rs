@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use motile_output::run::say;
+use motile_cli::run::say;
 
 /// Separator of the name of a row from its values, and of these from one another.
 const TAB: char = '\t';

@@ -6,8 +6,8 @@ use anyhow::{Context, Result, bail};
 use motile::base::{Drive, Region, TubeShape};
 use motile::scene::{Every, SceneError};
 use motile::setup::{DropletSetup, Setup};
+use motile_cli::run::{Decided, say};
 use motile_examples::{Passage, Verdict};
-use motile_output::run::{Decided, say};
 use motile_tests::validation::Table;
 use toml::{Table as Toml, Value};
 

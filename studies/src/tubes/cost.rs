@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use motile::base::Region;
 use motile::scene::{Scene, SceneError};
 use motile::setup::{AnyFlow, DropletSetup};
-use motile_output::run::say;
+use motile_cli::run::say;
 use motile_tests::validation::Table;
 use motile_timing::Turns;
 use rayon::ThreadPoolBuilder;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use motile::scene::{Every, Hydrodynamics, Scene, System, integrator::RungeKuttaChebyshev};
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 use motile_timing::{PlainPair, median};
 
 use crate::work_precision::settings::Stepper;

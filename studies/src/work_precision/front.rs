@@ -1,6 +1,6 @@
 //! Which settings are worth their cost.
 
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 
 use crate::work_precision::lists::series;
 use crate::work_precision::settings::{Flow, Settings};

@@ -3,7 +3,7 @@
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::scene::StepSize;
 use motile::setup::{GridMethod, IntegralMethod, Method, Setup};
-use motile_output::run::Summary;
+use motile_cli::run::Summary;
 use serde_json::Value;
 
 /// How velocities come from forces.

@@ -186,35 +186,3 @@ fn motion_of_many_droplets_is_that_of_their_rows() {
     }
     assert!(motion[3][1] > 1e-4 && (motion[0][2] - 1.0).abs() < 1e-9, "{motion:?}");
 }
-
-#[cfg(feature = "sweep")]
-#[test]
-fn summaries_and_their_tables_come_back() {
-    use motile_output::run::{Summary, write_results};
-
-    let directory = Directory::new("summary");
-    let mut summary = Summary::default();
-    summary.put("speed", 0.1 + 0.2, "");
-    summary.put("regime", "at rest, \"nearly\"", "");
-    summary.put("steps", 12_000_usize, "");
-    summary.put("warnings", vec!["thin film", "long \\ step"], "");
-    summary.put("beta", f64::NAN, "");
-    let path = directory.0.join("summary.json");
-    summary.write(&path).unwrap();
-    let found: serde_json::Value = serde_json::from_str(&directory.text("summary.json")).unwrap();
-    let expected = serde_json::json!({
-        "speed": 0.1 + 0.2, "regime": "at rest, \"nearly\"", "steps": 12_000,
-        "warnings": ["thin film", "long \\ step"], "beta": null
-    });
-    assert_eq!(found, expected);
-
-    let table = directory.0.join("results.csv");
-    write_results(&table, &[summary.clone(), summary]).unwrap();
-    let mut reader = csv::Reader::from_path(&table).unwrap();
-    let names = reader.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-    assert_eq!((rows.len(), names.len()), (2, 5));
-    let field = |name: &str| rows[1].get(names.iter().position(|known| known == name).unwrap()).unwrap();
-    assert_eq!([field("regime"), field("steps"), field("beta")], ["at rest, \"nearly\"", "12000", ""]);
-    assert_eq!(field("speed").parse::<f64>().unwrap(), 0.1 + 0.2);
-}

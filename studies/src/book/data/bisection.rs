@@ -1,7 +1,7 @@
 //! Boundaries between two outcomes of runs, by bisection of an entry of their scenes.
 
 use anyhow::{Context, Result, ensure};
-use motile_output::sweep::{Plan, Trial};
+use motile_cli::sweep::{Plan, Trial};
 use serde::Deserialize;
 use toml::{Table, Value};
 

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 /// Named results in the order they are put in, written as `summary.json` and printed as a table.
 ///
 /// ```
-/// use motile_output::run::Summary;
+/// use motile_cli::run::Summary;
 ///
 /// let mut summary = Summary::default();
 /// summary.put("speed", 0.138_612_3, "of the centroid (R0/T)");

@@ -1,10 +1,10 @@
-//! Parameter sweeps from the command line: [`motile_output::sweep`].
+//! Parameter sweeps from the command line: [`motile_cli::sweep`].
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use motile_output::run::explained;
-use motile_output::sweep::{SweepFlags, sweep};
+use motile_cli::run::explained;
+use motile_cli::sweep::{SweepFlags, sweep};
 
 /// Makes the runs of a plan, on all cores of a machine or on many machines, and collects their results.
 #[derive(Debug, Parser)]

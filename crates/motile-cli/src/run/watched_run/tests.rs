@@ -64,7 +64,7 @@ fn pictures_of_the_plane_have_the_cells_of_their_spacing() {
     let view = View { spacing: 0.75, region: String::new() };
     let run = WatchedRun::new(setup.build().unwrap(), &setup, 0.01, &output(&directory, false), "", &view).unwrap();
     let raster = run.raster;
-    assert_eq!((raster.cells(), raster.size, raster.periodic), ([16; 2], [12.0; 2], [false; 2]));
+    assert_eq!((raster.cells(), raster.size(), raster.periodic()), ([16; 2], [12.0; 2], [false; 2]));
     let near = |found: Vec2, expected: [f64; 2]| found.distance(expected.into()) < 1e-12;
     let points = raster.points();
     assert!(near(points[0], [-5.6 + 0.375, -6.2 + 0.375]) && near(points[255], [6.4 - 0.375, 5.8 - 0.375]));

@@ -10,7 +10,7 @@ use motile::scene::{Handle, Scene};
 use motile::setup::{AnyFlow, Built, Setup};
 
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
-use crate::{DropletsCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot};
+use motile_output::{DropletsCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot};
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;

@@ -12,8 +12,10 @@ use motile::setup::{AnyFlow, Built, DropletSetup, ExcludedVolume, GridMethod, Me
 
 use super::scene_run::view as view_of;
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary, words::say};
-use crate::plot::{concentration_plot, time_series};
-use crate::{Animation, CsvTable, DropletsCsv, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv};
+use motile_output::plot::{concentration_plot, time_series};
+use motile_output::{
+    Animation, CsvTable, DropletsCsv, Look, ParaView, Raster, Snapshot, SolidColour, Track, TrajectoryCsv,
+};
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;

@@ -6,8 +6,8 @@ use motile::active_interface::observables::{Convention, Observables, observe};
 use motile::analysis::trajectory::{Evidence, RegimeCriteria};
 
 use super::WatchedRun;
-use crate::SolidMeter;
 use crate::run::{Steadiness, Summary};
+use motile_output::SolidMeter;
 
 /// Remarks on the values of a [`SolidMeter`].
 const SOLIDS: [&str; 8] = [

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use super::{flags::OutputFlags, summary::Summary, words::say};
-use crate::RunProgress;
 use anyhow::{Result, ensure};
 use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
 use motile::setup::{AnyFlow, Setup};
+use motile_output::RunProgress;
 
 /// Most steps of a run: more would take weeks.
 const MOST_STEPS: f64 = 1e9;

@@ -12,8 +12,8 @@ use std::{
 use anyhow::{Context, Result, anyhow};
 use serde_json::Value;
 
-use crate::Progress;
 use crate::run::{Summary, make_directory};
+use motile_output::Progress;
 
 /// Entry of a summary with the name of its run.
 const NAME: &str = "run";
