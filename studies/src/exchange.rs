@@ -98,7 +98,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 
 /// Relative errors of rates of mode 1 and of a speed, with a field inside, over the nodes.
 fn errors() -> Result<Table> {
-    let columns = ["nodes", "cells", "spacing", "growing mode", "decaying mode", "speed"];
+    let columns = ["nodes", "elements", "spacing", "growing mode", "decaying mode", "speed"];
     let title = format!(
         "Relative errors with a field inside, D_b {BULK}: rates of mode 1 at activity -8 and 0; speed at activity -4, \
          t = {LATE}, from that of {FINEST} nodes"

@@ -305,7 +305,7 @@ fn orders() -> Result<Table> {
     let flows = [("grid 0.2", grid, "on"), ("grid 0.2", grid, "off")];
     let flows = flows
         .into_iter()
-        .chain([("integrals, 72 cells", integrals(72), "none"), ("integrals, 288 cells", integrals(288), "none")]);
+        .chain([("integrals, 72 elements", integrals(72), "none"), ("integrals, 288 elements", integrals(288), "none")]);
     for (flow, method, filter) in flows {
         for (stabilised, name) in [(true, "on"), (false, "off")] {
             let motion = Motion::Equidistributed { relaxation: 50.0, filter: filter != "off" };

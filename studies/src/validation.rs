@@ -272,7 +272,7 @@ fn integrals(quick: bool) -> Tables {
     let mut table = Table::new(
         "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active \
          fraction, maximum concentration",
-        &["viscosities in/out", "activity", "nodes", "cells", "errors", "area change", "steps", "seconds"],
+        &["viscosities in/out", "activity", "nodes", "elements", "errors", "area change", "steps", "seconds"],
     );
     let all = [(32, 256), (48, 256), (64, 256), (64, 512), (96, 384), (128, 512), (192, 768)];
     for (inside, viscosity, activity) in [(None, 100.0, -2.0), (None, 100.0, -4.0), (Some(100.0), 10.0, -1.0)] {

@@ -43,7 +43,7 @@ fn sizes_are_refused_before_they_are_allocated() {
             Setup { method: Method::Integral(IntegralMethod { nodes: usize::MAX, elements: 0 }), ..on_grid(0.1) },
         ),
         (
-            "cells",
+            "elements",
             Setup { method: Method::Integral(IntegralMethod { nodes: 64, elements: usize::MAX }), ..on_grid(0.1) },
         ),
     ];

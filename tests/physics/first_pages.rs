@@ -6,12 +6,17 @@ use std::{env, fs, path::Path};
 
 const CRATES: [&str; 4] = ["stokes-grid", "ib-core", "active-interface", "elastic-solids"];
 
-/// Returns the first program of a page, as lines of documentation, and the page around it.
+/// Returns the first program of a page, as lines of documentation, and the page around it. Blocks of text are no programs.
 fn example(page: &str) -> (&str, &str, &str) {
-    let fence = "//! ```\n";
-    let start = page.find(fence).expect("a program on the page") + fence.len();
-    let end = start + page[start..].find(fence).expect("the end of the program");
-    (&page[..start], &page[start..end], &page[end..])
+    let fence = "//! ```";
+    let mut fences = page.match_indices(fence).map(|(at, _)| at);
+    while let (Some(start), Some(end)) = (fences.next(), fences.next()) {
+        let first = start + fence.len() + 1;
+        if page[start + fence.len()..].starts_with('\n') {
+            return (&page[..first], &page[first..end], &page[end..]);
+        }
+    }
+    panic!("no program on the page")
 }
 
 /// Returns a program without its head comment, as lines of documentation.

@@ -46,3 +46,24 @@ fn each_crate_ships_the_licences() {
         }
     }
 }
+
+/// What the user's design card names, see CONTRIBUTING.md.
+#[test]
+fn the_workspace_has_what_the_design_card_names() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    for name in ["Cargo.toml", "crates", "examples", "tests", "benches", "docs", "LICENSE"] {
+        assert!(root.join(name).exists(), "no {name} at the top level");
+    }
+    let manifest = std::fs::read_to_string(root.join("Cargo.toml")).expect("a manifest");
+    for name in ["nalgebra", "rustfft", "realfft", "num-complex", "approx", "proptest", "criterion"] {
+        assert!(manifest.lines().any(|line| line.starts_with(&format!("{name} = "))), "no dependency {name}");
+    }
+    // The names compile, so that they exist.
+    let grid = motile::stokes_grid::Grid::periodic(8, 8, 0.1).expect("a grid");
+    let projection = motile::stokes_grid::ProjectionStokes::new(grid, 1.0).expect("a solver");
+    let _: &dyn motile::stokes_grid::StokesSolver = &projection;
+    let _ = (motile::stokes_grid::SineTransform::new(8), motile::stokes_grid::CosineTransform::new(8));
+    let _ = motile::ib_core::Transfer::new(grid, motile::ib_core::Peskin4);
+    let _ = motile::active_interface::ExcludedVolume::Step(10.0);
+    let _ = motile::elastic_solids::NeoHookean::new(1.0, 2.0);
+}

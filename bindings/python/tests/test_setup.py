@@ -62,7 +62,7 @@ def test_arrays_are_lists() -> None:
     one, other = (motile.Setup(droplets=[motile.droplet(shape={"points": p})]) for p in (points, strided))
     assert one == other
     assert motile.Setup(viscosity=np.float32(50)).viscosity == 50
-    assert motile.Setup(method=motile.integral(nodes=np.int64(32), cells=128)).method["integral"]["nodes"] == 32
+    assert motile.Setup(method=motile.integral(nodes=np.int64(32), elements=128)).method["integral"]["nodes"] == 32
 
 
 @pytest.mark.parametrize(

@@ -8,46 +8,44 @@
 //! gamma = gamma0 - zeta_dmu c - Pi(c)             (2.39)
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
+//! [`ActiveDroplet`] is that droplet as a body of a scene ([`motile_scene::Body`]). The parts it is made of, each
+//! usable by itself, work on plain slices of markers ([`Vec2`](motile_base::Vec2)) and numbers:
+//!
+//! * **Shapes**: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
+//!   crossings; area, moments and perimeter of polygons, exact.
+//! * **Particles**: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
+//!   along the interface without losing any.
+//! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
+//! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_well_mixed_interior`].
+//! * [`observables`]: [`observables::observe`] for all of them at once, and a function for each; fluxes along a
+//!   channel.
+//! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`Units`] converts to SI.
+//!
+//! # Conventions
+//!
+//! Markers run counter-clockwise, normals point outwards. Element k reaches from marker k to marker k + 1 and holds the
+//! particle number n_k; its concentration is n_k over its length. Forces are those of the interface on the fluid.
+//! Quantities have the units that you choose; every item names its dimension. Bad input ends in an [`InterfaceError`].
+//!
+//! # Example
+//!
+//! Particles on a circle in a flow that you prescribe. The flow gathers them at a known rate, and diffusion spreads them
+//! at a known rate:
+//!
+//! ```
 //! use std::error::Error;
 //!
 //! use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume};
 //! use active_interface::{PrescribedFlow, Scene, StepSize, Vec2};
 //!
 //! /// Returns concentrations at time 1 that start as 1 + wave cos(angle), in a flow of velocity -gathering sin(angle)
-//! along /// the circle. fn concentrations(gathering: f64, diffusion: f64, wave: f64) -> Result<Vec<f64>, Box<dyn
-//! Error>> { let markers = Curve::circle(1.0)?.markers(256)?; let next = |k: usize| markers[(k + 1) % markers.len()];
-//! let start = |from: Vec2, to: Vec2| (1.0 + wave * (from + to).to_angle().cos()) * from.distance(to); let numbers =
-//! (0..markers.len()).map(|k| start(markers[k], next(k))).collect(); let law = ContractileTension::new(1.0, -0.1,
-//! ExcludedVolume::None, 1.0)?;
-//!
-//!     let mut scene = Scene::new(PrescribedFlow::new(move |x: Vec2| gathering * x.y * Vec2::new(x.y, -x.x)));
-//!     let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, diffusion)?);
-//!     scene.run(1.0).step_size(StepSize::Fixed(0.005)).go()?;
-//!     Ok(scene.body(droplet)?.concentrations().to_vec())
-//! }
-//!
-//! fn main() -> Result<(), Box<dyn Error>> {
-//!     // Without diffusion, the concentration where the flow converges grows like exp(0.5 t).
-//!     let gathered = concentrations(0.5, 0.0, 0.0)?.into_iter().fold(0.0, f64::max).ln();
-//!     // Without flow, the wave decays like exp(-0.2 t).
-//!     let waves = concentrations(0.0, 0.2, 0.3)?;
-//!     let decayed = (0.5 * (waves[0] - waves[128]) / 0.3).ln();
-//!     println!("rates {gathered:.4} and {decayed:.4}, exact 0.5000 and -0.2000");
-//!     assert!((gathered - 0.5).abs() < 1e-3 && (decayed + 0.2).abs() < 1e-3);
-//!     Ok(())
-//! }
-//! ```
-//! use std::error::Error;
-//!
-//! use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, PrescribedFlow, Scene, StepSize,
-//! Vec2};
-//!
-//! /// Concentrations at time 1 of particles with this diffusion constant that start as 1 + wave cos(angle). The flow
-//! along /// the circle is -gathering sin(angle), towards the angle zero. fn concentrations(gathering: f64, diffusion:
-//! f64, wave: f64) -> Result<Vec<f64>, Box<dyn Error>> { let markers = Curve::circle(1.0)?.markers(256)?; let next =
-//! |k: usize| markers[(k + 1) % markers.len()]; let start = |from: Vec2, to: Vec2| (1.0 + wave * (from +
-//! to).to_angle().cos()) * from.distance(to); let numbers = (0..markers.len()).map(|k| start(markers[k],
-//! next(k))).collect(); let law = ContractileTension::new(1.0, -0.1, ExcludedVolume::None, 1.0)?;
+//! /// along the circle.
+//! fn concentrations(gathering: f64, diffusion: f64, wave: f64) -> Result<Vec<f64>, Box<dyn Error>> {
+//!     let markers = Curve::circle(1.0)?.markers(256)?;
+//!     let next = |k: usize| markers[(k + 1) % markers.len()];
+//!     let start = |from: Vec2, to: Vec2| (1.0 + wave * (from + to).to_angle().cos()) * from.distance(to);
+//!     let numbers = (0..markers.len()).map(|k| start(markers[k], next(k))).collect();
+//!     let law = ContractileTension::new(1.0, -0.1, ExcludedVolume::None, 1.0)?;
 //!
 //!     let mut scene = Scene::new(PrescribedFlow::new(move |x: Vec2| gathering * x.y * Vec2::new(x.y, -x.x)));
 //!     let droplet = scene.add(ActiveDroplet::new(&markers, numbers, law, diffusion)?);

@@ -4,6 +4,16 @@
 //! forces --> spread with a kernel --force field--> StokesSolver --velocity field--> interpolate,
 //!        correct the mobility of interfaces --> velocities
 //! ```
+//!
+//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`](motile_scene::Hydrodynamics), the trait of flows
+//! for the scenes of [`motile_scene`].
+//!
+//! # Example
+//!
+//! Peskin's elastic ring: the order of its velocity with and without the mobility correction, and the area that it loses
+//! while it becomes a circle:
+//!
+//! ```
 //! use std::error::Error;
 //! use std::f64::consts::TAU;
 //!
@@ -64,68 +74,6 @@
 //!     scene.run(0.5).step_size(StepSize::Adaptive { tolerance: 1e-4 }).go()?;
 //!     Ok(1.0 - area(scene.body(ring)?.markers()) / start)
 //! }
-//!
-//! fn main() -> Result<(), Box<dyn Error>> {
-//!     let [with, without] = [order(true)?, order(false)?];
-//!     println!("order {with:.2} with the correction, {without:.2} without");
-//!     let loss = area_loss(64)?;
-//!     println!("area lost {loss:.2e}");
-//!     assert!(with > 1.8 && without < 1.3);
-//!     assert!(loss.abs() < 1e-3);
-//!     Ok(())
-//! }
-//! ```
-//! use std::error::Error;
-//! use std::f64::consts::TAU;
-//!
-//! use ib_core::{BSpline, ImmersedBoundary, MarkerBody, MarkerKind, Scene, StepSize, Vec2};
-//! use stokes_grid::{Grid, PeriodicStokes};
-//!
-//! /// Markers of an ellipse, nearly equally spaced.
-//! fn ellipse(count: usize) -> Vec<Vec2> {
-//!     let angle = |k: usize| TAU * k as f64 / count as f64;
-//!     (0..count).map(|k| Vec2::new(0.6 * angle(k).cos(), 0.5 * angle(k).sin())).collect()
-//! }
-//!
-//! /// Springs between neighbouring markers, whose length at rest is zero.
-//! fn springs(positions: &[Vec2], forces: &mut [Vec2]) {
-//!     let count = positions.len();
-//!     let stiffness = count as f64 / TAU;
-//!     for k in 0..count {
-//!         let [before, after] = [positions[(k + count - 1) % count], positions[(k + 1) % count]];
-//!         forces[k] = stiffness * (before + after - 2.0 * positions[k]);
-//!     }
-//! }
-//!
-//! type Flow = ImmersedBoundary<PeriodicStokes, BSpline<4>>;
-//!
-//! /// A ring in a box of 2 × 2 on n × n cells, its markers half a grid spacing apart.
-//! fn scene(n: usize, corrected: bool) -> Result<(Scene<Flow>, usize), Box<dyn Error>> {
-//!     let solver = PeriodicStokes::new(Grid::periodic(n, n, 2.0 / n as f64)?, 1.0)?;
-//!     let make = if corrected { Flow::new } else { Flow::uncorrected };
-//!     Ok((Scene::new(make(solver, BSpline::<4>)), 7 * n / 2))
-//! }
-//!
-//! /// Returns the velocities of 28 markers.
-//! fn velocities(n: usize, corrected: bool) -> Result<Vec<Vec2>, Box<dyn Error>> {
-//!     let (mut scene, count) = scene(n, corrected)?;
-//!     let kind = MarkerKind::Interface { viscosity_inside: None };
-//!     scene.add(MarkerBody::new("ring", ellipse(count), springs).with_kind(kind));
-//!     let markers = scene.system_mut().evaluate()?;
-//!     Ok(markers.velocities().iter().step_by(count / 28).copied().collect())
-//! }
-//!
-//! /// Returns the order of the velocity from three grids, each half as fine as the next. fn order(corrected: bool) ->
-//! Result<f64, Box<dyn Error>> { let [coarse, middle, fine] = [velocities(64, corrected)?, velocities(128, corrected)?,
-//! velocities(256, corrected)?]; let distance = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| (*a -
-//! *b).length_squared()).sum::<f64>().sqrt(); Ok((distance(&coarse, &middle) / distance(&middle, &fine)).log2()) }
-//!
-//! /// Returns the area that the ring has lost by time 0.5, as a fraction of its area. fn area_loss(n: usize) ->
-//! Result<f64, Box<dyn Error>> { let area = |ring: &[Vec2]| (0..ring.len()).map(|k| 0.5 * ring[k].perp_dot(ring[(k + 1)
-//! % ring.len()])).sum::<f64>(); let (mut scene, count) = scene(n, true)?; let kind = MarkerKind::Interface {
-//! viscosity_inside: None }; let ring = scene.add(MarkerBody::new("ring", ellipse(count), springs).with_kind(kind));
-//! let start = area(scene.body(ring)?.markers()); scene.run(0.5).step_size(StepSize::Adaptive { tolerance: 1e-4
-//! }).go()?; Ok(1.0 - area(scene.body(ring)?.markers()) / start) }
 //!
 //! fn main() -> Result<(), Box<dyn Error>> {
 //!     let [with, without] = [order(true)?, order(false)?];

@@ -53,7 +53,7 @@ pub(crate) fn relaxation(quick: bool) -> Tables {
 pub(crate) fn growth(quick: bool) -> Tables {
     let mut table = Table::new(
         "Growth rates (2.18), (2.19) in unbounded fluid: relative errors",
-        &["viscosities in/out", "activity", "mode", "theory", "384 cells", "from 768 and 1536 cells"],
+        &["viscosities in/out", "activity", "mode", "theory", "384 elements", "from 768 and 1536 elements"],
     );
     let modes =
         [Mode::Concentration(1), Mode::Concentration(2), Mode::Concentration(3), Mode::Shape(2), Mode::Shape(3)];
@@ -87,7 +87,7 @@ pub(crate) fn growth(quick: bool) -> Tables {
 pub(crate) fn transients(quick: bool) -> Tables {
     let mut table = Table::new(
         "Transient at activity -1 without a grid, 6 x 6 box: largest relative error of the speed",
-        &["nodes", "cells", "error in %", "at time"],
+        &["nodes", "elements", "error in %", "at time"],
     );
     for &(nodes, cells) in resolutions(quick) {
         let (error, time) = transient(&reference(without_grid(nodes, cells), -1.0))?;
@@ -100,7 +100,7 @@ pub(crate) fn channel(quick: bool) -> Tables {
     let mut table = Table::new(
         "Steady swimmers in channels without a grid (period 12, A = 10): errors in % of speed, aspect ratio, \
          stresslet, beta, gap",
-        &["width", "activity", "nodes", "cells", "errors", "area change", "seconds"],
+        &["width", "activity", "nodes", "elements", "errors", "area change", "seconds"],
     );
     for (width, activity, time) in
         [(2.0, -2.0, 400.0), (2.0, -4.0, 400.0), (3.0, -2.0, 60.0), (5.0, -2.0, 60.0), (5.0, -4.0, 60.0)]
@@ -131,7 +131,7 @@ pub(crate) fn lateral_modes(quick: bool) -> Tables {
     let mut modes = Table::new(
         "Lateral offset in a channel without a grid (width 5, period 12, A = 10): growth rate and angular frequency \
          from t = 40 to 100",
-        &["activity", "nodes", "cells", "growth rate", "error in %", "frequency", "error in %"],
+        &["activity", "nodes", "elements", "growth rate", "error in %", "frequency", "error in %"],
     );
     for activity in [-2.0, -4.0] {
         let (growth, frequency) = lateral::reference(activity)?;
@@ -161,7 +161,7 @@ pub(crate) fn several(quick: bool) -> Tables {
             "scene",
             "ratio",
             "nodes",
-            "cells",
+            "elements",
             "smallest gap",
             "largest shift from the finest run",
             "area",

@@ -63,7 +63,7 @@ const BETTER: f64 = 0.95;
 /// let mode = fit_linear_mode(&times, &y, None)?;
 /// println!("growth {:.5}, period {:.2}", mode.growth_rate.value, mode.period().map_or(f64::NAN, |p| p.value));
 /// assert!((mode.growth_rate.value - 0.002).abs() < 1e-9);
-/// # Ok::<(), active_interface::AnalysisError>(())
+/// # Ok::<(), motile_analysis::AnalysisError>(())
 /// ```
 ///
 /// # Errors

@@ -12,7 +12,7 @@ impl Sweep {
         let plan = self.0.join("plan.toml");
         let text = format!(
             "time = {time}\n[grid]\n\"droplets.0.particles.activity\" = [{activities}]\n[scene.method.integral]\n\
-             nodes = {nodes}\ncells = 480\n[[scene.droplets]]\n"
+             nodes = {nodes}\nelements = 480\n[[scene.droplets]]\n"
         );
         fs::write(&plan, text)?;
         let (shard, out) = (Shard { number: 0, of: 1 }, Some(self.0.join("out")));

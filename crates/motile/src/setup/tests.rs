@@ -894,7 +894,7 @@ mod file {
                 "[[solids]]\noutline.polygon = { corners = [[0.0, 0.0]], fillet = 0.1 }\nmaterial.springs.shear = 1.0",
                 &["fillet", "rounding"],
             ),
-            ("method.grid.layers.nodes = 72", &["method.grid.layers", "give nodes and cells in [method.layers]"]),
+            ("method.grid.layers.nodes = 72", &["method.grid.layers", "give nodes and elements in [method.layers]"]),
             (
                 "[[solids]]\nsurface = \"plain\"\noutline.disc = { centre = [0.0, 0.0], radius = 0.3 }\n\
                  material.springs.shear = 1.0",

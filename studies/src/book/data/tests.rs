@@ -34,7 +34,7 @@ fn a_run_that_ends_in_an_error_is_told_each_time_and_others_have_their_speed() {
     let making = Making { quick: false, threads: 1, quiet: true, out };
     let text = "about = \"a\"\n[plan]\ntime = 0.02\n[plan.grid]\n\"least-gap\" = [1.5, 0.1]\n\
                 [plan.scene.region.channel]\nlength = 6.0\nwidth = 4.0\ndrive = \"zero-gradient\"\n\
-                [plan.scene.method.integral]\nnodes = 32\ncells = 128\n[[plan.scene.droplets]]\n";
+                [plan.scene.method.integral]\nnodes = 32\nelements = 128\n[[plan.scene.droplets]]\n";
     let source: Source = toml::from_str(text).expect("a source");
     for _ in 0..2 {
         let data = source.rows("failing", &making).expect("data");

@@ -9,7 +9,7 @@ fn the_boundary_of_each_point_is_found_and_runs_are_kept() {
                 outcome = \"furthest_x > viscosity / 100\"\n[plan]\ntime = 0.02\n\
                 [plan.grid]\nviscosity = [80.0, 110.0, 400.0]\n\
                 [plan.scene.region.channel]\nlength = 6.0\nwidth = 4.0\ndrive = \"zero-gradient\"\n\
-                [plan.scene.method.integral]\nnodes = 32\ncells = 128\n\
+                [plan.scene.method.integral]\nnodes = 32\nelements = 128\n\
                 [[plan.scene.droplets]]\nparticles.activity = -0.1\n\
                 centre = [0.0, 0.0]\n";
     let source: Source = toml::from_str(text).expect("a source");
