@@ -68,9 +68,9 @@ use periodic::PeriodicProjection;
 ///
 /// # Periodic box
 ///
-/// The velocity has exactly the mean that [`ProjectionStokes::set_mean_velocity`] prescribes, zero by default. A uniform
-/// pressure gradient balances a mean force. With the feature `rayon`, boxes of 800,000 cells or more use the threads of
-/// the current pool, with bitwise identical results for any number of them.
+/// The velocity has exactly the mean that [`ProjectionStokes::set_mean_velocity`] prescribes, zero by default. A
+/// uniform pressure gradient balances a mean force. With the feature `rayon`, boxes of 800,000 cells or more use the
+/// threads of the current pool, and the number of threads does not change a bit of the result.
 ///
 /// # Sizes
 ///
@@ -123,6 +123,9 @@ pub enum WallTreatment {
     Exact,
     /// Takes the wall values from the potential of the solution before, as in Cowley (3.1)-(3.4). Fluid slips along the
     /// walls by the change of the potential since then, so the error is of first order in the time step.
+    ///
+    /// After a jump of the force, each solution halves the slip of short waves. Waves much longer than the channel is
+    /// wide take longer: with the wave number k and the width H, the slip decays over about 12/(k H)² solutions.
     Lagged,
 }
 

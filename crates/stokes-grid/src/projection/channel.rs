@@ -191,8 +191,9 @@ impl ChannelProjection {
         }
     }
 
-    /// Everything between the transforms along x: leaves the spectra of vectors in `u` and `v`, or the spectrum of a scalar
-    /// in `u`; returns the mean pressure gradient.
+    /// Does everything between the transforms along x; returns the mean pressure gradient.
+    ///
+    /// This leaves the spectra of vectors in `u` and `v`, or the spectrum of a scalar in `u`.
     fn columns(&mut self, force: &StaggeredField, goal: Goal, work: &mut Work) -> f64 {
         self.transform_force(force);
         let vectors = matches!(goal, Goal::Velocity | Goal::Intermediate);

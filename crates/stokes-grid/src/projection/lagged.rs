@@ -36,7 +36,7 @@ impl LaggedWalls {
         Ok(())
     }
 
-    /// Takes back the last solution, so that the next one starts from the same values. The first solution starts from none.
+    /// Takes back the last solution, so that the next one starts from the same values. The first one starts from none.
     pub(crate) fn rewind(&mut self) {
         if self.numbers[0] < 2.0 {
             self.numbers[0] = 0.0;
