@@ -53,7 +53,7 @@ impl CosineTransform {
         self.len() == 0
     }
 
-    /// Replaces values by their coefficients F[0] to F[N - 1] (DCT-II).
+    /// Replaces values by their coefficients `F[0]` to `F[N - 1]` (DCT-II).
     ///
     /// # Errors
     /// Returns [`InputError`] if the number of values is not N; they are then left as they were.
@@ -65,7 +65,7 @@ impl CosineTransform {
         Ok(())
     }
 
-    /// Replaces coefficients F[0] to F[N - 1] by the values of their sum (DCT-III).
+    /// Replaces coefficients `F[0]` to `F[N - 1]` by the values of their sum (DCT-III).
     ///
     /// # Errors
     /// Returns [`InputError`] if the number of coefficients is not N; they are then left as they were.
@@ -89,7 +89,7 @@ impl CosineTransform {
 ///
 /// `f[j] = (-1)^j F[N] / 2 + sum over n < N of F[n] sin(pi n (j + 1/2) / N)` (DST-III, [`SineTransform::inverse`]).
 ///
-/// Entry n - 1 of a slice holds F[n]. Neither is normalised: one after the other multiplies by N/2. Each takes one
+/// Entry n - 1 of a slice holds `F[n]`. Neither is normalised: one after the other multiplies by N/2. Each takes one
 /// real transform of N numbers. For values at the nodes between cells, use [`NodeSineTransform`].
 #[derive(Debug, Clone)]
 pub struct SineTransform {
@@ -117,7 +117,7 @@ impl SineTransform {
         self.len() == 0
     }
 
-    /// Replaces values by their coefficients F[1] to F[N] (DST-II).
+    /// Replaces values by their coefficients `F[1]` to `F[N]` (DST-II).
     ///
     /// # Errors
     /// Returns [`InputError`] if the number of values is not N; they are then left as they were.
@@ -131,7 +131,7 @@ impl SineTransform {
         Ok(())
     }
 
-    /// Replaces coefficients F[1] to F[N] by the values of their sum (DST-III).
+    /// Replaces coefficients `F[1]` to `F[N]` by the values of their sum (DST-III).
     ///
     /// # Errors
     /// Returns [`InputError`] if the number of coefficients is not N; they are then left as they were.
@@ -154,8 +154,8 @@ impl SineTransform {
 ///
 /// `F[n] = sum over j of f[j] sin(pi n j / (M + 1))`, n = 1 to M.
 ///
-/// Entry j - 1 of a slice holds f[j], and entry n - 1 holds F[n]. The transform is its own inverse up to the factor
-/// (M + 1)/2: it is not normalised. It takes one real transform of 2 (M + 1) numbers.
+/// Entry j - 1 of a slice holds `f[j]`, and entry n - 1 holds `F[n]`. The transform is its own inverse up to the
+/// factor (M + 1)/2: it is not normalised. It takes one real transform of 2 (M + 1) numbers.
 #[derive(Debug, Clone)]
 pub struct NodeSineTransform {
     plan: RealTransform,
