@@ -204,7 +204,7 @@ fn simulate(flags: &Flags) -> Result<()> {
         summary.put(name, most(column)?, "of a droplet, relative, over the run");
     }
     summary.put("rotational_diffusion", rotational_diffusion(&correlation, interval), "second half (1/time)");
-    summary.put("smallest_gap", scene.system().minimum_gap(), "between interfaces, over the run (R0)");
+    summary.put("smallest_gap", scene.system().minimum_gap(), "between interfaces and to walls, over the run (R0)");
     let repulsion = setup.repulsion.map(|repulsion| vec![repulsion.strength(), repulsion.range()]);
     summary.put("repulsion", repulsion, "strength and range, if there was one");
     summary.put("time", scene.time(), "simulated");

@@ -75,3 +75,43 @@ fn the_nearest_of_all_droplets_counts() {
     let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
     assert!(place.interface == droplets[1].into() && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
 }
+
+/// The smallest gap is that to a wall where nothing else is near: straight walls of the region, and curved ones.
+#[test]
+fn walls_count_in_the_smallest_gap() {
+    let method = Method::Integral(motile::setup::IntegralMethod { nodes: 32, cells: 64 });
+    let droplets = vec![DropletSetup { centre: [0.0, 0.4], ..DropletSetup::active(-2.0) }];
+    let region = |width: f64| Region::Channel { length: 8.0, width, drive: Drive::ZeroGradient };
+    let walls = motile::setup::WallSetup::channel(&ChannelShape::Straight { width: 3.2 }, 0.2);
+    let straight =
+        Setup { region: region(3.2), method: method.clone(), droplets: droplets.clone(), ..Setup::default() };
+    let curved = Setup { region: region(6.0), method, droplets, walls, ..Setup::default() };
+    for setup in [straight, curved] {
+        let Built { mut scene, .. } = setup.build().unwrap();
+        assert!((scene.system_mut().wall_gap().unwrap() - 0.2).abs() < 1e-2);
+        scene.run(0.2).go().unwrap();
+        let least = scene.system().minimum_gap().unwrap();
+        assert_eq!(Some(least), scene.system().minimum_wall_gap());
+        assert!((least - 0.2).abs() < 2e-2, "{least}");
+    }
+}
+
+/// A droplet that is squeezed next to a wall leaves a film of 0.05. The warning says how many nodes resolve it, and with these it does not come.
+#[test]
+fn the_number_of_nodes_that_a_film_needs_is_told() {
+    let of = |nodes: usize| {
+        let setup = Setup {
+            region: Region::Channel { length: 8.0, width: 3.2, drive: Drive::ZeroGradient },
+            method: Method::Integral(motile::setup::IntegralMethod { nodes, cells: 4 * nodes }),
+            droplets: vec![DropletSetup { centre: [0.0, 0.58], ..DropletSetup::active(-2.0) }],
+            ..Setup::default()
+        };
+        let Built { mut scene, .. } = setup.build().unwrap();
+        scene.system_mut().warnings().into_iter().find(|warning| warning.cause == "thin film")
+    };
+    let told = of(24).unwrap().message;
+    println!("{told}");
+    let number = told.split("use ").nth(1).unwrap().split(' ').next().unwrap();
+    let needed: usize = number.parse().unwrap();
+    assert!((36..42).contains(&needed) && of(needed + 1).is_none() && of(needed - 2).is_some(), "{told}");
+}

@@ -138,7 +138,7 @@ impl SceneRun {
             put("concentration_mode", seen.concentration_modes.amplitude(1) / mean, "of the longest wave");
             put("flux", seen.flux, "of particles along x (1/time)");
         }
-        summary.put("minimum_gap", scene.system().minimum_gap(), "between interfaces, over the run (R0)");
+        summary.put("minimum_gap", scene.system().minimum_gap(), "between interfaces and to walls, over the run (R0)");
         self.job.put_cost(&mut summary, &self.scene);
         Ok(summary)
     }

@@ -16,6 +16,8 @@ const RESOLVED_CELLS: f64 = 1.0;
 /// slow swimmers err by more.
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
+/// Largest number of nodes that is recommended: what curves can have.
+const MOST_NODES: f64 = stokes_layers::Settings::NODES[1] as f64;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
@@ -75,14 +77,15 @@ impl<H: Hydrodynamics> System<H> {
         self.findings.wall_gap
     }
 
-    /// The smallest gap between an interface and another body, or between an interface and its own image in a periodic
-    /// domain (length): of the present state, and of the states at the ends of steps where it was so narrow that a step
-    /// looks for it, below four grid spacings (without a grid four times the distance of markers). Negative where
-    /// bodies overlap; `None` where there is no such gap. Needs no evaluation, but memory and time.
+    /// The smallest gap between an interface and another body, its own image in a periodic domain, or a wall (length):
+    /// of the present state, and of the states at the ends of steps where it was so narrow that a step looks for it,
+    /// below four grid spacings (without a grid four times the distance of markers); of walls as
+    /// [`System::minimum_wall_gap`]. Negative where bodies overlap; `None` where there is no such gap. Needs no
+    /// evaluation, but memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         let present = self.surfaces().narrowest(&self.hydrodynamics.fluid_view()).map(|gap| gap.width);
-        [self.findings.gap, present].into_iter().flatten().reduce(f64::min)
+        [self.findings.gap, self.findings.wall_gap, present].into_iter().flatten().reduce(f64::min)
     }
 
     /// The pairs of bodies, at least one of them an interface, whose surfaces are closer than `reach` (length) at the
@@ -139,7 +142,7 @@ impl<H: Hydrodynamics> System<H> {
             let message = format!(
                 "the gap from {other} is {gap_text} (length), below {resolved_text}, the thinnest film that is \
                  resolved: speeds may be off by a per cent and more; use {}",
-                if on_grid(&view).is_some() { "a finer grid or boundary integrals" } else { "more nodes" }
+                finer(&view, resolved / gap)
             );
             warnings.push(Warning {
                 body,
@@ -254,6 +257,18 @@ impl<H: Hydrodynamics> System<H> {
     pub(super) fn record_wall_gap(&mut self) {
         let gap = self.wall_gap();
         lower(&mut self.findings.wall_gap, gap);
+    }
+}
+
+/// What resolves films so many times thinner.
+fn finer(view: &FluidView, times: f64) -> String {
+    let nodes = view.shape_modes.map(|nodes| (times * nodes as f64).ceil());
+    match (on_grid(view), nodes) {
+        (Some(_), _) => "a finer grid or boundary integrals".to_owned(),
+        (None, Some(nodes)) if (1.0..=MOST_NODES).contains(&nodes) => {
+            format!("{nodes} nodes for a film as thin as this")
+        }
+        _ => "more nodes".to_owned(),
     }
 }
 
