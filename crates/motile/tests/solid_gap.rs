@@ -83,8 +83,7 @@ fn walls_count_in_the_smallest_gap() {
     let droplets = vec![DropletSetup { centre: [0.0, 0.4], ..DropletSetup::active(-2.0) }];
     let region = |width: f64| Region::Channel { length: 8.0, width, drive: Drive::ZeroGradient };
     let walls = motile::setup::WallSetup::channel(&ChannelShape::Straight { width: 3.2 }, 0.2);
-    let straight =
-        Setup { region: region(3.2), method: method.clone(), droplets: droplets.clone(), ..Setup::default() };
+    let straight = Setup { region: region(3.2), method, droplets: droplets.clone(), ..Setup::default() };
     let curved = Setup { region: region(6.0), method, droplets, walls, ..Setup::default() };
     for setup in [straight, curved] {
         let Built { mut scene, .. } = setup.build().unwrap();
