@@ -35,6 +35,12 @@ impl InterfaceGroups {
         self.stiffness = stiffness(self.flow.settings().nodes, perimeter);
     }
 
+    /// Perimeter (length) of the shortest interface of the last evaluation, before it the reference perimeter.
+    #[must_use]
+    pub fn reference_perimeter(&self) -> f64 {
+        stiffness(self.flow.settings().nodes, 1.0) / self.stiffness
+    }
+
     /// Takes the stiffness from the lengths of the interfaces (length), where there are any.
     pub(crate) fn set_lengths(&mut self, lengths: impl Iterator<Item = f64>) {
         if let Some(shortest) = lengths.reduce(f64::min) {

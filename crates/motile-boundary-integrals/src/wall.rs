@@ -19,6 +19,17 @@ const GENTLE: f64 = 0.157;
 /// which waves that nodes do not resolve are round-off.
 const TRANSITION: f64 = 10.0;
 
+/// Most points of a side that distances are measured between.
+const MOST_MEASURED: usize = 1000;
+
+/// Least distance of a lower and an upper side of a channel (length); infinite without two sides.
+pub(crate) fn narrowest(walls: &[RigidWall]) -> f64 {
+    let sides =
+        |upper: bool| walls.iter().filter(move |wall| if upper { wall.period.x < 0.0 } else { wall.period.x > 0.0 });
+    let pairs = sides(false).flat_map(|lower| sides(true).map(move |upper| (lower, upper)));
+    pairs.map(|(lower, upper)| lower.distance(upper)).fold(f64::INFINITY, f64::min)
+}
+
 /// A rigid no-slip wall or obstacle at rest in a channel: a smooth curve of any shape through points of equally spaced
 /// parameters.
 ///
@@ -115,6 +126,21 @@ impl RigidWall {
             reverse(&mut points);
         }
         Self::checked(points, Vec2::ZERO, nodes)
+    }
+
+    /// Some of its points (length).
+    fn measured(&self) -> impl Iterator<Item = Vec2> {
+        self.points.iter().copied().step_by(self.points.len().div_ceil(MOST_MEASURED))
+    }
+
+    /// Least distance of the points of two sides of a channel (length).
+    fn distance(&self, other: &Self) -> f64 {
+        let period = self.period.x;
+        let apart = |a: Vec2, b: Vec2| {
+            let way = b - a;
+            Vec2::new(way.x - period * (way.x / period).round(), way.y).length()
+        };
+        self.measured().flat_map(|a| other.measured().map(move |b| apart(a, b))).fold(f64::INFINITY, f64::min)
     }
 
     fn checked(points: Vec<Vec2>, period: Vec2, nodes: usize) -> Result<Self, LayerError> {

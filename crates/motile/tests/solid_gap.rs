@@ -114,3 +114,27 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
     let needed: usize = number.parse().unwrap();
     assert!((36..42).contains(&needed) && of(needed + 1).is_none() && of(needed - 2).is_some(), "{told}");
 }
+
+/// A droplet that a constriction squeezes leaves thin films there: the number of nodes is told before the run, not where
+/// it fits through or the nodes are enough.
+#[test]
+fn the_number_of_nodes_that_a_narrow_place_needs_is_told_at_the_start() {
+    let warned = |throat: f64, nodes: usize| {
+        let shape = ChannelShape::Constriction { width: 3.0, throat, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
+        let mut walls = motile::setup::WallSetup::channel(&shape, 0.1);
+        walls.iter_mut().for_each(|wall| wall.rounding = 0.15);
+        let setup = Setup {
+            region: Region::Channel { length: 12.0, width: 6.0, drive: Drive::ZeroGradient },
+            method: Method::Integral(motile::setup::IntegralMethod { nodes, cells: 4 * nodes }),
+            droplets: vec![DropletSetup { centre: [-6.0, 0.0], ..DropletSetup::active(-3.5) }],
+            walls,
+            ..Setup::default()
+        };
+        let Built { mut scene, .. } = setup.build().unwrap();
+        scene.system_mut().warnings().into_iter().find(|warning| warning.cause == "narrow place not resolved")
+    };
+    let told = warned(1.0, 72).unwrap().to_string();
+    println!("{told}");
+    assert!(told.contains("leave 1.0") && told.contains("use 118 nodes"), "{told}");
+    assert!(warned(1.0, 118).is_none() && warned(2.1, 72).is_none() && warned(1.9, 72).is_some());
+}
