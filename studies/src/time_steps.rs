@@ -303,9 +303,10 @@ fn orders() -> Result<Table> {
     let grid = Method::Grid(GridMethod::of_spacing(0.2));
     let integrals = |elements| Method::Integral(IntegralMethod { nodes: 72, elements });
     let flows = [("grid 0.2", grid, "on"), ("grid 0.2", grid, "off")];
-    let flows = flows
-        .into_iter()
-        .chain([("integrals, 72 elements", integrals(72), "none"), ("integrals, 288 elements", integrals(288), "none")]);
+    let flows = flows.into_iter().chain([
+        ("integrals, 72 elements", integrals(72), "none"),
+        ("integrals, 288 elements", integrals(288), "none"),
+    ]);
     for (flow, method, filter) in flows {
         for (stabilised, name) in [(true, "on"), (false, "off")] {
             let motion = Motion::Equidistributed { relaxation: 50.0, filter: filter != "off" };

@@ -37,7 +37,7 @@ impl InterfaceGroups {
 
     /// Perimeter (length) of the shortest interface of the last evaluation, before it the reference perimeter.
     #[must_use]
-    pub fn reference_perimeter(&self) -> f64 {
+    pub(crate) fn reference_perimeter(&self) -> f64 {
         stiffness(self.flow.settings().nodes, 1.0) / self.stiffness
     }
 

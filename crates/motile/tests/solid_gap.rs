@@ -79,7 +79,7 @@ fn the_nearest_of_all_droplets_counts() {
 /// The smallest gap is that to a wall where nothing else is near: straight walls of the region, and curved ones.
 #[test]
 fn walls_count_in_the_smallest_gap() {
-    let method = Method::Integral(motile::setup::IntegralMethod { nodes: 32, cells: 64 });
+    let method = Method::Integral(motile::setup::IntegralMethod { nodes: 32, elements: 64 });
     let droplets = vec![DropletSetup { centre: [0.0, 0.4], ..DropletSetup::active(-2.0) }];
     let region = |width: f64| Region::Channel { length: 8.0, width, drive: Drive::ZeroGradient };
     let walls = motile::setup::WallSetup::channel(&ChannelShape::Straight { width: 3.2 }, 0.2);
@@ -101,7 +101,7 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
     let of = |nodes: usize| {
         let setup = Setup {
             region: Region::Channel { length: 8.0, width: 3.2, drive: Drive::ZeroGradient },
-            method: Method::Integral(motile::setup::IntegralMethod { nodes, cells: 4 * nodes }),
+            method: Method::Integral(motile::setup::IntegralMethod { nodes, elements: 4 * nodes }),
             droplets: vec![DropletSetup { centre: [0.0, 0.58], ..DropletSetup::active(-2.0) }],
             ..Setup::default()
         };
@@ -125,7 +125,7 @@ fn the_number_of_nodes_that_a_narrow_place_needs_is_told_at_the_start() {
         walls.iter_mut().for_each(|wall| wall.rounding = 0.15);
         let setup = Setup {
             region: Region::Channel { length: 12.0, width: 6.0, drive: Drive::ZeroGradient },
-            method: Method::Integral(motile::setup::IntegralMethod { nodes, cells: 4 * nodes }),
+            method: Method::Integral(motile::setup::IntegralMethod { nodes, elements: 4 * nodes }),
             droplets: vec![DropletSetup { centre: [-6.0, 0.0], ..DropletSetup::active(-3.5) }],
             walls,
             ..Setup::default()

@@ -17,7 +17,7 @@ const RESOLVED_CELLS: f64 = 1.0;
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 /// Largest number of nodes that is recommended: what curves can have.
-const MOST_NODES: f64 = stokes_layers::Settings::NODES[1] as f64;
+const MOST_NODES: f64 = 4096.0;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
