@@ -71,7 +71,7 @@ mod vec2;
 pub use complex::ComplexTransform;
 pub use curve_forces::CurveForces;
 pub use drive::Drive;
-pub use explanation::{explanation, told, told_apart};
+pub use explanation::{explanation, refusal, told, told_apart};
 pub use flow::{FlowSample, SolveReport};
 pub use imposed::ImposedFlow;
 pub use input::{
