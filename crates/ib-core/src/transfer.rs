@@ -118,6 +118,6 @@ impl<K: Kernel> Transfer<K> {
         field: &StaggeredField,
     ) -> Result<(), StokesError> {
         same_length(list, self.locations.all.len(), entries)?;
-        if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::GridMismatch { name }) }
+        if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::grid_mismatch(name)) }
     }
 }

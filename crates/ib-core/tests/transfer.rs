@@ -5,6 +5,11 @@ use motile_base::{InputError, Vec2};
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField, StokesError};
 
+/// Whether a result is a refusal whose text contains these words.
+fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
+    matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))
+}
+
 /// A field of reproducible pseudo-random values in [-1, 1), zero on walls for the y component.
 fn noise(grid: Grid, seed: u64) -> StaggeredField {
     let mut field = StaggeredField::zeros(grid);
@@ -263,14 +268,10 @@ fn fields_of_other_grids_and_lists_of_other_lengths_are_refused() {
     let mut list = [Vec2::ZERO; 2];
     for grid in [other, own.with_origin([0.0; 2]).unwrap(), Grid::channel(16, 16, 0.1).unwrap()] {
         let mut field = StaggeredField::zeros(grid);
-        assert!(matches!(
-            transfer.spread(&list, &mut field),
-            Err(StokesError::GridMismatch { name: "the force density" })
-        ));
-        assert!(matches!(
-            transfer.interpolate(&field, &mut list),
-            Err(StokesError::GridMismatch { name: "the velocity" })
-        ));
+        let spread = transfer.spread(&list, &mut field);
+        assert!(refused(&spread, "the force density belongs to another grid"));
+        let interpolated = transfer.interpolate(&field, &mut list);
+        assert!(refused(&interpolated, "the velocity belongs to another grid"));
     }
     let mut field = StaggeredField::zeros(own);
     for count in [1, 3] {

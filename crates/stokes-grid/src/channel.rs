@@ -60,7 +60,7 @@ impl ChannelStokes {
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         positive("viscosity", viscosity)?;
         if !grid.has_walls() {
-            return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
+            return Err(StokesError::needs_channel());
         }
         let (nx, ny) = (grid.nx(), grid.ny());
         let rows = RowTransform::new(nx)?;

@@ -1,6 +1,6 @@
 //! Errors of solvers and grids: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, finite, told_apart};
+use motile_base::{InputError, finite, refusal, told_apart};
 
 /// An error of this crate; its message names the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -9,56 +9,10 @@ pub enum StokesError {
     /// A number out of its range, or a list of the wrong length.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A grid with too few cells in one direction.
-    #[error("a grid of {nx} x {ny} cells is too small: use at least {minimum} cells in each direction")]
-    GridTooSmall {
-        /// Cells in x.
-        nx: usize,
-        /// Cells in y.
-        ny: usize,
-        /// Least number in each direction.
-        minimum: usize,
-    },
-    /// A grid whose fields do not fit into memory.
-    #[error("a grid of {nx} x {ny} cells is too large: use at most {maximum} cells in all")]
-    GridTooLarge {
-        /// Cells in x.
-        nx: usize,
-        /// Cells in y.
-        ny: usize,
-        /// Largest number in all.
-        maximum: usize,
-    },
-    /// A field made for another grid than that of the solver or transfer.
-    #[error("{name} belongs to another grid: make both from the same grid")]
-    GridMismatch {
-        /// Name of the field.
-        name: &'static str,
-    },
-    /// A periodic box where walls are needed, or the other way round.
-    #[error("this needs {needed}: build the grid with {remedy}")]
-    WrongBoundary {
-        /// Boundaries that are needed.
-        needed: &'static str,
-        /// Constructor of a grid that has them.
-        remedy: &'static str,
-    },
-    /// Lagged walls where a solution must not depend on the ones before.
-    #[error(
-        "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs solutions \
-         that do not depend on each other: use the exact wall treatment"
-    )]
-    LaggedWalls,
-    /// A result beyond the range of double precision.
-    #[error("{name} is beyond the range of double precision: scale the forces down")]
-    Overflow {
-        /// Name of the quantity.
-        name: &'static str,
-    },
     /// An iteration that did not reach its tolerance.
     #[error(
-        "the relative residual is {} after {iterations} iterations, above {}: allow more iterations, ask for less, or \
-         use viscosities that differ less",
+        "the relative residual is {} after {iterations} iterations, above {}: allow more iterations, use a larger \
+         tolerance, or use viscosities that differ less",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
@@ -71,6 +25,16 @@ pub enum StokesError {
         /// Relative residuals at the start and after each iteration.
         history: Vec<f64>,
     },
+    /// A grid, field or request that a solver cannot use.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
+    },
 }
 
 motile_base::debug_as_explanation!(StokesError);
@@ -79,6 +43,58 @@ impl StokesError {
     /// Error of a `result` that is not finite: the first number given that is not, or an overflow.
     pub(crate) fn not_finite(result: &'static str, given: &[(&'static str, &[f64])]) -> Self {
         let found = given.iter().find_map(|&(name, values)| values.iter().find_map(|&value| finite(name, value).err()));
-        found.map_or(Self::Overflow { name: result }, Self::Input)
+        found.map_or_else(|| Self::overflow(result), Self::Input)
     }
+
+    /// A result beyond the range of double precision.
+    pub(crate) fn overflow(name: &str) -> Self {
+        let what = format!("{name} is beyond the range of double precision");
+        Self::refused(what, String::new(), "Scale the forces down")
+    }
+
+    /// A grid with fewer cells than `minimum` in one direction.
+    pub(crate) fn grid_too_small(nx: usize, ny: usize, minimum: usize) -> Self {
+        let remedy = format!("Use at least {minimum} cells in each direction");
+        Self::refused("the grid is too small", format!("{nx} x {ny} cells"), remedy)
+    }
+
+    /// A grid of more than `maximum` cells, whose fields do not fit into memory.
+    pub(crate) fn grid_too_large(nx: usize, ny: usize, maximum: usize) -> Self {
+        let remedy = format!("Use at most {maximum} cells in all");
+        Self::refused("the grid is too large for the memory", format!("{nx} x {ny} cells"), remedy)
+    }
+
+    /// The field `name`, which was made for another grid than that of the solver.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn grid_mismatch(name: &str) -> Self {
+        Self::refused(format!("{name} belongs to another grid"), String::new(), "Make both from the same grid")
+    }
+
+    /// A periodic box where walls are needed.
+    pub(crate) fn needs_channel() -> Self {
+        Self::refused("this needs a channel", "the grid is a periodic box", "Build the grid with Grid::channel")
+    }
+
+    /// A channel where a periodic box is needed.
+    pub(crate) fn needs_box() -> Self {
+        Self::refused("this needs a periodic box", "the grid is a channel", "Build the grid with Grid::periodic")
+    }
+
+    /// Lagged walls where a solution must not depend on the solutions before it.
+    pub(crate) fn lagged_walls() -> Self {
+        let what = "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs \
+                    solutions that do not depend on each other";
+        Self::refused(what, String::new(), "Use the exact wall treatment")
+    }
+
+    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
+    }
+}
+
+/// Whether a result is a refusal whose text contains these words.
+#[cfg(test)]
+pub(crate) fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
+    matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))
 }

@@ -53,7 +53,7 @@ impl Grid {
 
     fn new(nx: usize, ny: usize, h: f64, walls: bool) -> Result<Self, StokesError> {
         if nx < Self::MINIMUM_CELLS || ny < Self::MINIMUM_CELLS {
-            return Err(StokesError::GridTooSmall { nx, ny, minimum: Self::MINIMUM_CELLS });
+            return Err(StokesError::grid_too_small(nx, ny, Self::MINIMUM_CELLS));
         }
         positive("grid spacing", h)?;
         Self::check_size(nx, ny)?;
@@ -67,14 +67,14 @@ impl Grid {
     pub(crate) fn check_size(nx: usize, ny: usize) -> Result<(), StokesError> {
         let maximum = Self::MAXIMUM_CELLS;
         let fits = ny.checked_mul(nx).is_some_and(|cells| cells <= maximum);
-        if fits { Ok(()) } else { Err(StokesError::GridTooLarge { nx, ny, maximum }) }
+        if fits { Ok(()) } else { Err(StokesError::grid_too_large(nx, ny, maximum)) }
     }
 
     /// Refuses fields that belong to another grid, by the name of the first.
     pub(crate) fn check<const N: usize>(&self, fields: [(&'static str, &Self); N]) -> Result<(), StokesError> {
         match fields.into_iter().find(|(_, grid)| *grid != self) {
             None => Ok(()),
-            Some((name, _)) => Err(StokesError::GridMismatch { name }),
+            Some((name, _)) => Err(StokesError::grid_mismatch(name)),
         }
     }
 

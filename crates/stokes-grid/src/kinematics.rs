@@ -144,7 +144,7 @@ pub fn wall_shear_stress(
 ) -> Result<(), StokesError> {
     let grid = *velocity.grid();
     if !grid.has_walls() {
-        return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
+        return Err(StokesError::needs_channel());
     }
     walls.check(&grid)?;
     let (nx, h) = (grid.nx(), grid.spacing());

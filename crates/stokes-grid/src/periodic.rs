@@ -44,7 +44,7 @@ impl PeriodicStokes {
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         positive("viscosity", viscosity)?;
         if grid.has_walls() {
-            return Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
+            return Err(StokesError::needs_box());
         }
         let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
         // With h curl f on the right and psi / h on the left both stencils are bare differences.
@@ -105,7 +105,7 @@ impl PeriodicStokes {
             previous.copy_from_slice(psi);
         });
         if !finite {
-            return Err(StokesError::Overflow { name: "the velocity" });
+            return Err(StokesError::overflow("the velocity"));
         }
         stencil::along(&mut u[(ny - 1) * nx..], previous, first, mean_u);
         Ok(total)
@@ -129,7 +129,7 @@ impl PeriodicStokes {
         if parallel.velocity(self.mean_velocity, velocity) {
             Ok(total)
         } else {
-            Err(StokesError::Overflow { name: "the velocity" })
+            Err(StokesError::overflow("the velocity"))
         }
     }
 

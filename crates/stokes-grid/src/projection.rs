@@ -174,7 +174,7 @@ impl ProjectionStokes {
     /// Chooses the wall treatment of the solutions to come, and forgets the solutions before.
     ///
     /// # Errors
-    /// Returns [`StokesError::WrongBoundary`] in a periodic box, which has no walls.
+    /// Returns [`StokesError::Refused`] in a periodic box, which has no walls.
     pub fn set_wall_treatment(&mut self, treatment: WallTreatment) -> Result<(), StokesError> {
         let channel = self.channel_mut()?;
         channel.treatment = treatment;
@@ -198,7 +198,7 @@ impl ProjectionStokes {
         match &mut self.method {
             Method::Periodic(periodic) => periodic.mean_velocity = mean,
             Method::Channel(_) => {
-                return Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
+                return Err(StokesError::needs_box());
             }
         }
         Ok(())
@@ -269,7 +269,7 @@ impl ProjectionStokes {
     fn channel_mut(&mut self) -> Result<&mut ChannelProjection, StokesError> {
         match &mut self.method {
             Method::Channel(channel) => Ok(channel),
-            Method::Periodic(_) => Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" }),
+            Method::Periodic(_) => Err(StokesError::needs_channel()),
         }
     }
 
@@ -299,7 +299,7 @@ impl ProjectionStokes {
 
 /// Refuses a result that is not finite.
 fn check_overflow(name: &'static str, value: f64) -> Result<(), StokesError> {
-    if value.is_finite() { Ok(()) } else { Err(StokesError::Overflow { name }) }
+    if value.is_finite() { Ok(()) } else { Err(StokesError::overflow(name)) }
 }
 
 impl StokesSolver for ProjectionStokes {

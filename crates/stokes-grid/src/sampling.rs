@@ -69,7 +69,7 @@ pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
 ///
 /// # Errors
 /// Returns [`StokesError::Input`] if the numbers of samples and points differ or a point is not finite, and
-/// [`StokesError::GridMismatch`] if the fields belong to two grids.
+/// [`StokesError::Refused`] if the fields belong to two grids.
 pub fn sample_flow(
     velocity: &StaggeredField,
     pressure: &CentreField,

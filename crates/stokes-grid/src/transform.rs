@@ -42,7 +42,7 @@ impl RealFft2 {
     /// A size of zero, or more than [`crate::Grid::MAXIMUM_CELLS`] values.
     pub fn new(nx: usize, ny: usize) -> Result<Self, StokesError> {
         if nx == 0 || ny == 0 {
-            return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
+            return Err(StokesError::grid_too_small(nx, ny, 1));
         }
         Grid::check_size(nx, ny)?;
         let (rows, columns) = (RowTransform::new(nx)?, ColumnTransform::new(ny)?);
@@ -90,7 +90,7 @@ impl RealFft2 {
         output: impl FnMut(usize, &[f64]),
     ) -> Result<(), StokesError> {
         if !symbol.fits(self.nx, self.ny) {
-            return Err(StokesError::GridMismatch { name: "the symbol" });
+            return Err(StokesError::grid_mismatch("the symbol"));
         }
         self.forward_rows(input);
         self.filter_columns(symbol);

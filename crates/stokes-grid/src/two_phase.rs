@@ -198,7 +198,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     ///
     /// # Errors
     /// Fields of another grid, a value that is not positive and finite, or viscosities that differ from that of a solver
-    /// with lagged walls ([`StokesError::LaggedWalls`]); the viscosity is then left as it was.
+    /// with lagged walls ([`StokesError::Refused`]); the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
         self.solver.grid().check(fields)?;
@@ -208,7 +208,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         let viscosity = self.solver.viscosity();
         let uniform = centres.values().iter().chain(nodes.values()).all(|value| *value == viscosity);
         if !uniform && self.solver.has_memory() {
-            return Err(StokesError::LaggedWalls);
+            return Err(StokesError::lagged_walls());
         }
         self.uniform = uniform;
         let (at_centres, at_nodes) = self.force.viscosity_mut();

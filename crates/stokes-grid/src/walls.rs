@@ -44,7 +44,7 @@ impl WallMotion {
     /// A periodic grid, or a velocity that is not finite.
     pub fn from_fn(grid: &Grid, bottom: impl Fn(f64) -> f64, top: impl Fn(f64) -> f64) -> Result<Self, StokesError> {
         if !grid.has_walls() {
-            return Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" });
+            return Err(StokesError::needs_channel());
         }
         let x = |i: usize| grid.origin()[0] + i as f64 * grid.spacing();
         let bottom: Vec<f64> = (0..grid.nx()).map(|i| bottom(x(i))).collect();
@@ -95,7 +95,7 @@ impl WallMotion {
         } else if grid.has_walls() {
             Ok(same_length("the wall motion", grid.nx(), found)?)
         } else {
-            Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" })
+            Err(StokesError::needs_channel())
         }
     }
 }

@@ -153,7 +153,7 @@ impl ChannelProjection {
             let row = self.rows.inverse(from);
             // An overflow anywhere reaches every value along x and, by the transforms across, every row.
             if !row[0].is_finite() {
-                return Err(StokesError::Overflow { name: "the velocity" });
+                return Err(StokesError::overflow("the velocity"));
             }
             to.copy_from_slice(row);
         }

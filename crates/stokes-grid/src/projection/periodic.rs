@@ -61,7 +61,7 @@ impl PeriodicProjection {
         }
         // An overflow anywhere reaches every value.
         let sum = self.intermediate.x()[0] + self.intermediate.y()[0];
-        if sum.is_finite() { Ok(()) } else { Err(StokesError::Overflow { name: "the velocity" }) }
+        if sum.is_finite() { Ok(()) } else { Err(StokesError::overflow("the velocity")) }
     }
 
     /// Computes the potential of the intermediate velocity, Cowley (2.23).
@@ -70,7 +70,7 @@ impl PeriodicProjection {
         self.transform.filter(&self.poisson, |j, row| stencil::divergence(intermediate, j, row), potential)?;
         count_pair(work);
         let finite = self.potential.values()[0].is_finite();
-        if finite { Ok(()) } else { Err(StokesError::Overflow { name: "the velocity" }) }
+        if finite { Ok(()) } else { Err(StokesError::overflow("the velocity")) }
     }
 
     /// Writes the intermediate velocity minus the gradient of the potential, Cowley (2.29).

@@ -1,6 +1,6 @@
 //! The solver of a channel against a direct solution of the whole discrete system and where its solution is known.
 
-use crate::common::{DiscreteFlow, distance, largest, random_force, relative_distance, residuals};
+use crate::common::{DiscreteFlow, distance, largest, random_force, refused, relative_distance, residuals};
 use crate::dense;
 use approx::assert_abs_diff_eq;
 use motile_base::{Drive, InputError, SolveReport};
@@ -174,12 +174,13 @@ fn bad_input_ends_in_an_error_that_names_it() {
     let grid = Grid::channel(12, 9, 0.1).unwrap();
     let other = Grid::channel(12, 8, 0.1).unwrap();
     let periodic = Grid::periodic(12, 9, 0.1).unwrap();
-    assert!(matches!(ChannelStokes::new(periodic, 1.0), Err(StokesError::WrongBoundary { .. })));
+    let needed = "this needs a channel: the grid is a periodic box. Build the grid with Grid::channel";
+    assert!(refused(&ChannelStokes::new(periodic, 1.0), needed));
     assert!(matches!(
         ChannelStokes::new(grid, f64::NAN),
         Err(StokesError::Input(InputError::NotPositive { name: "viscosity", .. }))
     ));
-    assert!(matches!(WallMotion::uniform(&periodic, 0.0, 1.0), Err(StokesError::WrongBoundary { .. })));
+    assert!(refused(&WallMotion::uniform(&periodic, 0.0, 1.0), needed));
     assert!(matches!(
         WallMotion::uniform(&grid, 0.0, f64::INFINITY),
         Err(StokesError::Input(InputError::EntryNotFinite { .. }))
@@ -191,7 +192,7 @@ fn bad_input_ends_in_an_error_that_names_it() {
     assert_eq!(solver.set_walls(walls), Err(expected));
     let mut velocity = StaggeredField::zeros(grid);
     let wrong = solver.solve(&StaggeredField::zeros(other), &mut velocity);
-    assert_eq!(wrong, Err(StokesError::GridMismatch { name: "the force" }));
+    assert!(refused(&wrong, "the force belongs to another grid"));
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().0[17] = bad;

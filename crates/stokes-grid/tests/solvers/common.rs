@@ -3,7 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::SolveReport;
-use stokes_grid::{CentreField, Grid, StaggeredField, Wall, WallMotion};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, Wall, WallMotion};
+
+/// Whether a result is a refusal whose text contains these words.
+pub(crate) fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
+    matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))
+}
 
 /// Numbers in [-1, 1) from a linear congruential generator.
 pub(crate) fn random(count: usize, seed: u64) -> Vec<f64> {

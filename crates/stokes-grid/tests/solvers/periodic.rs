@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{DiscreteFlow, distance, largest, random_force, relative_distance, residuals};
+use crate::common::{DiscreteFlow, distance, largest, random_force, refused, relative_distance, residuals};
 use approx::assert_abs_diff_eq;
 use motile_base::InputError;
 use stokes_grid::{
@@ -108,12 +108,15 @@ fn bad_input_ends_in_an_error_that_names_it() {
         ));
     }
     let channel = Grid::channel(12, 9, 0.1).unwrap();
-    assert!(matches!(PeriodicStokes::new(channel, 1.0), Err(StokesError::WrongBoundary { .. })));
+    assert!(refused(
+        &PeriodicStokes::new(channel, 1.0),
+        "this needs a periodic box: the grid is a channel. Build the grid with Grid::periodic"
+    ));
     let mut solver = PeriodicStokes::new(grid, 1.0).unwrap();
     assert!(matches!(solver.set_mean_velocity([0.0, f64::NAN]), Err(StokesError::Input(InputError::NotFinite { .. }))));
     let mut velocity = StaggeredField::zeros(grid);
-    let expected = Err(StokesError::GridMismatch { name: "the force" });
-    assert_eq!(solver.solve(&StaggeredField::zeros(channel), &mut velocity), expected);
+    let found = solver.solve(&StaggeredField::zeros(channel), &mut velocity);
+    assert!(refused(&found, "the force belongs to another grid"));
     for bad in [f64::NAN, f64::INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().1[17] = bad;
@@ -127,7 +130,7 @@ fn bad_input_ends_in_an_error_that_names_it() {
     }
     let mut force = random_force(grid, 1);
     force.components_mut().0.iter_mut().for_each(|f| *f *= 1e307);
-    assert_eq!(solver.solve(&force, &mut velocity), Err(StokesError::Overflow { name: "the velocity" }));
+    assert!(refused(&solver.solve(&force, &mut velocity), "the velocity is beyond the range of double precision"));
     assert_eq!(velocity, StaggeredField::zeros(grid));
     assert_eq!(solver.work().solves, 0);
 }

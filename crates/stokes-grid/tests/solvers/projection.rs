@@ -6,7 +6,7 @@ use stokes_grid::{
     TwoPhaseStokes, Wall, WallMotion, WallTreatment, divergence,
 };
 
-use crate::common::{distance, largest, random_force, relative_distance, residuals};
+use crate::common::{distance, largest, random_force, refused, relative_distance, residuals};
 
 const DRIVES: [Drive; 4] = [Drive::ZeroGradient, Drive::Gradient(0.7), Drive::ZeroFlux, Drive::Flux(-0.4)];
 
@@ -348,7 +348,7 @@ fn a_viscosity_that_varies_is_solved_around_it_with_exact_walls() {
     }
     let grid = Grid::channel(20, 14, 0.1).unwrap();
     let mut flow = TwoPhaseStokes::new(lagged(grid, 1.0, Drive::ZeroFlux)).unwrap();
-    assert_eq!(flow.set_viscosity(|_, _| 2.0), Err(StokesError::LaggedWalls));
+    assert!(refused(&flow.set_viscosity(|_, _| 2.0), "lagged walls cannot be combined with a viscosity that varies"));
     assert_eq!(flow.set_viscosity(|_, _| 1.0), Ok(()));
 }
 
@@ -374,16 +374,16 @@ fn bad_input_ends_in_an_error_that_names_it() {
         }
     }
     let mut in_box = ProjectionStokes::new(periodic, 1.0).unwrap();
-    let wrong = Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
-    assert_eq!(in_box.set_drive(Drive::ZeroFlux), wrong);
-    assert_eq!(in_box.set_walls(WallMotion::uniform(&grid, 0.0, 1.0).unwrap()), wrong);
-    assert_eq!(in_box.set_wall_treatment(WallTreatment::Lagged), wrong);
-    assert_eq!(in_box.wall_slip(Wall::Top, &mut [0.0; 12]), wrong);
+    let needed = "this needs a channel: the grid is a periodic box. Build the grid with Grid::channel";
+    assert!(refused(&in_box.set_drive(Drive::ZeroFlux), needed));
+    assert!(refused(&in_box.set_walls(WallMotion::uniform(&grid, 0.0, 1.0).unwrap()), needed));
+    assert!(refused(&in_box.set_wall_treatment(WallTreatment::Lagged), needed));
+    assert!(refused(&in_box.wall_slip(Wall::Top, &mut [0.0; 12]), needed));
     assert_eq!(in_box.wall_treatment(), WallTreatment::Exact);
     assert!(in_box.set_mean_velocity([f64::NAN, 0.0]).is_err());
     let mut solver = ProjectionStokes::new(grid, 1.0).unwrap();
-    let wrong = Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
-    assert_eq!(solver.set_mean_velocity([1.0, 0.0]), wrong);
+    let needed = "this needs a periodic box: the grid is a channel. Build the grid with Grid::periodic";
+    assert!(refused(&solver.set_mean_velocity([1.0, 0.0]), needed));
     assert!(matches!(solver.set_drive(Drive::Flux(f64::NAN)), Err(StokesError::Input(InputError::NotFinite { .. }))));
     let walls = WallMotion::uniform(&Grid::channel(13, 9, 0.1).unwrap(), 0.0, 1.0).unwrap();
     let expected = InputError::WrongLength { name: "the wall motion", expected: 12, found: 13 };
@@ -406,9 +406,9 @@ fn a_refused_force_leaves_velocity_memory_and_counts_as_they_were() {
         let mut velocity = StaggeredField::zeros(grid);
         let other = Grid::channel(12, 8, 0.1).unwrap();
         let found = solver.solve(&StaggeredField::zeros(other), &mut velocity);
-        assert_eq!(found, Err(StokesError::GridMismatch { name: "the force" }));
+        assert!(refused(&found, "the force belongs to another grid"));
         let found = solver.solve(&random_force(grid, 1), &mut StaggeredField::zeros(other));
-        assert_eq!(found, Err(StokesError::GridMismatch { name: "the velocity" }));
+        assert!(refused(&found, "the velocity belongs to another grid"));
         for (bad, along_x) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().zip([true, false, true]) {
             let mut force = random_force(grid, 1);
             let (x, y) = force.components_mut();
@@ -427,7 +427,7 @@ fn a_refused_force_leaves_velocity_memory_and_counts_as_they_were() {
         }
         let mut force = random_force(grid, 1);
         force.components_mut().0.iter_mut().for_each(|f| *f *= 1e307);
-        assert_eq!(solver.solve(&force, &mut velocity), Err(StokesError::Overflow { name: "the velocity" }));
+        assert!(refused(&solver.solve(&force, &mut velocity), "the velocity is beyond the range of double precision"));
         assert_eq!(velocity, StaggeredField::zeros(grid));
         assert_eq!((solver.memory(), solver.work().solves), (&memory[..], solves));
     }
