@@ -17,6 +17,7 @@ use std::{collections::HashMap, f64::consts::PI, ops::Range};
 use motile_base::{Drive, FlowSample, Region, Vec2, positive, same_length, within};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
+use crate::refusal::{in_two_dimensions, meets_axis, not_axisymmetric, singular_surfaces};
 use stokes_boundary_integrals::{
     Inside, Interface, LayerError, Settings, Solution,
     internal::{MOST_CONTRAST, MOST_POINTS, MOST_SHARES, each_share, finite_vectors},
@@ -230,7 +231,7 @@ impl AxisymmetricFlow {
                 }
                 flow.with_drive(drive, f64::INFINITY)
             }
-            _ => Err(LayerError::InTwoDimensions),
+            _ => Err(in_two_dimensions()),
         }
     }
 
@@ -252,11 +253,11 @@ impl AxisymmetricFlow {
         drive.check()?;
         let open = self.tube.is_some() || self.walls.as_ref().is_some_and(|walls| walls.open.is_some());
         if !open && drive != Drive::ZeroFlux {
-            return Err(LayerError::NoSuchFlow { flow: "a flux", remedy: "give a tube, or zero flux" });
+            return Err(LayerError::no_such_flow("a flux through a closed region", "Use a tube, or zero flux"));
         }
         if self.tube.is_none() && drive.flux().is_none() {
-            let (flow, remedy) = ("a pressure gradient in a tube that is not straight", "give a flux");
-            return Err(LayerError::NoSuchFlow { flow, remedy });
+            let (flow, remedy) = ("a pressure gradient in a tube that is not straight", "Prescribe the flux instead");
+            return Err(LayerError::no_such_flow(flow, remedy));
         }
         self.drive = (drive, length);
         Ok(self)
@@ -387,7 +388,7 @@ impl AxisymmetricFlow {
         let n = 2 * self.grid.nodes;
         if let Some(factors) = factors {
             if !factors.solve_mut(right) || right.iter().any(|value| !value.is_finite()) {
-                return Err(LayerError::SingularSurfaces);
+                return Err(singular_surfaces());
             }
             for (solution, values) in self.solution.iter_mut().zip(right.as_slice().chunks_exact(n)) {
                 let (x, r) = values.split_at(n / 2);
@@ -697,8 +698,7 @@ fn load(
     let differs = |k: &usize| positions[*k].distance(mirrored(*k)) > ASYMMETRY * size;
     if !count.is_multiple_of(2) || (0..=intervals).any(|k| differs(&k)) {
         let point = (0..=intervals).find(differs).unwrap_or(count - 1);
-        let Vec2 { x, y } = positions[point];
-        return Err(LayerError::NotAxisymmetric { curve, point, x, y });
+        return Err(not_axisymmetric(curve, point, positions[point]));
     }
     let found = halves.iter().position(|half| half.intervals() == intervals);
     let half = found.unwrap_or_else(|| {
@@ -719,7 +719,7 @@ fn load(
         return Err(LayerError::Clockwise { curve });
     }
     if let Some(node) = below.next() {
-        return Err(LayerError::MeetsAxis { curve, x: node.place.x });
+        return Err(meets_axis(curve, node.place.x));
     }
     // Force on both halves of a ring, per parameter and azimuth.
     let factor = count as f64 / (2.0 * PI * PI);

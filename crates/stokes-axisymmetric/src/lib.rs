@@ -34,6 +34,7 @@
 //! With the feature `rayon`, off by default, the rows of the matrix are computed on several threads, to the same bits.
 
 mod flow;
+mod refusal;
 
 pub use flow::{AxisymmetricFlow, Disturbances, MeridianCalculus, tube};
 pub use motile_base::Vec2;

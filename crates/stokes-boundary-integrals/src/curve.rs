@@ -227,7 +227,7 @@ impl Curve {
         }
         let expected = region.periods()[0].unwrap_or(0.0);
         if period != Vec2::ZERO && (period.y != 0.0 || expected == 0.0 || period.x.abs() != expected) {
-            return Err(LayerError::Period { curve, x: period.x, y: period.y, expected });
+            return Err(LayerError::period(curve, period, expected));
         }
         finite_vectors("the position", curve, positions)?;
         finite_vectors("the force", curve, forces)?;

@@ -1,6 +1,6 @@
 //! Errors of layers: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, Vec2, told_apart};
+use motile_base::{InputError, Vec2, refusal, told_apart};
 
 /// An error of this crate; its message names the offending value and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -9,11 +9,8 @@ pub enum LayerError {
     /// A number out of its range, or a list of the wrong length.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A region without images where they are needed.
-    #[error("the double layer as a matrix is for boxes and channels: use `InterfaceFlow` in the plane")]
-    NoPeriod,
     /// A position, force or velocity on a curve or at a point is not a finite number.
-    #[error("{what} number {point} (curve {curve}) is ({x}, {y}): give finite numbers")]
+    #[error("{what} number {point} (curve {curve}) is ({x}, {y}): use finite numbers only")]
     NonFinite {
         /// Name of the quantity.
         what: &'static str,
@@ -27,7 +24,7 @@ pub enum LayerError {
         y: f64,
     },
     /// A curve with too few or too many nodes or points.
-    #[error("{kind} {curve} has {found} {what}: give it {least} to {most}")]
+    #[error("{kind} {curve} has {found} {what}: use {least} to {most}")]
     Count {
         /// Curve or wall.
         kind: &'static str,
@@ -42,23 +39,8 @@ pub enum LayerError {
         /// Largest number.
         most: usize,
     },
-    /// A curve whose advance in a turn of the parameter is neither zero nor the period of the region along x.
-    #[error(
-        "curve {curve} advances by ({x}, {y}) in a turn: give (0, 0) for a closed curve, ({expected}, 0) or \
-         (-{expected}, 0) for an open one in a region with that period along x"
-    )]
-    Period {
-        /// Number of the curve.
-        curve: usize,
-        /// Advance in x (length).
-        x: f64,
-        /// Advance in y (length).
-        y: f64,
-        /// The period of the region along x (length), 0 if it has none.
-        expected: f64,
-    },
     /// A curve runs clockwise or crosses itself.
-    #[error("curve {curve} runs clockwise or crosses itself: give its points in counter-clockwise order")]
+    #[error("curve {curve} runs clockwise or crosses itself: list its points in counter-clockwise order")]
     Clockwise {
         /// Number of the curve.
         curve: usize,
@@ -102,84 +84,6 @@ pub enum LayerError {
         /// Number of nodes that resolve the gap.
         needed: usize,
     },
-    /// Rigid walls in a region that is no channel.
-    #[error("rigid walls and obstacles need a channel around them: use a channel wider than they are")]
-    NoChannel,
-    /// A flow imposed on a region that does not have it.
-    #[error("{flow} is not possible: {remedy}")]
-    NoSuchFlow {
-        /// The flow and the region.
-        flow: &'static str,
-        /// Alternative.
-        remedy: &'static str,
-    },
-    /// Rigid walls that cross or touch each other, or themselves.
-    #[error("wall {first} crosses or touches wall {second} near ({x:.4}, {y:.4}): leave fluid between them")]
-    WallsCross {
-        /// Number of one wall.
-        first: usize,
-        /// Number of the other wall, equal to the first where a wall crosses itself.
-        second: usize,
-        /// x coordinate of the place (length).
-        x: f64,
-        /// y coordinate of the place (length).
-        y: f64,
-    },
-    /// Rigid walls with a singular matrix, so that the forces on them are not determined.
-    #[error("the forces on the rigid walls are not determined: use more nodes, or leave more fluid between the walls")]
-    SingularWalls,
-    /// A surface of revolution whose meridian meets the axis between its poles.
-    #[error(
-        "curve {curve} meets the axis between its poles, at x = {x:.4}: keep the meridian off the axis; in a run a \
-         neck has pinched there, after which the droplet would be two, which is not in the model"
-    )]
-    MeetsAxis {
-        /// Number of the curve.
-        curve: usize,
-        /// Place on the axis (length).
-        x: f64,
-    },
-    /// A curve that is not the meridian of a surface of revolution with its mirror image.
-    #[error(
-        "point {point} of curve {curve} at ({x:.4}, {y:.4}) is not on the meridian of a surface of revolution: give an \
-         even number of points, the first on the x axis, each the mirror image of its partner"
-    )]
-    NotAxisymmetric {
-        /// Number of the curve.
-        curve: usize,
-        /// Number of the point.
-        point: usize,
-        /// Its x coordinate (length).
-        x: f64,
-        /// Its y coordinate (length).
-        y: f64,
-    },
-    /// A region of three dimensions for curves of the plane.
-    #[error("curves in the plane are no surfaces of revolution: use `AxisymmetricFlow`, or a region of the plane")]
-    InThreeDimensions,
-    /// A region of the plane for surfaces of revolution.
-    #[error("bodies of revolution are in three dimensions: use the region space or tube")]
-    InTwoDimensions,
-    /// Disturbances of anything but one interface of revolution.
-    #[error("disturbances are those of one interface of revolution, there are {found}: load one, and no rigid body")]
-    NotOneInterface {
-        /// Number of interfaces.
-        found: usize,
-    },
-    /// Surfaces that leave too little room in a length of a straight tube that a pressure is given for.
-    #[error(
-        "a length of {length} of the tube has a pressure of its own, and the surfaces in it and the next ones are less \
-         than a radius apart: give at least {least:.4}, or a flux in place of a pressure"
-    )]
-    ShortTube {
-        /// The length (length).
-        length: f64,
-        /// Least length for these surfaces (length).
-        least: f64,
-    },
-    /// Surfaces with singular equations.
-    #[error("the velocities of the surfaces are not determined: use more nodes, or leave more fluid between them")]
-    SingularSurfaces,
     /// An interface beyond a rigid wall or inside an obstacle.
     #[error(
         "interface {curve} is beyond rigid wall {wall} at ({x:.4}, {y:.4}): move it away, use a smaller time step or \
@@ -198,7 +102,7 @@ pub enum LayerError {
     /// An iteration for a viscosity contrast that did not reach its tolerance.
     #[error(
         "the relative residual is {} after {iterations} iterations, above {}: use more nodes, allow more iterations, \
-         or ask for less",
+         or use a larger tolerance",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
@@ -209,9 +113,78 @@ pub enum LayerError {
         /// Relative residual asked for.
         tolerance: f64,
     },
+    /// A curve, wall, region or request that the solver cannot use.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
+    },
 }
 
 motile_base::debug_as_explanation!(LayerError);
+
+impl LayerError {
+    /// A refusal: what is wrong, the value if it is not in that sentence, and what to do.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
+    }
+
+    /// A flow that cannot be imposed on the region.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn no_such_flow(flow: &str, remedy: &str) -> Self {
+        Self::refused(format!("{flow} is not possible"), "", remedy)
+    }
+
+    /// Rigid walls with a singular matrix, so that the forces on them are not determined.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn singular_walls() -> Self {
+        let remedy = "Use more nodes, or leave more fluid between the walls";
+        Self::refused("the forces on the rigid walls are not determined", "their equations are singular", remedy)
+    }
+
+    /// An axisymmetric region for curves in the plane.
+    pub(crate) fn in_three_dimensions() -> Self {
+        let remedy = "Use `AxisymmetricFlow`, or a two-dimensional region";
+        Self::refused("the region is axisymmetric, but this flow is two-dimensional", "", remedy)
+    }
+
+    /// Rigid walls in a region that is no channel.
+    pub(crate) fn no_channel() -> Self {
+        let remedy = "Use a channel that is wider than they are";
+        Self::refused("rigid walls and obstacles need a channel around them", "", remedy)
+    }
+
+    /// A curve that advances by `advance` in a turn of the parameter, neither by zero nor by the `period` along x.
+    pub(crate) fn period(curve: usize, advance: Vec2, period: f64) -> Self {
+        let value =
+            format!("from its first point to the next image of it, it advances by ({}, {})", advance.x, advance.y);
+        let closed = "Let a closed curve advance by (0, 0)";
+        let remedy = if period == 0.0 {
+            format!("{closed}. The region is not periodic along x, so it has no open curves")
+        } else {
+            format!("{closed} and an open curve by ({period}, 0) or (-{period}, 0), the period of the region")
+        };
+        Self::refused(format!("curve {curve} has the wrong period"), value, remedy)
+    }
+
+    /// Rigid walls that cross or touch each other near a place, or a wall that crosses itself.
+    pub(crate) fn walls_cross(first: usize, second: usize, place: Vec2) -> Self {
+        let walls = if first == second {
+            format!("wall {first} crosses itself")
+        } else {
+            format!("wall {first} crosses or touches wall {second}")
+        };
+        Self::refused(format!("{walls} near ({:.4}, {:.4})", place.x, place.y), "", "Leave fluid between the walls")
+    }
+}
 
 /// Refuses vectors that are not finite; `curve` is the number of the curve that they belong to.
 ///
@@ -222,4 +195,10 @@ pub fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Resu
         Some(point) => Err(LayerError::NonFinite { what, curve, point, x: values[point].x, y: values[point].y }),
         None => Ok(()),
     }
+}
+
+/// Whether an error is a refusal whose text contains these words.
+#[cfg(test)]
+pub(crate) fn refused(error: &LayerError, words: &str) -> bool {
+    matches!(error, LayerError::Refused { .. }) && error.to_string().contains(words)
 }

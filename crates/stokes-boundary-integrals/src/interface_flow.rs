@@ -107,7 +107,7 @@ impl InterfaceFlow {
         positive("the viscosity", viscosity)?;
         settings.check()?;
         if region.is_axisymmetric() {
-            return Err(LayerError::InThreeDimensions);
+            return Err(LayerError::in_three_dimensions());
         }
         let [velocities, motion] = Default::default();
         let (layers, sampler) =
@@ -135,7 +135,7 @@ impl InterfaceFlow {
         mut self,
         walls: impl Iterator<Item = LayerCurve<'a>> + Clone + Send,
     ) -> Result<Self, LayerError> {
-        let Region::Channel { length, width, drive } = self.region else { return Err(LayerError::NoChannel) };
+        let Region::Channel { length, width, drive } = self.region else { return Err(LayerError::no_channel()) };
         // The forcing is that of the flow between the walls.
         let region = Region::Channel { length, width, drive: Drive::ZeroGradient };
         self.layers = Layers::new(region, self.settings.tolerance, Symmetry::ToResolution)?;
@@ -150,34 +150,34 @@ impl InterfaceFlow {
     /// dimension) by which the images above are displaced along x. The strain counts modulo whole periods.
     ///
     /// # Errors
-    /// Numbers that are not finite or a flow that does not keep areas; [`LayerError::NoSuchFlow`] for a flow that the
+    /// Numbers that are not finite or a flow that does not keep areas; [`LayerError::Refused`] for a flow that the
     /// region does not have.
     pub fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), LayerError> {
         flow.check()?;
         finite("the strain of the images", strain)?;
-        let refuse = |flow, remedy| Err(LayerError::NoSuchFlow { flow, remedy });
+        let refuse = |flow, remedy| Err(LayerError::no_such_flow(flow, remedy));
         let along = ImposedFlow { velocity: [flow.velocity[0], 0.0], ..ImposedFlow::shear(flow.shear_rate()) };
         match self.region {
             _ if flow.is_none() => {}
             Region::Plane => {}
             Region::Box { .. } if flow != ImposedFlow::shear(flow.shear_rate()) => {
                 return refuse(
-                    "a flow other than a shear along x, imposed on a box,",
-                    "impose a shear, whose images are displaced, or use the plane",
+                    "a flow other than a shear along x in a periodic box",
+                    "Impose a shear along x, or use the plane",
                 );
             }
             Region::Box { .. } => {}
             Region::Channel { .. } if flow != along => {
                 return refuse(
-                    "a flow that is not that of sliding walls, imposed on a channel",
-                    "let the walls slide, prescribe a pressure gradient or a flux, or use the plane",
+                    "a flow in a channel that its sliding walls do not drive",
+                    "Let the walls slide, prescribe a pressure gradient or a flux, or use the plane",
                 );
             }
             Region::Channel { .. } if self.walls.is_some() => {
-                return refuse("sliding walls behind rigid walls", "leave one of them out");
+                return refuse("sliding walls behind rigid walls", "Leave one of them out");
             }
             Region::Channel { .. } => {}
-            _ => return Err(LayerError::InThreeDimensions),
+            _ => return Err(LayerError::in_three_dimensions()),
         }
         self.layers.imposed = flow;
         self.layers.set_strain(strain);
@@ -319,12 +319,12 @@ impl InterfaceFlow {
             let (Inside::Fluid { viscosity: inside }, true) = (inside, period.x != 0.0) else { continue };
             if sheared {
                 let flow = "a shear of a box with interfaces that are periodic along x, whose images slide past each \
-                            other,";
-                return Err(LayerError::NoSuchFlow { flow, remedy: "use a channel with walls that slide" });
+                            other";
+                return Err(LayerError::no_such_flow(flow, "Use a channel with walls that slide"));
             }
             if drive.flux().is_some() && inside != outside {
-                let flow = "a flux along interfaces that are periodic along x, between fluids of different viscosity,";
-                return Err(LayerError::NoSuchFlow { flow, remedy: "prescribe the pressure gradient" });
+                let flow = "a flux along interfaces that are periodic along x, between fluids of different viscosity";
+                return Err(LayerError::no_such_flow(flow, "Prescribe the pressure gradient"));
             }
             let height = positions.iter().map(|x| x.y).sum::<f64>() / positions.len() as f64;
             let [below, above] = if period.x > 0.0 { [outside, inside] } else { [inside, outside] };

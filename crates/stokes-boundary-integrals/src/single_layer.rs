@@ -62,7 +62,7 @@ impl SingleLayer {
     /// tolerance outside of 1e-15 to 1e-3.
     pub fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, LayerError> {
         if region.is_axisymmetric() {
-            return Err(LayerError::InThreeDimensions);
+            return Err(LayerError::in_three_dimensions());
         }
         Ok(Self { layers: Layers::new(region, tolerance, symmetry)?, sampler: Sampler::new(tolerance) })
     }

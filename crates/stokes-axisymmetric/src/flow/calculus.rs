@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use motile_base::{PeriodicSeries, Vec2, same_length, within};
 use num_complex::Complex64;
 
+use crate::refusal::odd_points;
 use stokes_boundary_integrals::{LayerError, TensionPlacement, internal::MOST_POINTS};
 
 /// Forces of a surface tension on surfaces of revolution, given by the closed curve of meridian and mirror image as in
@@ -27,7 +28,7 @@ impl MeridianCalculus {
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of points", len as f64, 4.0, MOST_POINTS)?;
         if !len.is_multiple_of(2) {
-            return Err(LayerError::NotAxisymmetric { curve: 0, point: len - 1, x: f64::NAN, y: f64::NAN });
+            return Err(odd_points(len));
         }
         let series = PeriodicSeries::new(len)?;
         let [curve, pull, slope] = [(); 3].map(|()| series.clone());

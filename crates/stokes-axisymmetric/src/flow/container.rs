@@ -13,6 +13,7 @@ use super::{
     ring::{Ring, Wanted},
     waves::dot,
 };
+use crate::refusal::short_tube;
 use stokes_boundary_integrals::{DenseFactors, LayerError};
 
 /// Length of a closed tube beyond the surfaces at either end, over its radius: flows decay to 2e-11.
@@ -109,7 +110,7 @@ impl Walls {
         }
         let factors = DenseFactors::new(matrix);
         if !factors.is_regular() {
-            return Err(LayerError::SingularWalls);
+            return Err(LayerError::singular_walls());
         }
         let empty = DMatrix::zeros(0, 0);
         let from_forces = DVector::zeros(2 * n);
@@ -191,7 +192,7 @@ impl AxisymmetricFlow {
             }
             let (length, least) = (self.drive.1, ends[1] - ends[0] + Region::LENGTHS_APART * radius);
             if self.drive.0.flux().is_none() && least > length {
-                return Err(LayerError::ShortTube { length, least });
+                return Err(short_tube(length, least));
             }
             let needed = 0.5 * (ends[1] - ends[0]) + BEYOND * radius;
             let [wide, tight] = SPACINGS;

@@ -13,6 +13,7 @@ use super::{
     ring::Wanted,
     waves::{Pair, Waves},
 };
+use crate::refusal::{not_one_interface, singular_surfaces};
 use stokes_boundary_integrals::{DenseFactors, LayerError};
 
 /// Largest order: the integrals over the azimuth take 16 points for every panel of a few waves.
@@ -397,10 +398,10 @@ impl AxisymmetricFlow {
         let Self { viscosity, grid, panels, surfaces, sides, walls, tube, flux, solution, .. } = self;
         let (n, even) = (grid.nodes, even(order));
         let ([meridian], [sides]) = (surfaces.as_slice(), sides.as_slice()) else {
-            return Err(LayerError::NotOneInterface { found: surfaces.len() });
+            return Err(not_one_interface(surfaces.len()));
         };
         if sides.inside.is_none() {
-            return Err(LayerError::NotOneInterface { found: 0 });
+            return Err(not_one_interface(0));
         }
         let components = if order == 0 { 2 } else { 3 };
         let contrast = sides.contrast();
@@ -448,7 +449,7 @@ impl AxisymmetricFlow {
             for matrix in [forces, velocities, shape] {
                 let factors = factors.as_ref().unwrap_or(kept);
                 if !factors.is_regular() {
-                    return Err(LayerError::SingularWalls);
+                    return Err(LayerError::singular_walls());
                 }
                 factors.solve(matrix);
             }
@@ -463,7 +464,7 @@ impl AxisymmetricFlow {
         } else {
             let factors = left.lu();
             if !(factors.solve_mut(&mut forces) && factors.solve_mut(&mut shape)) {
-                return Err(LayerError::SingularSurfaces);
+                return Err(singular_surfaces());
             }
             (forces, shape) = (&values * forces, &values * shape);
         }

@@ -5,6 +5,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;
 
 use super::waves::Pair;
+use crate::refusal::singular_surfaces;
 use stokes_boundary_integrals::LayerError;
 
 /// Truncation of forces per parameter and azimuth, given at more points than there are nodes.
@@ -37,7 +38,7 @@ impl Truncation {
         let across =
             DMatrix::from_fn(nodes - 1, nodes - 1, |k, l| 0.5 * (weighted(k.abs_diff(l)) - weighted(k + l + 2)));
         // Powers of functions that are independent are positive definite.
-        let factors = |matrix: DMatrix<f64>| matrix.cholesky().ok_or(LayerError::SingularSurfaces);
+        let factors = |matrix: DMatrix<f64>| matrix.cholesky().ok_or(singular_surfaces());
         Ok(Self {
             series: PeriodicSeries::new(2 * intervals)?,
             powers: [factors(along)?, factors(across)?],

@@ -102,7 +102,7 @@ impl RigidWalls {
         let mut unit = &parabola * TAU;
         factors.solve(&mut unit);
         if !unit.iter().all(|f| f.is_finite()) {
-            return Err(LayerError::SingularWalls);
+            return Err(LayerError::singular_walls());
         }
         let scale = 2.0 * length * viscosity;
         let behind = flux_behind(layers, sampler, viscosity, half, &unit)?;
@@ -219,7 +219,7 @@ fn check_apart(curves: &[Curve], length: f64) -> Result<(), LayerError> {
                     let side = |p: Complex64, q: Complex64, r: Complex64| ((q - p).conj() * (r - p)).im;
                     let crosses = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
                     if crosses || (first != second && (c - a).norm() < touching) {
-                        return Err(LayerError::WallsCross { first, second, x: c.re, y: c.im });
+                        return Err(LayerError::walls_cross(first, second, Vec2::new(c.re, c.im)));
                     }
                 }
             }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::refused;
 use crate::{PeriodicCalculus, TensionPlacement};
 use motile_base::Drive;
 use std::f64::consts::TAU;
@@ -255,7 +256,8 @@ fn curves_that_do_not_go_on_with_the_region_are_refused() {
         (channel(), Vec2::new(f64::NAN, 0.0)),
         (Region::Plane, Vec2::new(LENGTH, 0.0)),
     ] {
-        assert!(matches!(load(region, period), Err(LayerError::Period { curve: 0, .. })));
+        let error = load(region, period).unwrap_err();
+        assert!(refused(&error, "curve 0 has the wrong period"), "{error}");
     }
 }
 
