@@ -67,20 +67,17 @@ impl Channel {
     /// long together.
     pub fn with_islands(lower: Outline, upper: Outline, islands: Vec<Outline>) -> Result<Self, SolidError> {
         let Some(period) = lower.period() else {
-            return Err(SolidError::Unsupported {
-                what: "a closed outline as the side of a channel",
-                remedy: "give a profile, a polyline or a flat line",
-            });
+            return Err(SolidError::unsupported(
+                "a closed outline as the side of a channel",
+                "Use a profile, a polyline or a flat line",
+            ));
         };
         if upper.period() != Some(period) {
             let second = upper.period().unwrap_or(0.0);
-            return Err(SolidError::DifferentPeriods { first: period, second });
+            return Err(SolidError::different_periods(period, second));
         }
         if islands.iter().any(|island| island.period().is_some()) {
-            return Err(SolidError::Unsupported {
-                what: "a periodic line as an island",
-                remedy: "give a closed outline",
-            });
+            return Err(SolidError::unsupported("a periodic line as an island", "Use a closed outline"));
         }
         let spacing = period / SAMPLES;
         let length = [&lower, &upper].into_iter().chain(&islands).map(Outline::length).sum::<f64>();
@@ -97,7 +94,7 @@ impl Channel {
             let mut place = line[0];
             place.x -= period * ((place.x - start) / period).floor();
             if segments.crossings_above(place, Some(number)) % 2 != 1 {
-                return Err(SolidError::NotBetween { place });
+                return Err(SolidError::not_between(place));
             }
         }
         Ok(Self { lower, upper, islands, period })
@@ -197,9 +194,9 @@ impl Channel {
     /// Outline of the island `number`, counted from 0.
     ///
     /// # Errors
-    /// [`SolidError::NoSuchIsland`].
+    /// [`SolidError::Refused`].
     pub fn island(&self, number: usize) -> Result<&Outline, SolidError> {
-        self.islands.get(number).ok_or(SolidError::NoSuchIsland { number, found: self.islands.len() })
+        self.islands.get(number).ok_or_else(|| SolidError::no_such_island(number, self.islands.len()))
     }
 
     /// Wall from y = `bottom` (length) up to the lower line.

@@ -1,6 +1,6 @@
 //! Errors of solids, meshes and outlines.
 
-use motile_base::{InputError, Vec2, positive, within};
+use motile_base::{InputError, Vec2, positive, refusal, within};
 
 use crate::material::Mat2;
 
@@ -12,222 +12,6 @@ pub enum SolidError {
     /// A number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A deformation that inverts the material, flattens it, or is not finite.
-    #[error(
-        "the deformation gradient with the columns ({:.4}, {:.4}) and ({:.4}, {:.4}) has the determinant {:.3e}: it \
-         must be positive", .gradient.x_axis.x, .gradient.x_axis.y, .gradient.y_axis.x, .gradient.y_axis.y,
-        .gradient.determinant()
-    )]
-    NotOrientationPreserving {
-        /// Deformation gradient.
-        gradient: Mat2,
-    },
-    /// A triangle that names a point which does not exist.
-    #[error("triangle {triangle} names point {point} of {points}: points are counted from 0")]
-    NoSuchPoint {
-        /// Index of the triangle.
-        triangle: usize,
-        /// Index of the point.
-        point: usize,
-        /// Number of points.
-        points: usize,
-    },
-    /// A triangle without area.
-    #[error("triangle {triangle} near ({:.4}, {:.4}) has the area {area:.1e}: its points must not lie on a line",
-        .place.x, .place.y)]
-    FlatTriangle {
-        /// Index of the triangle.
-        triangle: usize,
-        /// First corner.
-        place: Vec2,
-        /// Area (length squared).
-        area: f64,
-    },
-    /// A triangle of a periodic mesh whose corners cannot be told from their images.
-    #[error("triangle {triangle} is {width:.4} wide, half the period {period} or more: use smaller triangles")]
-    TriangleTooWide {
-        /// Index of the triangle.
-        triangle: usize,
-        /// Width of the triangle (length).
-        width: f64,
-        /// Period of the mesh (length).
-        period: f64,
-    },
-    /// A point that no triangle uses.
-    #[error("point {point} at ({:.4}, {:.4}) belongs to no triangle: leave it out", .place.x, .place.y)]
-    LoosePoint {
-        /// Index of the point.
-        point: usize,
-        /// Position of the point.
-        place: Vec2,
-    },
-    /// Two points of triangles at one place: the triangles there are not connected.
-    #[error(
-        "points {first} and {second} coincide at ({:.4}, {:.4}): make them one (in Gmsh: \"Coherence Mesh;\", or the \
-         tool that removes duplicate nodes)", .place.x, .place.y
-    )]
-    CoincidentPoints {
-        /// Index of a point.
-        first: usize,
-        /// Index of the other point.
-        second: usize,
-        /// Position of the latter.
-        place: Vec2,
-    },
-    /// An edge with more than one triangle on a side.
-    #[error(
-        "the edge between points {first} and {second} has two triangles on one side, one of them {triangle}: triangles \
-         must not overlap"
-    )]
-    FoldedMesh {
-        /// Index of an end of the edge.
-        first: usize,
-        /// Index of the other end.
-        second: usize,
-        /// Index of one of the triangles.
-        triangle: usize,
-    },
-    /// An island that a channel does not have.
-    #[error(
-        "island {number} of a channel with {found}: islands are counted from 0, give the number of an existing one"
-    )]
-    NoSuchIsland {
-        /// Number of the island that was asked for.
-        number: usize,
-        /// Number of islands of the channel.
-        found: usize,
-    },
-    /// An operation that is not supported.
-    #[error("{what} is not possible: {remedy}")]
-    Unsupported {
-        /// Operation.
-        what: &'static str,
-        /// Remedy.
-        remedy: &'static str,
-    },
-    /// A line that does not return to its start.
-    #[error(
-        "the outline ends at ({:.4}, {:.4}), {gap:.3e} from where it must: close it, or let a profile return to its \
-         first height", .place.x, .place.y
-    )]
-    OpenOutline {
-        /// End of the line.
-        place: Vec2,
-        /// Distance of the end from the start, or from the start of the next period (length).
-        gap: f64,
-    },
-    /// A side or curve of an outline without length.
-    #[error("a side of the outline at ({:.4}, {:.4}) has no length: points that follow each other must differ",
-        .place.x, .place.y)]
-    NoLength {
-        /// Start of the side.
-        place: Vec2,
-    },
-    /// Corners of a curve that do not increase.
-    #[error("corner at {value}: give increasing numbers above {start} and below {end}")]
-    CornersOutOfOrder {
-        /// Parameter of the first corner out of order.
-        value: f64,
-        /// Parameter at the start of the curve.
-        start: f64,
-        /// Parameter at the end of the curve.
-        end: f64,
-    },
-    /// A rounded corner that does not fit.
-    #[error(
-        "a corner of radius {radius} does not fit on the side of length {side:.4} from ({:.4}, {:.4}): give at most \
-         {maximum:.4}", .place.x, .place.y
-    )]
-    RoundingTooLarge {
-        /// Radius of the corner (length).
-        radius: f64,
-        /// Start of the side.
-        place: Vec2,
-        /// Length of the side (length).
-        side: f64,
-        /// Largest radius that fits there (length).
-        maximum: f64,
-    },
-    /// Periodic outlines of different periods.
-    #[error("one outline has the period {first}, another {second}: give them the same")]
-    DifferentPeriods {
-        /// Period of an outline (length).
-        first: f64,
-        /// Period of another one (length).
-        second: f64,
-    },
-    /// An interior that extends to infinity.
-    #[error("there are {lines} periodic outlines: give an even number, the two surfaces of each wall")]
-    OpenRegion {
-        /// Number of periodic outlines.
-        lines: usize,
-    },
-    /// Outlines that cross.
-    #[error(
-        "outlines cross or touch near ({:.4}, {:.4}): move them apart, or use a smaller spacing where they only come \
-         close", .place.x, .place.y
-    )]
-    Crossing {
-        /// Place of the crossing.
-        place: Vec2,
-    },
-    /// A line of a channel on the wrong side of the others.
-    #[error(
-        "the line through ({:.4}, {:.4}) is not below the upper side of the channel and above the lower one: \
-         exchange or move them", .place.x, .place.y
-    )]
-    NotBetween {
-        /// Point of the line.
-        place: Vec2,
-    },
-    /// A hole that the mesh cannot resolve.
-    #[error(
-        "the hole at ({:.4}, {:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a \
-         smaller spacing", .place.x, .place.y
-    )]
-    HoleTooSmall {
-        /// Point of the outline of the hole.
-        place: Vec2,
-        /// Width of the hole (length).
-        width: f64,
-        /// Mesh spacing (length).
-        spacing: f64,
-    },
-    /// A wall that the mesh cannot resolve.
-    #[error(
-        "the solid at ({:.4}, {:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, \
-         round its tip, or use a smaller spacing", .place.x, .place.y
-    )]
-    WallTooThin {
-        /// Point of the outline of the solid.
-        place: Vec2,
-        /// Thickness of the solid there (length).
-        thickness: f64,
-        /// Mesh spacing (length).
-        spacing: f64,
-    },
-    /// A triangulation that failed.
-    #[error("the triangulation failed: {what}; use a smaller mesh spacing")]
-    MeshingFailed {
-        /// Reason.
-        what: &'static str,
-    },
-    /// Text that is not a mesh file.
-    #[error("line {line} of the mesh file: {what}")]
-    Gmsh {
-        /// Number of the line, from 1.
-        line: usize,
-        /// Fault of the line.
-        what: String,
-    },
-    /// A group of triangles that cannot be written.
-    #[error("group {tag} of triangles: {what}")]
-    BadGroup {
-        /// Number of the group.
-        tag: i32,
-        /// Fault of the group.
-        what: &'static str,
-    },
     /// An inverted triangle, or one of a solid that flows which is about to be.
     #[error(
         "triangle {triangle} near ({:.4}, {:.4}) is {}inverted (area ratio {jacobian:.4}): use a smaller time step or \
@@ -244,8 +28,8 @@ pub enum SolidError {
     /// A surface that has come to cross itself.
     #[error(
         "the surface crosses itself near ({:.4}, {:.4}), where the sides that start at the points {first} and {second} \
-         meet: contact of a solid with itself is not in the model; give it surface elasticity that keeps it from creasing, stiffer \
-         material, or use a smaller time step", .place.x, .place.y
+         meet: the model has no contact of a solid with itself. Use a stiffer material, add surface elasticity, which \
+         keeps the surface from creasing, or use a smaller time step", .place.x, .place.y
     )]
     SelfContact {
         /// First point.
@@ -260,13 +44,170 @@ pub enum SolidError {
         "the inner points found no equilibrium, {residual:.1e} of the force is left: use a smaller strain or a stable \
          material"
     )]
-    NotRelaxed {
+    NoConvergence {
         /// Residual force over the force at the boundary.
         residual: f64,
+    },
+    /// An outline, channel, mesh, mesh file or request that cannot be used.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
     },
 }
 
 motile_base::debug_as_explanation!(SolidError);
+
+impl SolidError {
+    /// A deformation that inverts the material, flattens it, or is not finite.
+    pub(crate) fn not_orientation_preserving(gradient: Mat2) -> Self {
+        let [a, b] = [gradient.x_axis, gradient.y_axis].map(at);
+        let what = format!("the deformation gradient with the columns {a} and {b} inverts or flattens the material");
+        let value = format!("its determinant is {:.3e}", gradient.determinant());
+        Self::refused(what, value, "Use a matrix with a positive determinant")
+    }
+
+    /// A triangle that names a point which does not exist.
+    pub(crate) fn no_such_point(triangle: usize, point: usize, points: usize) -> Self {
+        let what = format!("triangle {triangle} names point {point}, which does not exist");
+        Self::refused(what, format!("the mesh has {points} points"), "Count the points from 0")
+    }
+
+    /// A triangle without area.
+    pub(crate) fn flat_triangle(triangle: usize, place: Vec2, area: f64) -> Self {
+        let what = format!("triangle {triangle} near {} is flat", at(place));
+        Self::refused(what, format!("its area is {area:.1e}"), "Move its points off a common line")
+    }
+
+    /// A triangle of a periodic mesh whose corners cannot be told from their images.
+    pub(crate) fn triangle_too_wide(triangle: usize, width: f64, period: f64) -> Self {
+        let value = format!("it is {width:.4} wide, which is half the period {period} or more");
+        Self::refused(format!("triangle {triangle} is too wide"), value, "Use smaller triangles")
+    }
+
+    /// A point that no triangle uses.
+    pub(crate) fn loose_point(point: usize, place: Vec2) -> Self {
+        Self::refused(format!("point {point} at {} belongs to no triangle", at(place)), "", "Leave it out")
+    }
+
+    /// Two points of triangles at one place, where the triangles are not connected.
+    pub(crate) fn coincident_points(first: usize, second: usize, place: Vec2) -> Self {
+        let what = format!("points {first} and {second} coincide at {}", at(place));
+        let remedy = "Merge them (in Gmsh, use \"Coherence Mesh;\" or the tool that removes duplicate nodes)";
+        Self::refused(what, "the triangles there are not connected", remedy)
+    }
+
+    /// An edge with more than one triangle on a side.
+    pub(crate) fn folded_mesh(first: usize, second: usize, triangle: usize) -> Self {
+        let what = format!("triangles overlap at the edge between points {first} and {second}");
+        let value = format!("two of them, one being triangle {triangle}, are on one side of it");
+        Self::refused(what, value, "Remove one of them, or move its points")
+    }
+
+    /// An island that a channel does not have.
+    pub(crate) fn no_such_island(number: usize, found: usize) -> Self {
+        let value = format!("the channel has {found}, counted from 0");
+        Self::refused(format!("island {number} does not exist"), value, "Use the number of an existing island")
+    }
+
+    /// An operation that is not supported.
+    pub(crate) fn unsupported(what: &str, remedy: &str) -> Self {
+        Self::refused(format!("{what} is not possible"), "", remedy)
+    }
+
+    /// A line that ends at `place`, at a distance `gap` from its start or the start of the next period.
+    pub(crate) fn open_outline(place: Vec2, gap: f64) -> Self {
+        let value = format!("it ends at {}, {gap:.3e} from where it must", at(place));
+        let remedy = "Close it, or let a profile return to its first height";
+        Self::refused("the outline is not closed", value, remedy)
+    }
+
+    /// A side or curve of an outline without length.
+    pub(crate) fn no_length(place: Vec2) -> Self {
+        let what = format!("a side of the outline at {} has no length", at(place));
+        Self::refused(what, "", "Use successive points that differ")
+    }
+
+    /// Corners of a curve that do not increase.
+    pub(crate) fn corners_out_of_order(value: f64, [start, end]: [f64; 2]) -> Self {
+        let remedy = format!("Use increasing numbers above {start} and below {end}");
+        Self::refused("the corners of the curve are out of order", format!("{value}"), remedy)
+    }
+
+    /// A rounded corner that does not fit on the side from `place`.
+    pub(crate) fn rounding_too_large(radius: f64, place: Vec2, side: f64, maximum: f64) -> Self {
+        let what = format!("a corner of radius {radius} does not fit on the side from {}", at(place));
+        Self::refused(what, format!("the side is {side:.4} long"), format!("Use a radius of at most {maximum:.4}"))
+    }
+
+    /// Periodic outlines of different periods.
+    pub(crate) fn different_periods(first: f64, second: f64) -> Self {
+        Self::refused("outlines have different periods", format!("{first} and {second}"), "Give them the same period")
+    }
+
+    /// An interior that extends to infinity.
+    pub(crate) fn open_region(lines: usize) -> Self {
+        let what = "the solid extends to infinity";
+        let value = format!("the number of periodic outlines is odd: {lines}");
+        Self::refused(what, value, "Use two periodic outlines for each wall, one for each of its surfaces")
+    }
+
+    /// Outlines that cross.
+    pub(crate) fn crossing(place: Vec2) -> Self {
+        let remedy = "Move them apart, or use a smaller spacing if they only come close";
+        Self::refused(format!("outlines cross or touch near {}", at(place)), "", remedy)
+    }
+
+    /// A line of a channel on the wrong side of the others.
+    pub(crate) fn not_between(place: Vec2) -> Self {
+        let what = format!("the line through {} is not between the two sides of the channel", at(place));
+        let value = "it must be below the upper side and above the lower one";
+        Self::refused(what, value, "Exchange the lines, or move them")
+    }
+
+    /// A hole that the mesh cannot resolve.
+    pub(crate) fn hole_too_small(place: Vec2, width: f64, spacing: f64) -> Self {
+        let what = format!("the hole at {} is too small for the mesh", at(place));
+        let value = format!("it is {width:.4} wide, less than the mesh spacing {spacing}");
+        Self::refused(what, value, "Leave it out, or use a smaller spacing")
+    }
+
+    /// A wall that the mesh cannot resolve.
+    pub(crate) fn wall_too_thin(place: Vec2, thickness: f64, spacing: f64) -> Self {
+        let what = format!("the solid at {} is too thin for the mesh", at(place));
+        let value = format!("it is {thickness:.4} thick, less than the mesh spacing {spacing}");
+        Self::refused(what, value, "Make it thicker, round its tip, or use a smaller spacing")
+    }
+
+    /// A triangulation that failed.
+    pub(crate) fn meshing_failed(reason: &str) -> Self {
+        Self::refused("the triangulation failed", reason, "Use a smaller mesh spacing")
+    }
+
+    /// A line of text that is not part of a mesh file.
+    pub(crate) fn gmsh(line: usize, fault: impl Into<String>) -> Self {
+        let remedy = "Save the mesh as ASCII, version 4.1, with triangles of three points in one plane";
+        Self::refused(format!("line {line} of the mesh file cannot be used"), fault, remedy)
+    }
+
+    /// A group of triangles that cannot be written.
+    pub(crate) fn bad_group(tag: i32, fault: &str) -> Self {
+        Self::refused(format!("group {tag} of triangles cannot be written"), fault, "Correct the group, or remove it")
+    }
+
+    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
+    }
+}
+
+/// Text of a place.
+fn at(place: Vec2) -> String {
+    format!("({:.4}, {:.4})", place.x, place.y)
+}
 
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
 pub(crate) const MOST_POINTS: f64 = 1e6;
@@ -274,4 +215,17 @@ pub(crate) const MOST_POINTS: f64 = 1e6;
 /// Returns `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
 pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, InputError> {
     within(name, positive(name, value)?, 1e-100, 1e100)
+}
+
+/// Whether an error is a refusal whose text contains these words.
+#[cfg(test)]
+pub(crate) fn refused(error: &SolidError, words: &str) -> bool {
+    matches!(error, SolidError::Refused { .. }) && error.to_string().contains(words)
+}
+
+/// Numbers in the text of an error.
+#[cfg(test)]
+pub(crate) fn numbers(error: &SolidError) -> Vec<f64> {
+    let text = error.to_string();
+    text.split(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c))).filter_map(|word| word.parse().ok()).collect()
 }

@@ -47,9 +47,9 @@ impl DeformationGradient {
     /// Deformation gradient with the matrix A.
     ///
     /// # Errors
-    /// [`SolidError::NotOrientationPreserving`] where the determinant is not positive and finite.
+    /// [`SolidError::Refused`] where the determinant is not positive and finite.
     pub fn new(matrix: Mat2) -> Result<Self, SolidError> {
-        Self::checked(matrix).ok_or(SolidError::NotOrientationPreserving { gradient: matrix })
+        Self::checked(matrix).ok_or_else(|| SolidError::not_orientation_preserving(matrix))
     }
 
     /// Deformation gradient with the matrix A; `None` where the determinant is not positive and finite.

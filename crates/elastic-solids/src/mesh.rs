@@ -84,11 +84,7 @@ impl TriangleMesh {
         let mut used = vec![false; points.len()];
         for (number, (triangle, shift)) in triangles.iter_mut().zip(&mut shifts).enumerate() {
             for &point in triangle.iter() {
-                let seen = used.get_mut(point).ok_or(SolidError::NoSuchPoint {
-                    triangle: number,
-                    point,
-                    points: points.len(),
-                })?;
+                let seen = used.get_mut(point).ok_or_else(|| SolidError::no_such_point(number, point, points.len()))?;
                 *seen = true;
             }
             if let Some(period) = period {
@@ -100,7 +96,7 @@ impl TriangleMesh {
             let longest = first.length_squared().max(second.length_squared()).max((second - first).length_squared());
             // The negation also catches an area that overflowed.
             if !(area.abs() > 1e-12 * longest && area.is_finite()) {
-                return Err(SolidError::FlatTriangle { triangle: number, place: corners[0], area: area.abs() });
+                return Err(SolidError::flat_triangle(number, corners[0], area.abs()));
             }
             if area < 0.0 {
                 triangle.swap(1, 2);
@@ -109,7 +105,7 @@ impl TriangleMesh {
             areas.push(area.abs());
         }
         if let Some(point) = used.iter().position(|used| !used) {
-            return Err(SolidError::LoosePoint { point, place: points[point] });
+            return Err(SolidError::loose_point(point, points[point]));
         }
         let (edges, twins) = connect(&triangles, &shifts)?;
         let loops = loops(&triangles, &shifts, &twins);
@@ -280,11 +276,7 @@ fn nearest_images(triangle: usize, x: [f64; 3], period: f64) -> Result<[i8; 2], 
     let [first, second] = [0, 1].map(|k| steps[k] + periods[k] * period);
     let width = first.abs().max(second.abs()).max((second - first).abs());
     if wide(width) || periods.iter().any(|n| n.abs() > 1.0) {
-        return Err(SolidError::TriangleTooWide {
-            triangle,
-            width: width.max(steps[0].abs()).max(steps[1].abs()),
-            period,
-        });
+        return Err(SolidError::triangle_too_wide(triangle, width.max(steps[0].abs()).max(steps[1].abs()), period));
     }
     Ok(periods.map(|n| n as i8))
 }

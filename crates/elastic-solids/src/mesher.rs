@@ -165,7 +165,7 @@ fn complete(mesh: TriangleMesh, boundary: &Boundary<'_>) -> Result<TriangleMesh,
     if found == boundary.count() {
         Ok(mesh)
     } else {
-        Err(SolidError::MeshingFailed { what: "the boundary is not that of the outlines" })
+        Err(SolidError::meshing_failed("the boundary is not that of the outlines"))
     }
 }
 

@@ -159,7 +159,7 @@ impl Outline {
         let (first, last) = (outline.pieces[0].start(), outline.pieces[outline.pieces.len() - 1].end());
         let gap = last - first - Vec2::new(period.unwrap_or(0.0), 0.0);
         if gap.length() > 1e-9 * outline.length() {
-            return Err(SolidError::OpenOutline { place: last, gap: gap.length() });
+            return Err(SolidError::open_outline(last, gap.length()));
         }
         Ok(outline)
     }
@@ -198,10 +198,10 @@ impl Outline {
         finite("the angle", angle)?;
         all_points_finite("the centre", &[centre])?;
         if self.period.is_some() {
-            return Err(SolidError::Unsupported {
-                what: "turning a periodic outline",
-                remedy: "turn closed outlines only, a channel runs along x",
-            });
+            return Err(SolidError::unsupported(
+                "turning a periodic outline",
+                "Turn closed outlines only, because a channel runs along x",
+            ));
         }
         let rotation = Vec2::from_angle(angle);
         self.mapped(move |point| centre + rotation.rotate(point - centre), None)

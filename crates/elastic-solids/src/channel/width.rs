@@ -25,7 +25,7 @@ pub struct Width {
 pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> {
     let (first, second) = (lower.mesh().period().unwrap_or(0.0), upper.mesh().period().unwrap_or(0.0));
     let (Some(below), Some(above), true) = (lower.surface(-1), upper.surface(1), first == second) else {
-        return Err(SolidError::DifferentPeriods { first, second });
+        return Err(SolidError::different_periods(first, second));
     };
     vertical_width(&below, &above, first)
 }

@@ -130,7 +130,7 @@ fn relax_inner(mesh: &TriangleMesh, law: &dyn ElasticForces, positions: &mut [Ve
             *direction = force + *direction * keep;
         }
     }
-    Err(SolidError::NotRelaxed { residual: (squared / scale).sqrt() })
+    Err(SolidError::NoConvergence { residual: (squared / scale).sqrt() })
 }
 
 fn mesh_step(mesh: &TriangleMesh) -> f64 {

@@ -57,14 +57,14 @@ impl GmshMesh {
     /// no triangle uses are left out.
     ///
     /// # Errors
-    /// [`SolidError::Gmsh`] with the line for text that is not in the format, other versions, binary files, elements
+    /// [`SolidError::Refused`] with the line for text that is not in the format, other versions, binary files, elements
     /// that are not triangles of three points; points that coincide, to 1e-3 of the shortest edge
-    /// ([`SolidError::CoincidentPoints`]); those of [`TriangleMesh::new`].
+    /// ([`SolidError::Refused`]); those of [`TriangleMesh::new`].
     pub fn from_text(text: &str) -> Result<Self, SolidError> {
         let Contents { points, triangles, groups } = parse(text)?;
         let first = first_of_same(&points, &triangles, None);
         if let Some((second, &first)) = first.iter().enumerate().find(|(number, first)| *number != **first) {
-            return Err(SolidError::CoincidentPoints { first, second, place: points[second] });
+            return Err(SolidError::coincident_points(first, second, points[second]));
         }
         Ok(Self { mesh: TriangleMesh::new(points, triangles)?, groups })
     }
@@ -102,7 +102,7 @@ impl GmshMesh {
     fn check_groups(&self) -> Result<(), SolidError> {
         for (number, group) in self.groups.iter().enumerate() {
             let tag = group.tag;
-            let bad = |what: &'static str| Err(SolidError::BadGroup { tag, what });
+            let bad = |what: &'static str| Err(SolidError::bad_group(tag, what));
             if tag <= 0 {
                 return bad("its number is not positive");
             }

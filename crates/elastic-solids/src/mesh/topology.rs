@@ -27,7 +27,7 @@ pub(crate) fn connect(
     for group in sorted.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let (first, second, half) = group[0];
         if first == second {
-            return Err(SolidError::FoldedMesh { first, second, triangle: half / 3 });
+            return Err(SolidError::folded_mesh(first, second, half / 3));
         }
         let right = match group {
             [_] => None,
@@ -36,7 +36,7 @@ pub(crate) fn connect(
                 twins[other] = Some(half);
                 Some(other / 3)
             }
-            _ => return Err(SolidError::FoldedMesh { first, second, triangle: group[group.len() - 1].2 / 3 }),
+            _ => return Err(SolidError::folded_mesh(first, second, group[group.len() - 1].2 / 3)),
         };
         let (from, to) = ends(triangles, half);
         edges.push(Edge { points: [from, to], periods: periods(shifts, half), triangles: (half / 3, right) });

@@ -101,9 +101,9 @@ impl<'a> Boundary<'a> {
             if width < spacing {
                 let place = points[0];
                 return Err(if self.segments.crossings_above(self.home(place), Some(number)) % 2 == 1 {
-                    SolidError::HoleTooSmall { place, width, spacing }
+                    SolidError::hole_too_small(place, width, spacing)
                 } else {
-                    SolidError::WallTooThin { place, thickness: width, spacing }
+                    SolidError::wall_too_thin(place, width, spacing)
                 });
             }
         }
@@ -127,7 +127,7 @@ impl<'a> Boundary<'a> {
                 });
                 if let Some(foot) = across {
                     let thickness = (foot - point).length();
-                    return Err(SolidError::WallTooThin { place: point, thickness, spacing });
+                    return Err(SolidError::wall_too_thin(point, thickness, spacing));
                 }
             }
         }

@@ -73,14 +73,14 @@ impl Segments {
     /// The segments of outlines that must not cross.
     ///
     /// # Errors
-    /// [`SolidError::Crossing`].
+    /// [`SolidError::Refused`].
     pub(crate) fn uncrossed(
         outlines: &[Vec<Vec2>],
         period: Option<(f64, f64)>,
         margin: f64,
     ) -> Result<Self, SolidError> {
         let segments = Self::new(outlines, period, margin);
-        segments.first_crossing().map_or(Ok(()), |place| Err(SolidError::Crossing { place }))?;
+        segments.first_crossing().map_or(Ok(()), |place| Err(SolidError::crossing(place)))?;
         Ok(segments)
     }
 

@@ -25,7 +25,7 @@ pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[u
     let count = vertices.len();
     let triangulation = build(vertices, edges)?;
     if triangulation.num_vertices() != count {
-        return Err(SolidError::MeshingFailed { what: "two points coincide" });
+        return Err(SolidError::meshing_failed("two points coincide"));
     }
     let mut triangles = Vec::with_capacity(2 * set.points.len());
     for face in triangulation.inner_faces() {
@@ -108,9 +108,9 @@ pub(super) fn build(
     let triangulation = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(vertices, edges, |edge| {
         conflict.get_or_insert(edge);
     })
-    .map_err(|_| SolidError::MeshingFailed { what: "a coordinate is too small or too large beside the spacing" })?;
+    .map_err(|_| SolidError::meshing_failed("a coordinate is too small or too large for the spacing"))?;
     match conflict {
         None => Ok(triangulation),
-        Some(_) => Err(SolidError::MeshingFailed { what: "boundary edges cross" }),
+        Some(_) => Err(SolidError::meshing_failed("boundary edges cross")),
     }
 }

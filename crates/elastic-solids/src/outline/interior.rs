@@ -27,11 +27,11 @@ impl Interior {
         let mut periods = outlines.iter().filter_map(Outline::period);
         let period = periods.next();
         if let (Some(first), Some(second)) = (period, periods.find(|other| Some(*other) != period)) {
-            return Err(SolidError::DifferentPeriods { first, second });
+            return Err(SolidError::different_periods(first, second));
         }
         let periodic = outlines.iter().filter(|outline| outline.period().is_some()).count();
         if periodic % 2 == 1 {
-            return Err(SolidError::OpenRegion { lines: periodic });
+            return Err(SolidError::open_region(periodic));
         }
         Ok(Self { outlines, period })
     }

@@ -47,7 +47,7 @@ impl Piece {
         let ends: Vec<f64> = std::iter::once(range[0]).chain(cuts.iter().copied()).chain([range[1]]).collect();
         if let Some(k) = (1..ends.len()).find(|&k| ends[k].is_nan() || ends[k] <= ends[k - 1]) {
             let value = if k == ends.len() - 1 { ends[k - 1] } else { ends[k] };
-            return Err(SolidError::CornersOutOfOrder { value, start: range[0], end: range[1] });
+            return Err(SolidError::corners_out_of_order(value, range));
         }
         ends.windows(2).map(|ends| Self::curve(curve.clone(), [ends[0], ends[1]])).collect()
     }
@@ -65,7 +65,7 @@ impl Piece {
             })
             .collect();
         if total == 0.0 {
-            return Err(SolidError::NoLength { place: points[0] });
+            return Err(SolidError::no_length(points[0]));
         }
         length("the length of a side or curve of an outline", total)?;
         Ok(Self { curve, range, straight, lengths })

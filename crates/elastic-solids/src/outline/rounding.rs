@@ -37,7 +37,7 @@ pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, Solid
         let side = piece.length();
         if first + last > side * (1.0 + 1e-12) {
             let maximum = radius * side / (first + last);
-            return Err(SolidError::RoundingTooLarge { radius, place: piece.start(), side, maximum });
+            return Err(SolidError::rounding_too_large(radius, piece.start(), side, maximum));
         }
         if let Some(corner) = &corners[k] {
             result.push(corner.arc.clone());

@@ -57,19 +57,19 @@ impl<'a> Lines<'a> {
     }
 
     fn error(&self, what: String) -> SolidError {
-        SolidError::Gmsh { line: self.number, what }
+        SolidError::gmsh(self.number, what)
     }
 }
 
 impl Words<'_> {
     fn next<T: FromStr>(&mut self, what: &'static str) -> Result<T, SolidError> {
         let line = self.line;
-        let word = self.words.next().ok_or_else(|| SolidError::Gmsh { line, what: format!("{what} is missing") })?;
-        word.parse().map_err(|_| SolidError::Gmsh { line, what: format!("{what} cannot be {}", shortened(word)) })
+        let word = self.words.next().ok_or_else(|| SolidError::gmsh(line, format!("{what} is missing")))?;
+        word.parse().map_err(|_| SolidError::gmsh(line, format!("{what} cannot be {}", shortened(word))))
     }
 
     fn error<T>(&self, what: String) -> Result<T, SolidError> {
-        Err(SolidError::Gmsh { line: self.line, what })
+        Err(SolidError::gmsh(self.line, what))
     }
 }
 
@@ -126,11 +126,11 @@ fn check_format(lines: &mut Lines<'_>) -> Result<(), SolidError> {
     let mut words = lines.words("MeshFormat")?;
     let version: String = words.next("the version")?;
     if version != "4.1" {
-        return words.error(format!("version {}: save the mesh as version 4.1", shortened(&version)));
+        return words.error(format!("its version is {}", shortened(&version)));
     }
     let binary: u8 = words.next("the file type")?;
     if binary != 0 {
-        return words.error("a binary file: save the mesh as ASCII".to_owned());
+        return words.error("the file is binary".to_owned());
     }
     lines.end("MeshFormat")
 }
@@ -221,8 +221,7 @@ impl File {
                 }
                 let height = *self.height.get_or_insert(z);
                 if (z - height).abs() > 1e-9 * (1.0 + height.abs()) {
-                    return words
-                        .error(format!("node {tag} has z = {z} where others have {height}: the mesh must be plane"));
+                    return words.error(format!("node {tag} has z = {z} where others have {height}"));
                 }
                 self.positions.push(Vec2::new(x, y));
                 if self.nodes.insert(tag, place).is_some() {
@@ -242,7 +241,8 @@ impl File {
             let kind: u32 = words.next("the type of elements")?;
             let count: usize = words.next("the number of elements")?;
             if dimension >= 2 && kind != TRIANGLE {
-                return words.error(format!("elements of type {kind}: use triangles of three points, type {TRIANGLE}"));
+                return words
+                    .error(format!("elements of type {kind} are not triangles of three points, type {TRIANGLE}"));
             }
             for _ in 0..count {
                 let mut words = lines.words("Elements")?;
@@ -266,9 +266,8 @@ impl File {
         for &(number, surface, tags, line) in &self.triangles {
             let mut triangle = [0; 3];
             for (point, tag) in triangle.iter_mut().zip(tags) {
-                *point = *self.nodes.get(&tag).ok_or_else(|| SolidError::Gmsh {
-                    line,
-                    what: format!("triangle {number} names node {tag}, which does not exist"),
+                *point = *self.nodes.get(&tag).ok_or_else(|| {
+                    SolidError::gmsh(line, format!("triangle {number} names node {tag}, which does not exist"))
                 })?;
                 used[*point] = true;
             }
