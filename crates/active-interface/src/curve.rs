@@ -157,7 +157,7 @@ impl Curve {
             let angle = TAU * i as f64 / SAMPLES as f64;
             let factor = fourier_factor(cosines, sines, angle);
             if factor <= 0.0 {
-                return Err(InterfaceError::RadiusNotPositive { angle, radius: radius * factor });
+                return Err(InterfaceError::radius_not_positive(radius * factor, angle));
             }
         }
         Self::build(Shape::Fourier { radius, cosines: cosines.to_vec(), sines: sines.to_vec() })
@@ -174,7 +174,7 @@ impl Curve {
         let gap = (end - start).length();
         let extent = (0..64).map(|i| (point(TAU * f64::from(i) / 64.0) - start).length()).fold(0.0, f64::max);
         if gap > 1e-9 * extent {
-            return Err(InterfaceError::NotClosed { gap });
+            return Err(InterfaceError::not_closed(gap));
         }
         Self::build(Shape::Parametric(Function::new(point)))
     }
@@ -233,7 +233,7 @@ impl Curve {
         };
         let area = shape.area().unwrap_or_else(|| extrapolate(|stride| raw_area(&every(&samples, stride))));
         if area.abs() < 1e-6 * perimeter * perimeter {
-            return Err(InterfaceError::NoArea { area, length: perimeter });
+            return Err(InterfaceError::no_area(area, perimeter));
         }
         let simple_by_form = matches!(shape, Shape::Ellipse(..) | Shape::Fourier { .. });
         if !simple_by_form && let Some((first, second)) = first_crossing(&every(&samples, 4))? {
@@ -298,7 +298,7 @@ impl Curve {
         };
         let moments = polygon_moments(&markers)?;
         if moments.area <= 0.0 {
-            return Err(InterfaceError::NoArea { area: moments.area, length: raw_perimeter(&markers) });
+            return Err(InterfaceError::no_area(moments.area, raw_perimeter(&markers)));
         }
         let factor = (self.area / moments.area).sqrt();
         for marker in &mut markers {
@@ -331,13 +331,13 @@ pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError>
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
     if area.abs() < 1e-9 * length * length {
-        return Err(InterfaceError::NoArea { area, length });
+        return Err(InterfaceError::no_area(area, length));
     }
     let range = [f64::INFINITY, 0.0];
     let [shortest, longest] =
         edges(points).map(|(a, b)| (b - a).length()).fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
     if longest > MAXIMUM_UNEVENNESS * shortest {
-        return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
+        return Err(InterfaceError::uneven_spacing(longest / shortest, MAXIMUM_UNEVENNESS));
     }
     let mut markers = points.to_vec();
     if area < 0.0 {
@@ -350,7 +350,7 @@ fn check_list(points: &[Vec2], minimum: usize) -> Result<(), InterfaceError> {
     at_least("points of the curve", points.len(), minimum)?;
     all_points_finite("the points of the curve", points)?;
     if let Some(index) = edges(points).position(|(a, b)| a == b) {
-        return Err(InterfaceError::CoincidentPoints { index });
+        return Err(InterfaceError::coincident_points(index));
     }
     match first_crossing(points)? {
         Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),

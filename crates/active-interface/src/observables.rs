@@ -180,7 +180,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         all_finite("the particle numbers", numbers)?;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
         if let Some(index) = lengths.iter().position(|length| *length == 0.0) {
-            return Err(InterfaceError::CoincidentPoints { index });
+            return Err(InterfaceError::coincident_points(index));
         }
         record.concentration_modes = raw_concentration_modes(&polar, numbers, &lengths, MODES);
         record.particle_number = numbers.iter().sum();

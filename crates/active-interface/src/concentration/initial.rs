@@ -113,7 +113,7 @@ impl InitialConcentration {
     /// finite or do not close across the period; a concentration that is not finite or negative somewhere.
     pub fn particle_numbers_over(&self, markers: &[Vec2], advance: f64) -> Result<Vec<f64>, InterfaceError> {
         if let Kind::Polarised { .. } | Kind::PolarAngle(_) = self.0 {
-            return Err(InterfaceError::NoPolarAngle);
+            return Err(InterfaceError::no_polar_angle());
         }
         check_period(markers, advance)?;
         let next = markers.iter().skip(1).copied().chain([markers[0] + Vec2::new(advance, 0.0)]);

@@ -46,7 +46,7 @@ pub(crate) fn repair_positivity(
     all_finite("the particle numbers", numbers)?;
     let total: f64 = numbers.iter().sum();
     if total < 0.0 {
-        return Err(InterfaceError::NoParticles { total });
+        return Err(InterfaceError::no_particles(total));
     }
     for (missing, number) in missing.iter_mut().zip(numbers.iter_mut()) {
         *missing = (-*number).max(0.0);

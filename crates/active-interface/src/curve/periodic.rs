@@ -78,14 +78,14 @@ pub(crate) fn check_period(markers: &[Vec2], advance: f64) -> Result<(), Interfa
     let chords = markers.windows(2).map(|pair| (pair[1] - pair[0]).length());
     let [shortest, longest] = chords.fold(range, |[least, most], chord| [chord.min(least), chord.max(most)]);
     if let Some(index) = markers.windows(2).position(|pair| pair[0] == pair[1]) {
-        return Err(InterfaceError::CoincidentPoints { index });
+        return Err(InterfaceError::coincident_points(index));
     }
     if closing > MAXIMUM_UNEVENNESS * longest || closing < shortest / MAXIMUM_UNEVENNESS {
-        return Err(InterfaceError::NotPeriodic { gap: closing, advance, spacing: longest });
+        return Err(InterfaceError::not_periodic(closing, advance, longest));
     }
     let [shortest, longest] = [closing.min(shortest), closing.max(longest)];
     if longest > MAXIMUM_UNEVENNESS * shortest {
-        return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
+        return Err(InterfaceError::uneven_spacing(longest / shortest, MAXIMUM_UNEVENNESS));
     }
     match CrossingFinder::default().first_crossing_over(markers, advance)? {
         Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),

@@ -77,7 +77,7 @@ pub fn polygon_moments(points: &[Vec2]) -> Result<AreaMoments, InterfaceError> {
     check(points)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
     if !(area.abs() > 1e-14 * length * length && area.is_finite()) {
-        return Err(InterfaceError::NoArea { area, length });
+        return Err(InterfaceError::no_area(area, length));
     }
     Ok(raw_moments(points))
 }

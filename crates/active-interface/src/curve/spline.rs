@@ -25,7 +25,7 @@ impl PeriodicSpline {
         points.extend(given.first().map(|first| first + advance));
         let chords: Vec<f64> = points.windows(2).map(|pair| (pair[1] - pair[0]).length()).collect();
         if let Some(index) = chords.iter().position(|&chord| chord == 0.0) {
-            return Err(InterfaceError::CoincidentPoints { index });
+            return Err(InterfaceError::coincident_points(index));
         }
         let before = |k: usize| (k + m - 1) % m;
         let lower: Vec<f64> = (0..m).map(|k| chords[before(k)] / 6.0).collect();

@@ -50,7 +50,7 @@ impl Body for ActiveInterface {
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         let uneven = self.law.motion == Motion::WithFluid || self.state.shape.axisymmetric;
         if self.law.bending.is_some() && uneven {
-            return Err(InterfaceError::UnevenBending.into());
+            return Err(InterfaceError::uneven_bending().into());
         }
         Ok(self.all_forces(view, forces)?)
     }
@@ -313,9 +313,9 @@ impl ActiveInterface {
                     if stretch < least.0 { (stretch, *place) } else { least }
                 },
             );
-        let (stretch, Vec2 { x, y }) = least;
+        let (stretch, place) = least;
         if stretch < LEAST_STRETCH {
-            return Err(InterfaceError::Crushed { stretch, least: LEAST_STRETCH, x, y }.into());
+            return Err(InterfaceError::crushed(stretch, LEAST_STRETCH, place).into());
         }
         Ok(())
     }

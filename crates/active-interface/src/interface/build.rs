@@ -178,7 +178,7 @@ impl ActiveInterface {
     /// A closed interface, moduli that are negative or not finite.
     pub fn with_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, InterfaceError> {
         if self.advance() == 0.0 {
-            return Err(InterfaceError::ClosedMembrane);
+            return Err(InterfaceError::closed_membrane());
         }
         self.law.motion = Motion::WithFluid;
         let advance = Vec2::new(self.advance(), 0.0);
@@ -222,17 +222,17 @@ impl ActiveInterface {
             markers[*k].distance(Vec2::new(image.x, -image.y)) > 1e-9 * self.geometry().perimeter
         };
         let wrong = (0..count).find(|k| differs(k) || (!count.is_multiple_of(2) && 2 * k + 1 == count));
-        if let Some(Vec2 { x, y }) = wrong.map(|k| markers[k]) {
-            return Err(InterfaceError::NotAxisymmetric { x, y });
+        if let Some(marker) = wrong.map(|k| markers[k]) {
+            return Err(InterfaceError::not_axisymmetric(marker));
         }
         if self.law.motion == Motion::WithFluid {
-            return Err(InterfaceError::NotAxisymmetric { x: f64::NAN, y: f64::NAN });
+            return Err(InterfaceError::moving_meridian());
         }
         let numbers = &self.state.numbers;
         let most = numbers.iter().copied().fold(0.0, f64::max);
         for (segment, (&number, &image)) in numbers.iter().zip(numbers.iter().rev()).enumerate() {
             if (number - image).abs() > 1e-9 * most {
-                return Err(InterfaceError::ParticlesNotAxisymmetric { segment, number, image });
+                return Err(InterfaceError::particles_not_axisymmetric(segment, number, image));
             }
         }
         // The meridian runs from the largest x, also of a droplet that swims backwards.

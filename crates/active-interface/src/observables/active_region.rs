@@ -113,7 +113,7 @@ pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, 
     }
     let perimeter = arcs[m];
     if !(region.length > 0.0 && region.length <= perimeter && region.start.is_finite()) {
-        return Err(InterfaceError::NoFit { what: "a circle", points: 0 });
+        return Err(InterfaceError::no_fit("a circle", 0));
     }
     let (start, end) = (region.start, region.start + region.length);
     let mut points = vec![interpolate(markers, &arcs, start)];

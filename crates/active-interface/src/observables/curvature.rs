@@ -18,10 +18,10 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
     at_least("points of an arc", points.len(), 3)?;
     all_points_finite("the points of the arc", points)?;
     let n = points.len();
-    let no_fit = InterfaceError::NoFit { what: "a circle", points: n };
+    let no_fit = || InterfaceError::no_fit("a circle", n);
     let extent = points.iter().map(|p| (p - points[0]).length()).fold(0.0, f64::max);
     if extent == 0.0 {
-        return Err(no_fit);
+        return Err(no_fit());
     }
     // Units of the extent, origin in the middle of the arc.
     let origin = points[n / 2];
@@ -32,7 +32,7 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         local.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>() - 0.5 * (first.length() + last.length());
     let tangent = local[(n / 2 + 1).min(n - 1)] - local[n / 2 - 1];
     if arc <= 0.0 || tangent == Vec2::ZERO {
-        return Err(no_fit);
+        return Err(no_fit());
     }
 
     let mut a = 0.5 * turning / arc;
@@ -73,7 +73,7 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         }
         cost = sum;
         previous = (a, angle, d);
-        let Some(step) = equations.step(damping) else { return Err(no_fit) };
+        let Some(step) = equations.step(damping) else { return Err(no_fit()) };
         (a, angle, d) = (a - step[0], angle - step[1], d - step[2]);
         damping *= 0.1;
         if step.iter().all(|change| change.abs() < 1e-13) {
@@ -84,7 +84,7 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         what: "the fit of a circle",
         residual: cost,
         tolerance: 1e-13,
-        remedy: "give points that lie closer to an arc",
+        remedy: "use points that lie closer to an arc",
     })
 }
 

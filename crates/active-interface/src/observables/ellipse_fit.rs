@@ -50,7 +50,7 @@ pub(super) fn raw_ellipse(
     moments: &AreaMoments,
     frame: &Frame,
 ) -> Result<EllipseFit, InterfaceError> {
-    let no_fit = InterfaceError::NoFit { what: "an ellipse", points: markers.len() };
+    let no_fit = || InterfaceError::no_fit("an ellipse", markers.len());
     let ratio = aspect_ratio_of(moments, frame)?;
     let radius = (moments.area.abs() / std::f64::consts::PI).sqrt();
     let centroid = frame.coordinates(moments.centroid);
@@ -69,12 +69,12 @@ pub(super) fn raw_ellipse(
             let (x, y) = (r.x * p, r.y * q);
             let rho = (x * x + y * y).sqrt();
             if rho == 0.0 {
-                return Err(no_fit);
+                return Err(no_fit());
             }
             let (x, y) = (x / rho, y / rho);
             equations.add([x * r.x, y * r.y, -x * p, -y * q], weight, rho - 1.0);
         }
-        let Some(step) = equations.step(0.0) else { return Err(no_fit) };
+        let Some(step) = equations.step(0.0) else { return Err(no_fit()) };
         // A step may change a half axis by 30 per cent at most.
         let (change, bound) = (step[0].abs().max(step[1].abs()), 0.3 * p.min(q));
         let scale = if change > bound { bound / change } else { 1.0 };
@@ -100,7 +100,7 @@ pub(super) fn raw_ellipse(
         what: "the fit of an ellipse",
         residual: last,
         tolerance: 1e-13,
-        remedy: "the shape is too far from an ellipse",
+        remedy: "use a shape that is closer to an ellipse",
     })
 }
 

@@ -78,7 +78,7 @@ pub(super) fn check_concentration(markers: &[Vec2], numbers: &[f64]) -> Result<(
     polygon_moments(markers)?;
     all_finite("the particle numbers", numbers)?;
     if let Some(index) = edges(markers).position(|(a, b)| a == b) {
-        return Err(InterfaceError::CoincidentPoints { index });
+        return Err(InterfaceError::coincident_points(index));
     }
     Ok(())
 }

@@ -108,7 +108,7 @@ pub(crate) fn aspect_ratio_of(moments: &AreaMoments, frame: &Frame) -> Result<f6
     let along = c * c * moments.xx + 2.0 * s * c * moments.xy + s * s * moments.yy;
     let across = s * s * moments.xx - 2.0 * s * c * moments.xy + c * c * moments.yy;
     let square = along / across;
-    if square > 0.0 && square.is_finite() { Ok(square.sqrt()) } else { Err(InterfaceError::Crossed) }
+    if square > 0.0 && square.is_finite() { Ok(square.sqrt()) } else { Err(InterfaceError::crossed()) }
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ pub(super) fn observe_in_space(
     let velocity = flux.sum::<f64>() / volume;
     let ratio = along / across;
     if !(ratio > 0.0 && ratio.is_finite()) {
-        return Err(InterfaceError::Crossed);
+        return Err(InterfaceError::crossed());
     }
     (record.centroid, record.velocity) = (pole + Vec2::new(centre, 0.0), Vec2::new(velocity, 0.0));
     (record.area, record.perimeter) = (volume, surface.total_weight());

@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::refused;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
@@ -19,7 +20,7 @@ fn a_rectangle() {
 #[test]
 fn bad_points_are_refused() {
     let line = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]].map(|[x, y]| Vec2::new(x, y));
-    assert!(matches!(polygon_moments(&line), Err(InterfaceError::NoArea { .. })));
+    assert!(refused(&polygon_moments(&line).unwrap_err(), "the curve encloses no area: it is "));
     assert!(polygon_area(&line[..2]).is_err());
     assert!(polygon_perimeter(&[line[0], Vec2::new(f64::NAN, 0.0), line[2]]).is_err());
 }
