@@ -1,6 +1,6 @@
 //! Errors of fields inside droplets.
 
-use motile_base::InputError;
+use motile_base::{InputError, refusal};
 use motile_scene::BodyError;
 
 /// Error of a field inside a droplet, with the offending values and the remedy.
@@ -10,27 +10,10 @@ pub enum InteriorError {
     /// Number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// Droplet whose number of markers changes.
-    #[error(
-        "a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones \
-         (`Equidistributed`)"
-    )]
-    ChangingMarkers,
-    /// Droplet without particles on its interface that could be exchanged.
-    #[error("a droplet that exchanges particles with its inside has none on its interface: give it a list of numbers")]
-    NoParticles,
-    /// Mesh of too many nodes.
-    #[error("the mesh would have some {nodes:.1e} nodes, more than {most}: give a wider spacing")]
-    TooFine {
-        /// Number of nodes that the mesh would have.
-        nodes: f64,
-        /// Largest number of nodes.
-        most: usize,
-    },
     /// Mesh with a triangle of negative area.
     #[error(
-        "the mesh inside is folded at ({x:.4}, {y:.4}): the droplet is bent too far for a mesh that started as a disc; \
-         give it more tension or less activity"
+        "the mesh inside is folded at ({x:.4}, {y:.4}): the droplet is bent too far for a mesh that started as a disc. \
+         Use a larger tension or a weaker activity"
     )]
     Folded {
         /// x coordinate of a triangle of negative area (length).
@@ -38,9 +21,43 @@ pub enum InteriorError {
         /// y coordinate (length).
         y: f64,
     },
+    /// Droplet or mesh that cannot be used.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
+    },
 }
 
 motile_base::debug_as_explanation!(InteriorError);
+
+impl InteriorError {
+    /// Droplet whose number of markers changes.
+    pub(crate) fn changing_markers() -> Self {
+        let what = "a droplet with a gel or particles inside needs a fixed number of markers";
+        Self::refused(what, "", "Use equally spaced markers (`Equidistributed`)")
+    }
+
+    /// Droplet without particles on its interface that could be exchanged.
+    pub(crate) fn no_particles() -> Self {
+        let what = "a droplet that exchanges particles with its inside needs particles on its interface";
+        Self::refused(what, "this droplet has none", "Build it with a list of particle numbers")
+    }
+
+    /// Mesh of too many nodes.
+    pub(crate) fn too_fine(nodes: f64, most: usize) -> Self {
+        let value = format!("it would have some {nodes:.1e} nodes, more than {most}");
+        Self::refused("the mesh inside is too fine", value, "Use a larger spacing")
+    }
+
+    fn refused(what: &str, value: impl Into<String>, remedy: &str) -> Self {
+        Self::Refused { what: what.to_owned(), value: value.into(), remedy: remedy.to_owned() }
+    }
+}
 
 impl From<InteriorError> for BodyError {
     fn from(error: InteriorError) -> Self {

@@ -46,7 +46,7 @@ impl Factor {
             start += row + 1 - first;
         }
         if start > MOST_ENTRIES {
-            return Err(InteriorError::TooFine { nodes: nodes.len() as f64, most: nodes.len() / 2 });
+            return Err(InteriorError::too_fine(nodes.len() as f64, nodes.len() / 2));
         }
         Ok(Self { edges: edges.to_vec(), held, places, rows, entries: vec![0.0; start], values: vec![0.0; count] })
     }

@@ -88,7 +88,7 @@ impl Filling {
         growth: f64,
     ) -> Result<Self, InteriorError> {
         if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
-            return Err(InteriorError::ChangingMarkers);
+            return Err(InteriorError::changing_markers());
         }
         let radius = droplet.element_lengths().iter().sum::<f64>() / TAU;
         let mesh = DiscMesh::graded(droplet.markers().len(), spacing / radius, growth)?;
@@ -143,7 +143,7 @@ impl Filling {
 
     /// Refuses a host with another number of markers.
     pub(crate) fn check(&self) -> Result<(), BodyError> {
-        if self.fits { Ok(()) } else { Err(InteriorError::ChangingMarkers.into()) }
+        if self.fits { Ok(()) } else { Err(InteriorError::changing_markers().into()) }
     }
 
     /// Number of inner nodes.

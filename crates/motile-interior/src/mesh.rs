@@ -73,7 +73,7 @@ impl DiscMesh {
         within("the spacing of the mesh inside over the radius", spacing, 0.0, Self::COARSEST)?;
         let estimate = markers as f64 + PI / (HEIGHT * spacing * spacing) + 4.0 * markers as f64;
         if estimate > MOST_NODES as f64 {
-            return Err(InteriorError::TooFine { nodes: estimate, most: MOST_NODES });
+            return Err(InteriorError::too_fine(estimate, MOST_NODES));
         }
         let sizes = sizes(first, spacing, growth);
         let (mut triangles, mut rings) = (Vec::new(), Vec::new());

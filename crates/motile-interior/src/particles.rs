@@ -105,7 +105,7 @@ impl ParticlesInDroplet {
         positive("the diffusion constant inside", diffusion)?;
         let filling = Filling::new(droplet, host, spacing, GROWTH)?;
         if droplet.particle_numbers().is_empty() {
-            return Err(InteriorError::NoParticles);
+            return Err(InteriorError::no_particles());
         }
         let nodes = &filling.nodes;
         let cells = Cells::new(filling.mesh.triangles().to_vec(), nodes);

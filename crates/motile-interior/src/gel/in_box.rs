@@ -37,7 +37,7 @@ impl GelInBox {
         let [columns, rows] = counts;
         let nodes = columns as f64 * rows as f64;
         if nodes > MOST_NODES {
-            return Err(InteriorError::TooFine { nodes, most: MOST_NODES as usize });
+            return Err(InteriorError::too_fine(nodes, MOST_NODES as usize));
         }
         let number = |column: usize, row: usize| column % columns + columns * (row % rows);
         let place = |column: usize, row: usize| {
