@@ -82,13 +82,13 @@ pub fn fit_linear_mode(
         same_length("the lateral velocities", times.len(), velocities.len())?;
         all_finite("the lateral velocities", velocities)?;
     }
-    let no_fit = AnalysisError::NoFit { what: "a linear mode", points: times.len() };
+    let no_fit = || AnalysisError::no_fit("a linear mode", times.len());
 
     // In units of the record's length and the largest height.
     let duration = times[times.len() - 1] - times[0];
     let size = heights.iter().fold(0.0_f64, |a, y| a.max(y.abs()));
     if size == 0.0 {
-        return Err(no_fit);
+        return Err(no_fit());
     }
     let times: Vec<f64> = times.iter().map(|t| (t - times[0]) / duration).collect();
     let heights: Vec<f64> = heights.iter().map(|y| y / size).collect();
@@ -96,14 +96,14 @@ pub fn fit_linear_mode(
         velocities.map(|velocities| velocities.iter().map(|v| v * duration / size).collect());
     let velocities = velocities.as_deref();
 
-    let data = Data::new(times.clone(), &heights, velocities).ok_or(no_fit.clone())?;
+    let data = Data::new(times.clone(), &heights, velocities).ok_or_else(no_fit)?;
     let fit = |model: Model| data.fit(model, weak_form(model, &times, &heights, velocities)?);
     let (one, two) = (fit(Model::Exponential), fit(Model::Oscillator));
     let fit = match (one, two) {
         (Some(one), Some(two)) if two.residual < BETTER * one.residual && one.residual > f64::EPSILON => two,
         (Some(one), _) => one,
         (None, Some(two)) => two,
-        (None, None) => return Err(no_fit),
+        (None, None) => return Err(no_fit()),
     };
     Ok(mode(&fit, duration))
 }

@@ -150,9 +150,7 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
         match self.records.last() {
             Some(last) if last.time > time => {
                 let index = self.records.len();
-                return Err(
-                    AnalysisError::NotIncreasing { name: "the times of the records", index, value: time }.into()
-                );
+                return Err(AnalysisError::not_increasing("the times of the records", index, time).into());
             }
             Some(last) if last.time == time => {
                 self.records.pop();
