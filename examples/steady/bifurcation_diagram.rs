@@ -120,7 +120,7 @@ fn draw(flags: &Flags) -> Result<()> {
         if let Some(point) = rest.special.into_iter().find(wanted) {
             diagram.branch += 1;
             match settings.switch(&point, true, |point, special| diagram.update_host(point, special)) {
-                Err(error @ SteadyError::Unsupported { .. }) => {
+                Err(error @ SteadyError::Refused { .. }) if !setup.rigid_bodies.is_empty() => {
                     diagram.tell(format!("branch 1 does not begin: {error}"));
                 }
                 branch => diagram.end(&branch?)?,

@@ -119,7 +119,7 @@ impl Surface {
 }
 
 fn singular() -> SteadyError {
-    SteadyError::Singular { what: "the waves of a disturbance", remedy: "use another number of nodes" }
+    SteadyError::singular("the waves of a disturbance", "Use another number of nodes")
 }
 
 impl System {
@@ -143,10 +143,10 @@ impl System {
     pub(crate) fn around(&mut self, point: &Point, order: usize) -> Result<DMatrix<f64>, SteadyError> {
         self.load(point)?;
         let Some(disturbances) = self.model.flow.disturbances(order)? else {
-            return Err(SteadyError::Unsupported {
-                what: "the droplet is in two dimensions".to_owned(),
-                remedy: "give the region space or tube",
-            });
+            return Err(SteadyError::unsupported(
+                "the droplet is in two dimensions",
+                "Use the region `space` or `tube`",
+            ));
         };
         let surface = Surface::new(self, point.frame[0])?;
         let (n, m, even) = (surface.nodes.len(), order as f64, order.is_multiple_of(2));

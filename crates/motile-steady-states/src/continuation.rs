@@ -82,10 +82,10 @@ impl Continuation {
         seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool,
     ) -> Result<Branch, SteadyError> {
         if point.kind != SpecialKind::BranchPoint {
-            return Err(SteadyError::Unsupported {
-                what: format!("a {} has no other branch of steady states", point.kind.name()),
-                remedy: "give a branch point",
-            });
+            return Err(SteadyError::unsupported(
+                format!("a {} has no other branch of steady states", point.kind.name()),
+                "Start from a branch point",
+            ));
         }
         let Critical { state, mode } = &point.critical;
         let enter = |amplitude: f64| self.enter(state, mode, if with_mode { amplitude } else { -amplitude });
@@ -95,10 +95,10 @@ impl Continuation {
         follower.settle_nodes()?;
         let profile = follower.system.profile(&follower.point);
         if !profile.nuclei.is_empty() && profile.is_at_rest() {
-            return Err(SteadyError::Unsupported {
-                what: "droplets at rest with a nucleus elsewhere cross there, no swimmers".to_owned(),
-                remedy: "find a swimmer (SteadyState::find, --swimmer) and follow it to the threshold",
-            });
+            return Err(SteadyError::unsupported(
+                "droplets at rest with a nucleus elsewhere cross there, no swimmers",
+                "Find a swimmer (SteadyState::find, --swimmer) and follow it to the threshold",
+            ));
         }
         follower.go(seen)
     }
@@ -144,10 +144,10 @@ impl Follower {
         let ([low, high], value) = (settings.range, settings.parameter.get(start.setup()).unwrap_or(f64::NAN));
         let slack = 1e-9 * (high - low);
         if !(high - low > 0.0 && high - low < f64::INFINITY && value >= low - slack && value <= high + slack) {
-            return Err(SteadyError::Unsupported {
-                what: format!("a branch from {} = {value} in the range {low} to {high}", settings.parameter.name()),
-                remedy: "give a range of finite, positive length that the start lies in",
-            });
+            return Err(SteadyError::unsupported(
+                format!("no branch starts at {} = {value} in the range {low} to {high}", settings.parameter.name()),
+                "Use a range of finite, positive length that contains the start",
+            ));
         }
         let (system, point) = (System::new(start.setup())?, start.point().clone());
         Ok(Self { settings, system, point, part, tangent: DVector::zeros(0), outcome: Outcome::default() })
@@ -393,7 +393,7 @@ impl Follower {
         let state = self.state()?;
         let size = |mode: &Eigenmode| mode.value.norm();
         let mode = state.spectrum()?.modes.into_iter().min_by(|a, b| size(a).total_cmp(&size(b)));
-        let mode = mode.ok_or(SteadyError::Singular { what: "a fold", remedy: "give more nodes" })?;
+        let mode = mode.ok_or_else(|| SteadyError::singular("a fold", "Use more nodes"))?;
         Ok(SpecialPoint::new(SpecialKind::Fold, Critical { state, mode }, self.settings.parameter))
     }
 }

@@ -65,12 +65,11 @@ impl SteadyState {
             }
             now += step.clamp(-LARGEST_STEP * unit, LARGEST_STEP * unit);
         }
-        Err(SteadyError::NotFound {
-            what: "a critical point",
-            from: start,
-            to: now,
-            remedy: "start closer to it, from a point of a branch on either side",
-        })
+        Err(SteadyError::not_found(
+            "a critical point",
+            [start, now],
+            "Start closer to it, from a point of a branch on either side",
+        ))
     }
 }
 

@@ -105,25 +105,22 @@ impl LimitCycle {
     ) -> Result<Self, SteadyError> {
         let Critical { state, mode } = hopf;
         if !state.profile().nuclei.is_empty() {
-            return Err(SteadyError::Unsupported {
-                what: "the droplet has a rigid disc inside".into(),
-                remedy: "leave it out, or follow the oscillation in a run",
-            });
+            return Err(SteadyError::unsupported(
+                "the droplet has a rigid disc inside",
+                "Leave it out, or follow the oscillation in a run",
+            ));
         }
         if !state.setup().flow.is_none() {
-            return Err(SteadyError::Unsupported {
-                what: "the oscillation is in an imposed flow".into(),
-                remedy: "follow it in a run",
-            });
+            return Err(SteadyError::unsupported("the oscillation is in an imposed flow", "Follow it in a run"));
         }
         if mode.symmetry != Symmetry::Antisymmetric || mode.value.im <= 0.0 || instants.is_multiple_of(2) {
-            return Err(SteadyError::Unsupported {
-                what: format!(
-                    "a limit cycle from a {:?} mode of frequency {} at {instants} instants",
+            return Err(SteadyError::unsupported(
+                format!(
+                    "no limit cycle is computed from a {:?} mode of frequency {} at {instants} instants",
                     mode.symmetry, mode.value.im
                 ),
-                remedy: "give a Hopf point whose mode is antisymmetric, and an odd number of instants",
-            });
+                "Start from a Hopf point whose mode is antisymmetric, and use an odd number of instants",
+            ));
         }
         let mut system = System::new(state.setup())?;
         let odd = system.modes.part(Part::Odd);
@@ -137,7 +134,7 @@ impl LimitCycle {
             let (h, m) = system.model.rigid_rates(&point.base, motion)?;
             rigid.set_column(k, &system.modes.analyse(h, m)?.rows(odd.start, odd.len()));
         }
-        let singular = || SteadyError::Singular { what: "rigid motions", remedy: "give more nodes" };
+        let singular = || SteadyError::singular("rigid motions", "Use more nodes");
         let normal = (rigid.transpose() * &rigid).try_inverse().ok_or_else(singular)? * rigid.transpose();
         let parts = complex(&normal) * &vector;
         let unit = amplitude / parts[0];
@@ -425,8 +422,8 @@ impl LimitCycle {
             let mut right = DMatrix::zeros(size + 5, 1);
             right.rows_mut(0, size).copy_from(&-&residual);
             (right[size + 2], right[size + 3]) = (lacks[0], lacks[1]);
-            let singular = SteadyError::Singular { what: "a limit cycle", remedy: "start from another amplitude" };
-            let correction = factorised.solve(right).ok_or(singular)?;
+            let singular = || SteadyError::singular("a limit cycle", "Start from another amplitude");
+            let correction = factorised.solve(right).ok_or_else(singular)?;
             let amount = correction.rows(0, size).amax();
             residual = damped(amount, |part| self.corrected(&correction, part, along))?;
             if amount < SMALLEST_CORRECTION {
@@ -441,7 +438,7 @@ impl LimitCycle {
         Err(SteadyError::NoConvergence {
             residual: residual.amax() / self.tau,
             iterations: MOST_ITERATIONS,
-            remedy: "take a smaller step, more nodes or more instants",
+            remedy: "Use a smaller step, more nodes or more instants",
         })
     }
 
@@ -520,7 +517,7 @@ impl LimitCycle {
             let too_far = SteadyError::NoConvergence {
                 residual: f64::NAN,
                 iterations: 0,
-                remedy: "take smaller steps, the limit cycle has changed too much",
+                remedy: "Use smaller steps, because the limit cycle has changed too much",
             };
             let (offsets, density) = profile.over(&base.positions, &base.normals)?.ok_or(too_far)?;
             self.states[j] = self.system.modes.analyse(&offsets, &density)?;

@@ -3,7 +3,7 @@
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::boundary_integrals::LayerError;
-use motile_base::InputError;
+use motile_base::{InputError, refusal};
 
 /// Error of a steady state, a branch or a limit cycle, with the offending value and the remedy.
 #[derive(thiserror::Error)]
@@ -21,16 +21,8 @@ pub enum SteadyError {
     /// Number or list that cannot be used.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// Scene whose steady states are not of the kind that is solved for here, or a request that makes no sense.
-    #[error("{what}: {remedy}")]
-    Unsupported {
-        /// Offending part of the scene or request.
-        what: String,
-        /// Remedy.
-        remedy: &'static str,
-    },
     /// Iteration that has not converged.
-    #[error("no convergence: the rate of change is {residual:.1e} (1/time) after {iterations} iterations; {remedy}")]
+    #[error("no convergence: the rate of change is {residual:.1e} (1/time) after {iterations} iterations. {remedy}")]
     NoConvergence {
         /// Largest rate of change of a Fourier coefficient over its unit (1/time).
         residual: f64,
@@ -39,38 +31,44 @@ pub enum SteadyError {
         /// Remedy.
         remedy: &'static str,
     },
-    /// Shape or concentration that the nodes do not resolve.
-    #[error(
-        "the {what} is not resolved by {nodes} nodes: its last Fourier modes are {tail:.1e} of it, give more nodes"
-    )]
-    Unresolved {
-        /// Unresolved quantity: the shape or the concentration.
-        what: &'static str,
-        /// Number of nodes.
-        nodes: usize,
-        /// Ratio of the last Fourier coefficients to the largest.
-        tail: f64,
-    },
-    /// Singular matrix.
-    #[error("the linear equations of {what} are singular: {remedy}")]
-    Singular {
-        /// Unknown of the equations.
-        what: &'static str,
-        /// Remedy.
-        remedy: &'static str,
-    },
-    /// Point that was looked for along a parameter and is not there.
-    #[error("{what} was not found between {from} and {to}: {remedy}")]
-    NotFound {
-        /// Point looked for.
-        what: &'static str,
-        /// Value of the parameter where the search began.
-        from: f64,
-        /// Value where it ended.
-        to: f64,
-        /// Remedy.
-        remedy: &'static str,
+    /// Scene or request that this crate cannot solve for, or a search that has found nothing.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
     },
 }
 
 motile_base::debug_as_explanation!(SteadyError);
+
+impl SteadyError {
+    /// Scene or request whose states are not of the kind that is solved for here.
+    pub(crate) fn unsupported(what: impl Into<String>, remedy: &str) -> Self {
+        Self::refused(what, "", remedy)
+    }
+
+    /// Shape or concentration that the nodes do not resolve.
+    pub(crate) fn unresolved(what: &str, nodes: usize, tail: f64) -> Self {
+        let value = format!("the ratio of its highest Fourier modes to the largest is {tail:.1e}");
+        Self::refused(format!("the {what} is not resolved by {nodes} nodes"), value, "Use more nodes")
+    }
+
+    /// Linear equations that have no solution.
+    pub(crate) fn singular(unknown: &str, remedy: &str) -> Self {
+        Self::refused(format!("the linear equations of {unknown} are singular"), "", remedy)
+    }
+
+    /// Point that is not found while a parameter goes from one value to the other.
+    pub(crate) fn not_found(what: &str, [from, to]: [f64; 2], remedy: &str) -> Self {
+        Self::refused(format!("{what} was not found between {from} and {to}"), "", remedy)
+    }
+
+    /// What is wrong, the value and the reason, and what to do.
+    pub(crate) fn refused(what: impl Into<String>, value: impl Into<String>, remedy: &str) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.to_owned() }
+    }
+}

@@ -77,9 +77,8 @@ impl LimitCycle {
             let mut right = DMatrix::zeros(2 * n, flow.ncols());
             right.rows_mut(0, n).copy_from(&flow);
             right.rows_mut(n, n).copy_from(&flow);
-            let singular =
-                SteadyError::Singular { what: "the growth on a cycle", remedy: "use another number of nodes" };
-            flow = Elimination::new(stages).solve(right).ok_or(singular)?.rows(n, n).into_owned();
+            let singular = || SteadyError::singular("the growth on a cycle", "Use another number of nodes");
+            flow = Elimination::new(stages).solve(right).ok_or_else(singular)?.rows(n, n).into_owned();
         }
         for row in odd {
             flow.row_mut(row).neg_mut();

@@ -45,10 +45,10 @@ impl Inside {
         let inside = setup.number_inside.unwrap_or_else(|| density(particles.concentration) * area);
         let total = perimeter * particles.concentration + inside;
         if setup.diffusion_inside.is_some() && setup.binding == 0.0 {
-            return Err(SteadyError::Unsupported {
-                what: "particles diffuse inside that never bind".to_owned(),
-                remedy: "give a rate of binding, or leave out their diffusion constant",
-            });
+            return Err(SteadyError::unsupported(
+                "particles diffuse inside that never bind",
+                "Use a positive rate of binding, or leave out the diffusion constant inside",
+            ));
         }
         let field = setup.diffusion_inside.map(|diffusion| Field::new(diffusion, exchange, nodes));
         Ok(Some(Self { exchange, area, total, at_rest: total / (perimeter + density(1.0) * area), field }))
@@ -156,10 +156,9 @@ impl Field {
                 renewed = true;
                 self.matrix(&lengths).lu()
             });
-            let correction = factors.solve(&self.residual(&on, &lengths)).ok_or(SteadyError::Singular {
-                what: "the particles inside",
-                remedy: "give other rates of exchange",
-            })?;
+            let correction = factors
+                .solve(&self.residual(&on, &lengths))
+                .ok_or_else(|| SteadyError::singular("the particles inside", "Use other rates of exchange"))?;
             let size = correction.amax();
             let stalled = size > CONTRACTION * before;
             if stalled && !renewed {

@@ -17,7 +17,7 @@ pub(crate) const LEAST_PART: f64 = 0.01;
 pub(crate) const REUSABLE: f64 = 1e-2;
 pub(crate) const CONTRACTION: f64 = 0.1;
 /// Remedy where no state is found.
-const REMEDY: &str = "start from a run, from a neighbouring state or with more nodes";
+const REMEDY: &str = "Start from a run or from a neighbouring state, or use more nodes";
 
 /// Result of an iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -132,53 +132,56 @@ pub(crate) struct Model {
 impl Model {
     /// Model of a description, at an even number of nodes.
     pub(crate) fn new(setup: &Setup) -> Result<Self, SteadyError> {
-        let refuse = |what: &str, remedy| Err(SteadyError::Unsupported { what: what.to_owned(), remedy });
+        let refuse = |what: &str, remedy| Err(SteadyError::unsupported(what, remedy));
         setup.check()?;
         let Method::Integral(method) = setup.method else {
-            return refuse("the scene is computed on a grid", "give the method of boundary integrals");
+            return refuse("the scene is computed on a grid", "Use the method of boundary integrals (`integral`)");
         };
         if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
             return refuse(
-                "the scene has a shell or an interface that is periodic along x, whose points go on moving along it",
-                "run it until its deformation no longer changes (System::deformation)",
+                "the scene has a shell or an interface that is periodic along x, whose points keep moving along it",
+                "Run it until its deformation no longer changes (System::deformation)",
             );
         }
         let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
-            return refuse("the scene is not of one droplet", "give one droplet");
+            return refuse("the scene does not have exactly one droplet", "Use one droplet");
         };
         if !setup.flow.is_none() && matches!(setup.region, Region::Box { .. }) {
-            return refuse("the images of a sheared box move for ever", "give the plane or a channel, or run it");
+            return refuse(
+                "the images of a sheared box never stop moving",
+                "Use the plane or a channel, or run the scene",
+            );
         }
         if !(setup.solids.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some() {
-            return refuse("the scene has solids, shaped walls or a repulsion", "leave them out");
+            return refuse("the scene has solids, shaped walls or a repulsion", "Leave them out");
         }
         if setup.region.half_length().is_some() {
-            return refuse("nothing is steady in a tube that is not straight", "give a straight one");
+            return refuse("nothing is steady in a tube that is not straight", "Use a straight tube");
         }
         if *bending > 0.0 {
-            return refuse("the interface resists bending", "leave the bending out");
+            return refuse("the interface resists bending", "Leave the bending out");
         }
         let disc = |body: &RigidBodySetup| match body.shape {
             DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),
             _ => None,
         };
         let Some(discs) = setup.rigid_bodies.iter().map(disc).collect::<Option<Vec<f64>>>() else {
-            return refuse("a rigid body is no disc or has a force or torque", "give a round one, free of both");
+            return refuse("a rigid body is no disc, or has a force or torque", "Use a disc without force and torque");
         };
         let (DropletShape::Round { radius } | DropletShape::Squeezed { radius, .. }) = *shape else {
-            return refuse("the droplet is neither round nor a squeezed circle", "give a round one");
+            return refuse("the droplet is neither round nor a squeezed circle", "Use a round droplet");
         };
         let nodes = method.nodes - method.nodes % 2;
         let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };
         if setup.region.is_axisymmetric() && !discs.is_empty() {
             return refuse(
-                "a droplet of revolution has a rigid body inside",
-                "leave it out, or give a region of the plane",
+                "an axisymmetric droplet has a rigid body inside",
+                "Leave it out, or use a two-dimensional region",
             );
         }
         let exchange = particles.and_then(|particles| particles.exchange);
         if exchange.is_some_and(|exchange| exchange.diffusion_inside.is_some()) && !discs.is_empty() {
-            return refuse("particles diffuse around a rigid body inside", "leave out one of them");
+            return refuse("particles diffuse around a rigid body inside", "Leave out one of them");
         }
         let viscosities = [viscosity.unwrap_or(setup.viscosity), setup.viscosity];
         let imposed = setup.flow.imposed(&setup.region)?;
@@ -200,9 +203,9 @@ impl Model {
                 let capillary = strain * setup.viscosity * radius / tension;
                 if capillary > 0.0 && capillary < LEAST_CAPILLARY {
                     let what = format!("the capillary number is {capillary:.1e}");
-                    let remedy = "the deformation is lost in round-off: give at least 1e-7, or take D from the first \
-                                  order, once the capillary number in shear and twice in extension";
-                    return Err(SteadyError::Unsupported { what, remedy });
+                    let remedy = "Use at least 1e-7, or compute D to first order: the capillary number in shear, and \
+                                  twice as much in extension";
+                    return Err(SteadyError::refused(what, "the deformation is lost in round-off", remedy));
                 }
                 (ContractileTension::new(*tension, 0.0, ExcludedVolume::None, 1.0)?, [0.0, 0.0, rate])
             }

@@ -118,9 +118,9 @@ impl Parameter {
     /// # Errors
     /// A description without the parameter.
     pub fn with(self, setup: &Setup, value: f64) -> Result<Setup, SteadyError> {
-        let missing = || SteadyError::Unsupported {
-            what: format!("the scene has no parameter {}", self.name()),
-            remedy: "give another one, or a region or a droplet that has it",
+        let missing = || {
+            let what = format!("the scene has no parameter {}", self.name());
+            SteadyError::unsupported(what, "Use another parameter, or a region or a droplet that has it")
         };
         self.get(setup).ok_or_else(missing)?;
         let mut setup = setup.clone();

@@ -230,14 +230,14 @@ impl Profile {
             region => left + right < region.lengths()[0] && top + bottom < region.lengths()[1],
         };
         if !fits {
-            return Err(SteadyError::Unsupported {
-                what: format!(
+            return Err(SteadyError::unsupported(
+                format!(
                     "the droplet does not fit: it reaches from y = {:.3} to {top:.3} and is {:.3} long",
                     -bottom,
                     left + right
                 ),
-                remedy: "give a larger region, a smaller droplet or another place for it",
-            });
+                "Use a larger region or a smaller droplet, or move the droplet",
+            ));
         }
         same_length("the nuclei of the profile", setup.rigid_bodies.len(), self.nuclei.len())?;
         for (body, centre) in setup.rigid_bodies.iter().zip(&self.nuclei) {
@@ -245,10 +245,10 @@ impl Profile {
             let arms = || self.positions.iter().map(|x| *x - *centre);
             let turn: f64 = arms().zip(arms().cycle().skip(1)).map(|(a, b)| a.angle_to(b)).sum();
             if turn.abs() < 0.5 * TAU || !arms().all(|arm| arm.length() > radius) {
-                return Err(SteadyError::Unsupported {
-                    what: format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
-                    remedy: "give a smaller disc or another place in the droplet",
-                });
+                return Err(SteadyError::unsupported(
+                    format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
+                    "Use a smaller disc, or move it within the droplet",
+                ));
             }
         }
         Ok(())

@@ -66,11 +66,11 @@ impl SteadyState {
             let at = |part: f64| Parameter::Activity.with(setup, part * goal);
             let start = at(WEAKER).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
             let found = in_steps((start, WEAKER), 0.5 * (1.0 - WEAKER), |last, part| {
-                let missed = |_| SteadyError::NotFound {
-                    what: "a steady swimmer over the activity",
-                    from: Parameter::Activity.get(last.setup()).unwrap_or(f64::NAN),
-                    to: goal,
-                    remedy: "follow the branch from the first value, it may turn back or need more nodes",
+                let missed = |_| {
+                    let from = Parameter::Activity.get(last.setup()).unwrap_or(f64::NAN);
+                    let remedy =
+                        "Follow the branch from the first activity, because it may turn back or need more nodes";
+                    SteadyError::not_found("a steady swimmer as the activity changes", [from, goal], remedy)
                 };
                 let frame = last.point().frame;
                 Self::from_profile(&at(part)?, last.profile(), frame, last.part()).map_err(missed)
@@ -141,11 +141,10 @@ impl SteadyState {
 
 /// Error of a search that has ended at a droplet at rest.
 fn at_rest() -> SteadyError {
-    SteadyError::Unsupported {
-        what: "the search for a swimmer has ended at the droplet at rest, which is unstable, with short steps too"
-            .to_owned(),
-        remedy: "start from a run, or follow the branch of swimmers from where it is found",
-    }
+    SteadyError::unsupported(
+        "the search for a swimmer ended at the droplet at rest, which is unstable, even with short steps",
+        "Start from a run, or follow the branch of swimmers from a point where it is found",
+    )
 }
 
 /// Way of a droplet to a steady state by implicit Euler steps, which grow as the rates fall.
@@ -287,10 +286,10 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
 /// Refuses a droplet off the axis, or that swims aside, in three dimensions.
 pub(crate) fn check_axis(setup: &Setup, part: Part) -> Result<(), SteadyError> {
     if setup.region.is_axisymmetric() && part != Part::Even {
-        return Err(SteadyError::Unsupported {
-            what: "the droplet is no body of revolution about the x axis".to_owned(),
-            remedy: "give one with its centre on the axis and a heading along it, or a region of the plane",
-        });
+        return Err(SteadyError::unsupported(
+            "the droplet is not axisymmetric about the x axis",
+            "Put its centre on the axis and its heading along it, or use a two-dimensional region",
+        ));
     }
     Ok(())
 }

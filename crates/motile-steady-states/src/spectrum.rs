@@ -140,10 +140,10 @@ impl System {
     /// Linearised equations about a steady state.
     pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
         if self.model.has_field() {
-            return Err(SteadyError::Unsupported {
-                what: "growth rates where particles diffuse inside".to_owned(),
-                remedy: "leave out their diffusion constant, or take them from a run",
-            });
+            return Err(SteadyError::unsupported(
+                "growth rates are not computed if particles diffuse inside",
+                "Leave out the diffusion constant inside, or measure the growth in a run",
+            ));
         }
         let jacobian = self.jacobian(point, part)?;
         self.load(point)?;
@@ -243,8 +243,8 @@ const MOST_SWEEPS: usize = 100_000;
 
 /// Eigenvalues of a real matrix.
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
-    let failed = SteadyError::Singular { what: "the eigenvalues", remedy: "use another number of nodes" };
-    let schur = nalgebra::Schur::try_new(matrix.clone(), f64::EPSILON, MOST_SWEEPS).ok_or(failed)?;
+    let failed = || SteadyError::singular("the eigenvalues", "Use another number of nodes");
+    let schur = nalgebra::Schur::try_new(matrix.clone(), f64::EPSILON, MOST_SWEEPS).ok_or_else(failed)?;
     Ok(schur.complex_eigenvalues().iter().map(|z| Complex64::new(z.re, z.im)).collect())
 }
 
@@ -260,8 +260,8 @@ pub(crate) fn eigenvector(
     let lu = (&matrix - DMatrix::identity(n, n) * shift).lu();
     let mut vector = DVector::from_fn(n, |k, _| Complex64::new(1.0, 0.3 * k as f64 / n as f64));
     for _ in 0..4 {
-        let failed = SteadyError::Singular { what: "a mode", remedy: "use another number of nodes" };
-        vector = lu.solve(&vector).ok_or(failed)?;
+        let failed = || SteadyError::singular("a mode", "Use another number of nodes");
+        vector = lu.solve(&vector).ok_or_else(failed)?;
         vector /= largest(&vector);
     }
     let image = &matrix * &vector;

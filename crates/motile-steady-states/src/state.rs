@@ -90,8 +90,8 @@ impl SteadyState {
     pub fn uniform(setup: &Setup) -> Result<Self, SteadyError> {
         let model = System::new(setup)?.model;
         if !model.imposed().is_none() {
-            let (what, remedy) = ("a circle is deformed by the imposed flow".to_owned(), "use `SteadyState::find`");
-            return Err(SteadyError::Unsupported { what, remedy });
+            let what = "a circle is deformed by the imposed flow";
+            return Err(SteadyError::unsupported(what, "Use `SteadyState::find`"));
         }
         let (nodes, radius, mean) = (model.nodes(), model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
@@ -110,8 +110,8 @@ impl SteadyState {
     /// As [`SteadyState::find`].
     pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
         if mirror && !System::new(setup)?.model.is_mirror_symmetric() {
-            let (what, remedy) = ("the imposed flow has no mirror symmetry".to_owned(), "look for any state");
-            return Err(SteadyError::Unsupported { what, remedy });
+            let what = "the imposed flow has no mirror symmetry";
+            return Err(SteadyError::unsupported(what, "Search without `mirror`, for states of any symmetry"));
         }
         if mirror {
             return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], Part::Even);
@@ -157,7 +157,7 @@ impl SteadyState {
         let profile = system.profile(&point);
         let tails = profile.tails()?;
         if let Some((what, tail)) = tails.into_iter().find(|(_, tail)| *tail > LONGEST_TAIL) {
-            return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
+            return Err(SteadyError::unresolved(what, profile.nodes(), tail));
         }
         let tail = tails.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest));
         let rate = system.model.rate_unit();

@@ -359,10 +359,8 @@ impl System {
 impl Equations {
     /// Solution for a right-hand side.
     pub(crate) fn solve(&self, right: &DVector<f64>) -> Result<DVector<f64>, SteadyError> {
-        let singular = || SteadyError::Singular {
-            what: "a steady state",
-            remedy: "start from another or from a neighbouring state",
-        };
+        let singular =
+            || SteadyError::singular("a steady state", "Start from another state, for example a neighbouring one");
         self.lu.solve(right).filter(|x| x.iter().all(|value| value.is_finite())).ok_or_else(singular)
     }
 

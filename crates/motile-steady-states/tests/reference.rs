@@ -91,8 +91,14 @@ fn what_is_no_steady_state_of_one_droplet_is_refused() {
     let grid = Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() };
     let droplets = vec![DropletSetup::passive(1.0)];
     let sheared = Setup { droplets, flow: FlowSetup { shear: 1.0, ..FlowSetup::default() }, ..Setup::default() };
-    for setup in [two, grid, sheared] {
-        assert!(matches!(SteadyState::find(&setup), Err(motile_steady_states::SteadyError::Unsupported { .. })));
+    for (setup, words) in [
+        (two, "the scene does not have exactly one droplet. Use one droplet"),
+        (grid, "the scene is computed on a grid. Use the method of boundary integrals"),
+        (sheared, "the images of a sheared box never stop moving"),
+    ] {
+        let error = SteadyState::find(&setup).map(drop).unwrap_err();
+        let refused = matches!(error, motile_steady_states::SteadyError::Refused { .. });
+        assert!(refused && error.to_string().starts_with(words), "{error}");
     }
 }
 
