@@ -221,7 +221,7 @@ fn impossible_interfaces_end_in_a_sentence() {
         &said(&|setup| {
             setup.region = Region::Channel { length: PERIOD, width: 2.7, drive: Drive::ZeroGradient };
         }),
-        "does not hold it",
+        "does not fit into the region",
     );
 }
 

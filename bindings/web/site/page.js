@@ -45,7 +45,7 @@ function note(text, bad = false) {
 }
 
 function said(error) {
-  return error.message.replace(/^the scene file is not understood: /, "");
+  return error.message.replace(/^the scene file is not valid: /, "");
 }
 
 // ---------------------------------------------------------------------------------------------------- scenes

@@ -52,8 +52,8 @@ pub enum SetupError {
     },
     /// Body too large for the region and its periodic images.
     #[error(
-        "a region of {length} x {width} does not hold it: move it to the middle, make it smaller, or give a longer or \
-         wider region{hint}"
+        "the body does not fit into the region of {length} x {width}. Move it to the middle, make it smaller, or \
+         enlarge the region{hint}"
     )]
     NoRoom {
         /// Length of the region in x (length).
@@ -62,12 +62,6 @@ pub enum SetupError {
         width: f64,
         /// Quantities that do not seem to be in the same units, if there are any.
         hint: String,
-    },
-    /// Scene file that is not TOML or has unknown keys.
-    #[error("the scene file is not understood: {problem}")]
-    File {
-        /// Line of the file, and the problem there.
-        problem: String,
     },
     /// Body that starts inside another one, or where another one is.
     #[error(
@@ -88,22 +82,8 @@ pub enum SetupError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
-    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities.
-    #[error(
-        "the fluid between {key} and {other}, or the image of one, would have the viscosities {} and {}: give both \
-         their insides there the same one, or turn one of them by its key `inside`",
-        viscosities[0], viscosities[1]
-    )]
-    TwoViscosities {
-        /// Key of the lower entry in the description, with its name if it has one.
-        key: String,
-        /// Key of the upper entry, or of the lower one again.
-        other: String,
-        /// The viscosities (stress times time).
-        viscosities: [f64; 2],
-    },
     /// Droplet that starts in touch with another one, or with its own image.
-    #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a film of fluid between them")]
+    #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a gap between them")]
     Touch {
         /// Key of the entry in the description, with its name if it has one.
         key: String,
@@ -115,7 +95,7 @@ pub enum SetupError {
         y: f64,
     },
     /// Target error that no settings were measured for.
-    #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
+    #[error("no settings are known for an error of {target:e}: use a target from {smallest:e} to {largest}")]
     TargetError {
         /// Relative error asked for (no dimension).
         target: f64,
@@ -124,11 +104,41 @@ pub enum SetupError {
         /// Largest error that settings are given for.
         largest: f64,
     },
+    /// Scene file that cannot be read, or bodies that contradict each other.
+    #[error("{}", motile_base::refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
+    },
 }
 
 motile_base::debug_as_explanation!(SetupError);
 
 impl SetupError {
+    /// Scene file that is not TOML or has unknown keys: the line and the problem there.
+    pub(crate) fn file(problem: impl std::fmt::Display) -> Self {
+        let what = "the scene file is not valid".to_owned();
+        Self::Refused {
+            what,
+            value: problem.to_string().trim_end().to_owned(),
+            remedy: "Correct this entry".to_owned(),
+        }
+    }
+
+    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities: the keys of
+    /// the lower and the upper one, and the viscosities (stress times time).
+    pub(crate) fn two_viscosities([key, other]: [&str; 2], [lower, upper]: [f64; 2]) -> Self {
+        let what = format!(
+            "the fluid between {key} and {other}, or the image of one, would have the viscosities {lower} and {upper}"
+        );
+        let remedy = "Give both the same viscosity inside, or turn one of them over by its key `inside`".to_owned();
+        Self::Refused { what, value: String::new(), remedy }
+    }
+
     /// Error with the key of the entry that it is about, unless it names it itself.
     pub(crate) fn of(self, key: &str) -> Self {
         match self {

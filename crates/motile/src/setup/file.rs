@@ -21,12 +21,12 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line),
+    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::Refused`], with the line),
     /// keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let problem = |error: toml::de::Error| match replaced(text) {
             Some(error) => error,
-            None => SetupError::File { problem: error.to_string() },
+            None => SetupError::file(error),
         };
         let setup: Self = toml::from_str(text).map_err(problem)?;
         setup.check()?;
@@ -36,10 +36,10 @@ impl Setup {
     /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
     ///
     /// # Errors
-    /// [`SetupError::File`]: a seed above 9223372036854775807, which TOML has no number for.
+    /// [`SetupError::Refused`]: a seed above 9223372036854775807, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
         // By way of a table: the serializer of documents would be compiled for every part of the description.
-        let table = toml::Table::try_from(self).map_err(|error| SetupError::File { problem: error.to_string() })?;
+        let table = toml::Table::try_from(self).map_err(SetupError::file)?;
         Ok(table.to_string())
     }
 }

@@ -28,7 +28,7 @@ impl Setup {
         let surfaces = Surfaces::of(bodies.iter().map(|Planned { boundary, kind, .. }| (boundary.clone(), *kind)));
         if let Some((body, other, viscosities)) = surfaces.conflict(view.domain.periods, view.viscosity) {
             let [key, other] = [body, other].map(|body| self.key(body));
-            return Err(SetupError::TwoViscosities { key, other, viscosities });
+            return Err(SetupError::two_viscosities([&key, &other], viscosities));
         }
         match surfaces.first_overlap(view) {
             None => surfaces.contact(view).map_or(Ok(()), |(body, other, place)| {

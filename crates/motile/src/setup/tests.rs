@@ -122,10 +122,10 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
         ("method.grid.corrected = true", { Setup { droplets: vec![contrast], ..grid(coarse) } }),
         ("least-gap", Setup { least_gap: Some(f64::NAN), ..Setup::default() }),
-        ("droplets[0]: a region of 1.9 x 6 does not hold it: move it", {
+        ("droplets[0]: the body does not fit into the region of 1.9 x 6. Move it", {
             Setup { region: Region::Box { lengths: [1.9, 6.0] }, ..Setup::default() }
         }),
-        ("droplets[0]: a region of 6 x 3 does not hold it: move it", {
+        ("droplets[0]: the body does not fit into the region of 6 x 3. Move it", {
             let off = DropletSetup { centre: [0.0, 1.45], ..DropletSetup::default() };
             Setup { region: channel(3.0), droplets: vec![off], ..Setup::default() }
         }),
@@ -449,11 +449,14 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
         ("solids[1] (disc) overlaps solids[0] (lower wall) by", {
             only(vec![walls.remove(0), named("disc", disc(1.0, -1.4, 1.0))])
         }),
-        ("solids[0]: a region of 6 x 6 does not hold it", scene(grid, Vec::new(), vec![disc(0.0, 0.0, 3.2)])),
-        ("solids[0]: a region of 6 x 6 does not hold it", {
+        (
+            "solids[0]: the body does not fit into the region of 6 x 6",
+            scene(grid, Vec::new(), vec![disc(0.0, 0.0, 3.2)]),
+        ),
+        ("solids[0]: the body does not fit into the region of 6 x 6", {
             only(vec![SolidSetup { hold: Hold::Free, ..SolidSetup::new(long, material) }])
         }),
-        ("solids[0]: a region of 6 x 6 does not hold it", only(vec![disc(0.0, 2.7, 0.5)])),
+        ("solids[0]: the body does not fit into the region of 6 x 6", only(vec![disc(0.0, 2.7, 0.5)])),
         ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(0.0, 1.0, None)], vec![disc(1.2, 0.0, 0.5)])),
         ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(0.0, 0.5, None)], vec![disc(0.0, 0.0, 2.0)])),
         ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(3.0, 1.0, None)], vec![disc(-3.0, 0.5, 0.8)])),
@@ -629,7 +632,7 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
         ..Setup::default()
     };
     for y in [0.7, -0.9, 1.2] {
-        assert!(refused(&at(3.0, y)).starts_with("droplets[0]: a region of 6 x 3 does not hold it"), "{y}");
+        assert!(refused(&at(3.0, y)).starts_with("droplets[0]: the body does not fit into the region of 6 x 3"), "{y}");
         let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, layers()) };
         assert!(refused(&elastic).contains(" overlaps droplets[0] by"), "{y}: {}", refused(&elastic));
         elastic.solids.clear();
@@ -1050,7 +1053,7 @@ fn narrow_regions_are_refused() {
     let method = Method::Integral(IntegralMethod { nodes: 48, elements: 72 });
     let of = |region: Region| Setup { region, method, ..Setup::default() };
     let error = refused(&of(Region::Box { lengths: [2.0, 2.0] }));
-    assert!(error.contains("droplets[0]") && error.contains("2 x 2 does not hold it"), "{error}");
+    assert!(error.contains("droplets[0]") && error.contains("does not fit into the region of 2 x 2"), "{error}");
     let error = refused(&of(Region::Box { lengths: [60.0, 2.5] }));
     assert!(error.starts_with("region.box.lengths[1] = 2.5: "), "{error}");
     let error = refused(&of(Region::Channel { length: 1e-60, width: 4.0, drive: Drive::ZeroGradient }));
