@@ -120,6 +120,7 @@ motile_base::debug_as_explanation!(SetupError);
 
 impl SetupError {
     /// Scene file that is not TOML or has unknown keys: the line and the problem there.
+    #[cfg(feature = "toml")]
     pub(crate) fn file(problem: impl std::fmt::Display) -> Self {
         let what = "the scene file is not valid".to_owned();
         Self::Refused {
