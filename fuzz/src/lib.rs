@@ -4,13 +4,13 @@
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
 use elastic_solids::mesh::{GmshMesh, equilateral_block};
+use ib_core::{BSpline, ImmersedBoundary};
 use motile::elastic_solids::ChannelShape;
 use motile::setup::{IntegralMethod, Method, Setup};
-use motile_scene::{Scene, checkpoint::Checkpoint};
-use ib_core::{BSpline, ImmersedBoundary};
-use stokes_grid::{Grid, PeriodicStokes};
-use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, SceneFlags};
 use motile_cli::run::OutputFlags;
+use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, SceneFlags};
+use motile_scene::{Scene, checkpoint::Checkpoint};
+use stokes_grid::{Grid, PeriodicStokes};
 
 type Small = Scene<ImmersedBoundary<PeriodicStokes, BSpline<4>>>;
 
@@ -112,7 +112,7 @@ pub fn scene_file(bytes: &[u8]) {
     let Ok(setup) = Setup::from_toml(text) else { return };
     let again = setup.to_toml().expect("a description that was read can be written");
     assert_eq!(Setup::from_toml(&again).expect("what was written can be read"), setup);
-    if matches!(setup.method, Method::Integral(IntegralMethod { cells: 0..=4096, .. })) {
+    if matches!(setup.method, Method::Integral(IntegralMethod { elements: 0..=4096, .. })) {
         for droplet in &setup.droplets {
             let _ = setup.droplet(droplet);
         }
