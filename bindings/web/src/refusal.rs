@@ -5,8 +5,8 @@ use std::fmt;
 use motile::SetupError;
 use motile::scene::SceneError;
 use motile_output::OutputError;
-use serde::Serialize;
 use motile_steady_states::SteadyError;
+use serde::Serialize;
 
 /// Error with the key, the value and the remedy where they are known.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
