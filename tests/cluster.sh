@@ -19,7 +19,7 @@ cleanup() {
 trap cleanup EXIT
 
 cd "$root"
-cargo build --release --quiet -p motile-output --features sweep
+cargo build --release --quiet -p motile-cli
 MOTILE_SWEEP=${CARGO_TARGET_DIR:-$root/target}/release/motile-sweep
 export MOTILE_SWEEP
 cat > "$work/plan.toml" << 'PLAN'

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The runs of a plan as a task array of HyperQueue, each task a share of them; the first argument is their number:
 #
-#     cargo build --release -p motile-output --features sweep
+#     cargo build --release -p motile-cli
 #     hq submit --array 1-8 examples/cluster/hyperqueue.sh 8 plan.toml --out /shared/sweep
 #
 # HyperQueue starts a task again whose worker is lost, and a task that is cut goes on when it is submitted again: its

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The runs of a plan as a job array of Slurm, each task a share of them:
 #
-#     cargo build --release -p motile-output --features sweep
+#     cargo build --release -p motile-cli
 #     sbatch --array=1-8 examples/cluster/slurm.sh plan.toml --out /shared/sweep
 #
 # A task that is cut goes on when the same array is submitted again.
