@@ -6,7 +6,8 @@ use std::{env, fs, path::Path};
 
 const CRATES: [&str; 4] = ["stokes-grid", "ib-core", "active-interface", "elastic-solids"];
 
-/// Returns the first program of a page, as lines of documentation, and the page around it. Blocks of text are no programs.
+/// Returns the first program of a page, as lines of documentation, and the page around it. Blocks of text are no
+/// programs.
 fn example(page: &str) -> (&str, &str, &str) {
     let fence = "//! ```";
     let mut fences = page.match_indices(fence).map(|(at, _)| at);

@@ -137,7 +137,8 @@ pub(crate) fn branch<'py>(
     let found = found.map_err(|error| of_steady(&error))?;
     let dict = PyDict::new(py);
     let speeds = found.points.iter().map(|point| Ok(point.state.measured()?.speed)).collect::<Result<Vec<_>, _>>();
-    let growth = |point: &motile_steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
+    let growth =
+        |point: &motile_steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
     let unstable = found.points.iter().map(|point| point.spectrum.unstable() as i64).collect();
     let special: Vec<(&str, f64)> = found.special.iter().map(|point| (point.kind.name(), point.value)).collect();
     dict.set_item("values", PyArray1::from_vec(py, found.points.iter().map(|point| point.value).collect()))?;

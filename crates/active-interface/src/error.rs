@@ -11,7 +11,8 @@ pub enum InterfaceError {
     Input(#[from] InputError),
     /// A curve that crosses or touches itself.
     #[error(
-        "the curve crosses itself between the segments that start at points {first} and {second}: move or reorder its points"
+        "the curve crosses itself between the segments that start at points {first} and {second}: move or reorder \
+         its points"
     )]
     SelfCrossing {
         /// A segment by its first point.

@@ -29,8 +29,8 @@
 //!
 //! # Example
 //!
-//! Particles on a circle in a flow that you prescribe. The flow gathers them at a known rate, and diffusion spreads them
-//! at a known rate:
+//! Particles on a circle in a flow that you prescribe. The flow gathers them at a known rate, and diffusion spreads
+//! them at a known rate:
 //!
 //! ```
 //! use std::error::Error;

@@ -8,9 +8,9 @@ use crate::SolidError;
 /// Fewest markers of an outline: its curvature and its normals come from Fourier series, of three modes at least.
 pub(crate) const LEAST_MARKERS: usize = 8;
 
-/// Least distance of two sides of a body, in distances of its nodes, at which speeds next to it are right to about a per
-/// cent. The flow in the body, between the sides, is then resolved (measured for rods and ellipses: 0.9 % at 2.3, 9 % at
-/// 1.9, 380 % at 1.6).
+/// Least distance of two sides of a body, in distances of its nodes, at which speeds next to it are right to about a
+/// per cent. The flow in the body, between the sides, is then resolved (measured for rods and ellipses: 0.9 % at 2.3, 9
+/// % at 1.9, 380 % at 1.6).
 const RESOLVED_SIDES: f64 = 2.4;
 /// Distance of two points over the way between them along the outline, below which they lie on two sides: somewhat more
 /// than for opposite points of a circle.

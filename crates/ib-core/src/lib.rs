@@ -5,13 +5,13 @@
 //!        correct the mobility of interfaces --> velocities
 //! ```
 //!
-//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`](motile_scene::Hydrodynamics), the trait of flows
-//! for the scenes of [`motile_scene`].
+//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`](motile_scene::Hydrodynamics), the trait of
+//! flows for the scenes of [`motile_scene`].
 //!
 //! # Example
 //!
-//! Peskin's elastic ring: the order of its velocity with and without the mobility correction, and the area that it loses
-//! while it becomes a circle:
+//! Peskin's elastic ring: the order of its velocity with and without the mobility correction, and the area that it
+//! loses while it becomes a circle:
 //!
 //! ```
 //! use std::error::Error;

@@ -15,8 +15,8 @@ use crate::{RigidWall, error::of_layers, interface_groups::InterfaceGroups, wall
 /// over this distance. A sharp corner makes speeds beside it a per cent wrong at nodes 0.1 radii apart.
 const SHARPEST_TURN: f64 = 0.7;
 
-/// Film next to a droplet that is squeezed through a narrow place, over its radius: the middle of 0.022, 0.014 and 0.010,
-/// measured in throats of 0.8, 1 and 1.4 radii at activity -3.5 up to t = 130.
+/// Film next to a droplet that is squeezed through a narrow place, over its radius: the middle of 0.022, 0.014 and
+/// 0.010, measured in throats of 0.8, 1 and 1.4 radii at activity -3.5 up to t = 130.
 const FILM_OF_SQUEEZED: f64 = 0.016;
 /// Distances of nodes in the thinnest film that is resolved.
 const RESOLVED_NODES: f64 = 0.3;
@@ -124,7 +124,7 @@ impl BoundaryIntegral {
         }
         let message = format!(
             "they leave {narrowest:.3} (length) for an interface of radius {radius:.3}: a droplet that is squeezed \
-             through leaves films of the order of {:.3}, which {nodes} nodes do not resolve, so that it may cross the wall; \
+             through leaves gaps of about {:.3}, which {nodes} nodes do not resolve, so that it may cross the wall; \
              use {needed} nodes",
             FILM_OF_SQUEEZED * radius
         );

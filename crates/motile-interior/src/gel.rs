@@ -32,8 +32,8 @@ use crate::{
 };
 
 /// Relative error of the activity at which an aster or a vortex loses its stability, on a mesh and a grid of that
-/// spacing over the radius, and its order in the spacing (`tests/rates.rs`). At the distance r from a core, stresses and
-/// gradients are off by (spacing/r)^2, so that the error falls like the square of the spacing but for logarithms.
+/// spacing over the radius, and its order in the spacing (`tests/rates.rs`). At the distance r from a core, stresses
+/// and gradients are off by (spacing/r)^2, so that the error falls like the square of the spacing but for logarithms.
 const CORE_ERROR: f64 = 0.117;
 const CORE_SPACING: f64 = 0.05;
 const CORE_ORDER: f64 = 1.45;

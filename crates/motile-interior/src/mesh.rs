@@ -51,8 +51,8 @@ impl DiscMesh {
     pub const COARSEST: f64 = 0.5;
 
     /// Mesh for a curve of a number of markers, with a spacing that changes inwards from that of the markers to
-    /// `spacing`, larger or smaller, in units of the radius of a circle of the curve's length, by a quarter from ring to
-    /// ring.
+    /// `spacing`, larger or smaller, in units of the radius of a circle of the curve's length, by a quarter from ring
+    /// to ring.
     ///
     /// # Errors
     /// Fewer than 8 markers, a spacing that is not positive or above 0.5, more than 131072 nodes.

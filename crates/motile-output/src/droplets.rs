@@ -16,11 +16,11 @@ const DROPLET: &str = "droplet";
 /// them.
 ///
 /// The columns are `time`, `droplet` (the [`Handle::index`] of the droplet in its scene) and the observables of
-/// [`crate::TrajectoryCsv`] without those of solids and of particles inside: all that some droplet has, with empty fields
-/// for a droplet that lacks them. Centroids `x` and `y` (length) are not
-/// wrapped: a droplet that leaves a periodic region on one side goes on beyond it, and does not return on the other.
-/// Droplets that are added or removed during the run have rows for as long as they are there; one that is added may not
-/// have observables that no droplet had at the start.
+/// [`crate::TrajectoryCsv`] without those of solids and of particles inside: all that some droplet has, with empty
+/// fields for a droplet that lacks them. Centroids `x` and `y` (length) are not wrapped: a droplet that leaves a
+/// periodic region on one side goes on beyond it, and does not return on the other. Droplets that are added or removed
+/// during the run have rows for as long as they are there; one that is added may not have observables that no droplet
+/// had at the start.
 ///
 /// ```
 /// use motile::prelude::*;

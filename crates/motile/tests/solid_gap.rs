@@ -95,7 +95,8 @@ fn walls_count_in_the_smallest_gap() {
     }
 }
 
-/// A droplet that is squeezed next to a wall leaves a film of 0.05. The warning says how many nodes resolve it, and with these it does not come.
+/// A droplet that is squeezed next to a wall leaves a film of 0.05. The warning says how many nodes resolve it, and
+/// with these it does not come.
 #[test]
 fn the_number_of_nodes_that_a_film_needs_is_told() {
     let of = |nodes: usize| {
@@ -115,8 +116,8 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
     assert!((36..42).contains(&needed) && of(needed + 1).is_none() && of(needed - 2).is_some(), "{told}");
 }
 
-/// A droplet that a constriction squeezes leaves thin films there: the number of nodes is told before the run, not where
-/// it fits through or the nodes are enough.
+/// A droplet that a constriction squeezes leaves thin films there: the number of nodes is told before the run, not
+/// where it fits through or the nodes are enough.
 #[test]
 fn the_number_of_nodes_that_a_narrow_place_needs_is_told_at_the_start() {
     let warned = |throat: f64, nodes: usize| {

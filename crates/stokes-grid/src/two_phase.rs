@@ -197,8 +197,8 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the viscosity (stress times time) at the centres and at the nodes.
     ///
     /// # Errors
-    /// Fields of another grid, a value that is not positive and finite, or viscosities that differ from that of a solver
-    /// with lagged walls ([`StokesError::Refused`]); the viscosity is then left as it was.
+    /// Fields of another grid, a value that is not positive and finite, or viscosities that differ from that of a
+    /// solver with lagged walls ([`StokesError::Refused`]); the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
         self.solver.grid().check(fields)?;

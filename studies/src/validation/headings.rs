@@ -14,8 +14,8 @@ const KERNELS: [AnyKernel; 3] = [AnyKernel::BSpline4, AnyKernel::Gaussian6, AnyK
 pub(crate) fn headings(quick: bool) -> Tables {
     let end = if quick { 40.0 } else { 80.0 };
     let title = format!(
-        "Swimmers off the axes, 6 x 6 box, A = 2 |activity|: against boundary integrals (64 nodes, 384 elements) at t = \
-         10, 20 .. {end}: turn (radians), largest error of the direction (radians), largest error of the speed (%)"
+        "Swimmers off the axes, 6 x 6 box, A = 2 |activity|: against boundary integrals (64 nodes, 384 elements) at t \
+         = 10, 20 .. {end}: turn (radians), largest error of the direction (radians), largest error of the speed (%)"
     );
     let mut table = Table::new(&title, &["kernel", "activity", "start", "turn", "h", "ds", "direction", "speed"]);
     let resolutions = [(0.1, 0.05), (0.1, 0.025), (0.05, 0.025)];

@@ -39,8 +39,8 @@ fn a_raster_around_bodies_holds_them_and_the_margin() {
     }
 }
 
-/// A shear displaces the images of a box during a run: in every later state, a raster that was made before it is the one
-/// that is made then, with pixels of the same pictures.
+/// A shear displaces the images of a box during a run: in every later state, a raster that was made before it is the
+/// one that is made then, with pixels of the same pictures.
 #[test]
 fn a_raster_from_before_a_run_is_that_of_the_state() {
     use crate::{Look, Snapshot};

@@ -21,8 +21,8 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::Refused`], with the line),
-    /// keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
+    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::Refused`], with the
+    /// line), keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let problem = |error: toml::de::Error| match replaced(text) {
             Some(error) => error,

@@ -85,8 +85,8 @@ fn the_stiffness_of_a_ring_of_springs() {
     }
 }
 
-/// The springs' shortest wave decays at a rate that hardly depends on the number of markers, and the step limit with it:
-/// also where markers are so many that those far away are taken together.
+/// The springs' shortest wave decays at a rate that hardly depends on the number of markers, and the step limit with
+/// it: also where markers are so many that those far away are taken together.
 #[test]
 fn one_marker_more_does_not_change_the_step_limit() {
     let limit = |count: usize| {
