@@ -412,7 +412,8 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
     let error = follow(0.05).resume(&follow(0.1).checkpoint("")).expect_err("other markers");
     assert!(error.to_string().contains("the number of markers at the start is 64 in it and 128 here"), "{error}");
     let elastic = |shear: f64| {
-        let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+        let mut walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+        walls.iter_mut().for_each(|wall| wall.finer_surface = Some(true));
         let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };
         scene(&Setup { region, solids: walls, ..layers() })
     };

@@ -340,7 +340,7 @@ impl SolidSetup {
         let mesh =
             (0..if finer { times } else { 0 }).try_fold(mesh, |mesh, _| mesh.with_finer_boundary(|s| !fixed(s)))?;
         if layers {
-            self.check_surface(&mesh, setup)?;
+            self.check_surface(&mesh, fixed, setup)?;
         }
         let share = mesh.area() / mesh.points().len() as f64;
         let mut solid = self.at_rest(mesh)?.named(&self.name);
@@ -368,10 +368,17 @@ impl SolidSetup {
 }
 
 impl SolidSetup {
-    /// Refuses a surface with fewer points than a layer needs.
-    fn check_surface(&self, mesh: &TriangleMesh, setup: &Setup) -> Result<(), SetupError> {
+    /// Refuses a surface, which is not fixed, with fewer points than a layer needs.
+    fn check_surface(
+        &self,
+        mesh: &TriangleMesh,
+        fixed: impl Fn(Vec2) -> bool,
+        setup: &Setup,
+    ) -> Result<(), SetupError> {
         let [least, _] = Settings::NODES;
-        let found = mesh.boundary_loops().iter().map(|points| points.points.len()).min().unwrap_or(least);
+        let surfaces = mesh.boundary_loops().iter().map(|surface| &surface.points);
+        let moving = surfaces.filter(|points| points.iter().any(|point| !fixed(mesh.points()[*point])));
+        let found = moving.map(Vec::len).min().unwrap_or(least);
         if found >= least {
             return Ok(());
         }
