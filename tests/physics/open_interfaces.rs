@@ -49,8 +49,8 @@ fn waves_grow_as_in_a_channel() {
     }
 }
 
-/// Next to a wall, the images of an interface are summed over as many nodes as the gap needs: a wave relaxes as it should
-/// with any nodes that carry it, although they are farther apart than the gap: to 1e-10 at a tolerance of 1e-12.
+/// Next to a wall, the images of an interface are summed over as many nodes as the gap needs: a wave relaxes as it
+/// should with any nodes that carry it, although they are farther apart than the gap: to 1e-10 at a tolerance of 1e-12.
 #[test]
 fn few_nodes_next_to_a_wall_are_exact() {
     let region = Region::Channel { length: PERIOD, width: 2.0, drive: Drive::ZeroGradient };
