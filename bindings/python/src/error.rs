@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use motile::SetupError;
+use motile::setup::Setup as Description;
 
 /// The exception `motile.Error` with a message, and the key, value and remedy where they are known.
 pub(crate) fn refused(message: &str, key: Option<String>, value: Option<String>, remedy: Option<String>) -> PyErr {
@@ -44,4 +45,22 @@ pub(crate) fn of_setup(error: &SetupError) -> PyErr {
         }
         _ => failed(error),
     }
+}
+
+/// Error for a key of an earlier version in a description that cannot be read. It names the key that you give now.
+pub(crate) fn of_earlier(entries: &toml::Value) -> Option<PyErr> {
+    // The text of a table is a scene file; that of a value would stand within braces.
+    match Description::from_toml(&entries.as_table()?.to_string()) {
+        Err(SetupError::Value { key, value, remedy }) => {
+            Some(of_setup(&SetupError::Value { key, value, remedy: snake_places(&remedy) }))
+        }
+        _ => None,
+    }
+}
+
+/// Text in which places such as `solids.surface-elasticity` have the names of Python.
+fn snake_places(text: &str) -> String {
+    let place = |word: &str| word.trim_matches('.').contains('.');
+    let words = text.split(' ').map(|word| if place(word) { word.replace('-', "_") } else { word.to_owned() });
+    words.collect::<Vec<_>>().join(" ")
 }

@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 use motile::setup::Setup as Description;
 use toml::{Table, Value};
 
-use crate::error::{failed, of_setup, refused, unreadable};
+use crate::error::{failed, of_earlier, of_setup, refused, unreadable};
 use crate::scene::Scene;
 use crate::value::{described, from_python, to_python};
 
@@ -22,7 +22,8 @@ pub(crate) struct Setup {
 }
 
 impl Setup {
-    fn checked(description: Description) -> PyResult<Self> {
+    fn checked(value: &Value) -> PyResult<Self> {
+        let description: Description = described(value.clone()).map_err(|error| of_earlier(value).unwrap_or(error))?;
         description.check().map_err(|error| of_setup(&error))?;
         Ok(Self { description })
     }
@@ -57,13 +58,13 @@ impl Setup {
         let given = keywords(entries)?;
         let mut table = Table::try_from(Description::default()).map_err(failed)?;
         table.extend(given);
-        Self::checked(described(Value::Table(table))?)
+        Self::checked(&Value::Table(table))
     }
 
     /// Setup of a dictionary of all entries. As in a scene file there are no bodies but those that it names.
     #[classmethod]
     fn from_dict(_class: &Bound<'_, PyType>, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
-        Self::checked(described(Value::Table(keywords(Some(entries))?))?)
+        Self::checked(&Value::Table(keywords(Some(entries))?))
     }
 
     /// Setup of a scene file's text (TOML).
@@ -107,7 +108,7 @@ impl Setup {
                 (None, _) => return Err(missing()),
             }
         }
-        Self::checked(described(whole)?)
+        Self::checked(&whole)
     }
 
     /// Scene of the description.

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use motile_steady_states::{Continuation, Parameter, Spectrum, SteadyError};
+use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 
 use crate::error::{failed, of_setup, refused};
 use crate::setup::Setup;

@@ -35,7 +35,7 @@ def printed_in_rust(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     built = subprocess.run(command.split(), cwd=DOCS.parent, check=True, capture_output=True, text=True).stdout
     messages = [json.loads(line) for line in built.splitlines()]
     files = {m["target"]["name"]: m["filenames"][0] for m in messages if m["reason"] == "compiler-artifact"}
-    crates = ["motile", "motile_output", "steady_states"]
+    crates = ["motile", "motile_output", "motile_steady_states"]
     place = tmp_path_factory.mktemp("rust")
     programs = list(in_rust().values())
     modules = [f"mod p{k} {{ {p.replace('fn main', 'pub fn main')} }}" for k, p in enumerate(programs)]

@@ -97,6 +97,28 @@ def test_wrong_entries_name_their_key(entries: dict[str, object], key: str) -> N
     assert (str(again), again.key, again.remedy) == (str(raised.value), key, raised.value.remedy)
 
 
+@pytest.mark.parametrize(
+    ("entries", "key", "new"),
+    [
+        ({"method": motile.integral(nodes=32, cells=128)}, "method.integral.cells", "method.integral.elements"),
+        ({"method": motile.layers(cells=128)}, "method.layers.cells", "method.layers.elements"),
+        ({"solids": [{}, {"skin": {"stretching": 1}}]}, "solids[1].skin", "solids.surface_elasticity"),
+        ({"method": motile.grid(spacing=0.1, contrast="sharp")}, "method.grid.contrast", "method.integral"),
+    ],
+)
+def test_keys_of_earlier_versions_name_the_new_ones(entries: dict[str, Any], key: str, new: str) -> None:
+    for wrong in (lambda: motile.Setup(**entries), lambda: motile.Setup.from_dict(entries)):
+        with pytest.raises(motile.Error) as raised:
+            wrong()
+        assert raised.value.key == key, str(raised.value)
+        assert new in str(raised.value.remedy) and str(raised.value.remedy) in str(raised.value)
+
+
+def test_replacing_a_key_of_an_earlier_version_names_the_new_one() -> None:
+    with pytest.raises(motile.Error, match=r"method\.integral\.cells = 128: .* method\.integral\.elements"):
+        motile.Setup().replace({"method.integral.cells": 128})
+
+
 def _whole() -> dict[str, Any]:
     """All entries of the file that shows every key."""
     text = (Path(__file__).parents[3] / "crates" / "motile" / "scene.toml").read_text()

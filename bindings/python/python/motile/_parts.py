@@ -38,12 +38,12 @@ def tube(radius: float, **more: Any) -> Part:
 
 
 def integral(**more: Any) -> Part:
-    """Boundary integrals: `nodes` of the shape and `cells` of the concentration of each droplet."""
+    """Boundary integrals: `nodes` of the shape and `elements` of the interface (concentration) of each droplet."""
     return {"integral": more}
 
 
 def layers(**more: Any) -> Part:
-    """Interfaces as layers beside solids on a grid: `nodes`, `cells`, `spacing` of the grid (length), `kernel`."""
+    """Interfaces as layers beside solids on a grid: `nodes`, `elements`, `spacing` of the grid (length), `kernel`."""
     return {"layers": more}
 
 
