@@ -62,8 +62,10 @@ fn activities_beyond_measure_are_named() {
     let message = with(-1e308).build().expect_err("an infinite tension").to_string();
     assert!(message.contains("particles.activity") && message.contains("not finite"), "{message}");
     let error = with(-1e200).build().unwrap().scene.run(1.0).go().unwrap_err();
-    assert!(matches!(error, SceneError::StepTooShort { .. }), "{error}");
-    assert!(error.to_string().contains("give droplet less activity"), "{error}");
+    assert!(matches!(error, SceneError::Refused { .. }), "{error}");
+    let text = error.to_string();
+    assert!(text.starts_with("the time step at the start of the run would be "), "{text}");
+    assert!(text.contains("Use less activity, tension or stiffness for droplet"), "{text}");
 }
 
 #[test]

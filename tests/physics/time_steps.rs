@@ -257,7 +257,8 @@ fn bodies_without_a_finite_bound_need_a_step_that_is_given() {
     let mut scene = channel(StepSize::OfLimit(0.5)).build().expect("a scene").scene;
     assert_eq!(scene.step_limit().expect("a bound").0, f64::INFINITY);
     let error = scene.run(1.0).go().expect_err("a part of infinity");
-    assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
+    assert!(matches!(error, SceneError::Refused { .. }), "{error}");
+    assert!(error.to_string().contains("no body states a limit of the time step"), "{error}");
     assert_eq!((scene.steps(), scene.time()), (0, 0.0));
     for step in [StepSize::Fixed(0.05), StepSize::Adaptive { tolerance: 1e-4 }] {
         let Built { mut scene, droplets, .. } = channel(step).build().expect("a scene");

@@ -10,11 +10,15 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
+use motile_base::{
+    Vec2, finite,
+    internal::{all_finite, all_points_finite, at_least},
+    not_negative, positive, within,
+};
 
 use crate::InterfaceError;
 use equidistant::equidistant;
-pub use motile_base::polygon::first_crossing;
+pub(crate) use motile_base::polygon::first_crossing;
 pub(crate) use periodic::check_period;
 pub use periodic::{line_through, wave};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
@@ -327,7 +331,7 @@ impl Curve {
 /// # Errors
 /// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more
 /// than a factor of four, a crossing, no area.
-pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
+pub(crate) fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
     if area.abs() < 1e-9 * length * length {

@@ -5,7 +5,7 @@ mod stresslet_error;
 
 use std::{ops::Deref, sync::Arc};
 
-use motile_base::{Vec2, at_least};
+use motile_base::{Vec2, internal::at_least};
 
 use crate::{
     ActiveInterface, Exchange, Flux, InterfaceError, Motion, Tension,

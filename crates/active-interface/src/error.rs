@@ -1,6 +1,9 @@
 //! Errors of interfaces and of what is computed on them.
 
-use motile_base::{InputError, Vec2, refusal, told, told_apart};
+use motile_base::{
+    InputError, Vec2,
+    internal::{refusal, told, told_apart},
+};
 
 /// An error of this crate; its message has the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -11,8 +14,8 @@ pub enum InterfaceError {
     Input(#[from] InputError),
     /// A curve that crosses or touches itself.
     #[error(
-        "the curve crosses itself between the segments that start at points {first} and {second}: move or reorder \
-         its points"
+        "the curve crosses itself between the segments that start at points {first} and {second}: move or reorder its \
+         points"
     )]
     SelfCrossing {
         /// A segment by its first point.

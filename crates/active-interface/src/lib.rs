@@ -80,11 +80,8 @@ pub mod theory;
 mod tridiagonal;
 mod units;
 
-pub use concentration::{Flux, InitialConcentration, Repair, SplitMix64};
-pub use curve::{
-    AreaMoments, Curve, first_crossing, line_through, markers_from_points, polygon_area, polygon_moments,
-    polygon_perimeter, wave,
-};
+pub use concentration::{Flux, InitialConcentration, Repair};
+pub use curve::{AreaMoments, Curve, line_through, polygon_area, polygon_moments, polygon_perimeter, wave};
 pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;
 pub use exchange::Exchange;
@@ -96,3 +93,9 @@ pub use motile_scene::{
 };
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::{Quantity, Units};
+
+/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::concentration::SplitMix64;
+}

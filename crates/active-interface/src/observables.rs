@@ -14,7 +14,11 @@ mod profile;
 mod revolution;
 mod squirmer;
 
-use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
+use motile_base::{
+    Vec2,
+    internal::{all_finite, all_points_finite, at_least},
+    same_length,
+};
 use motile_scene::{BodyFlow, Enclosed, FluidView, Handle, Hydrodynamics, SceneError, System};
 
 use crate::curve::polygon::{edges, raw_perimeter};
@@ -77,7 +81,7 @@ impl<'a> InterfaceState<'a> {
     /// Present state of a droplet of a scene, for [`observe`].
     ///
     /// # Errors
-    /// A handle of another scene; [`SceneError::NotEvaluated`] where the flow of the present state is not known.
+    /// A handle of another scene; [`SceneError::Refused`] where the flow of the present state is not known.
     pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
         let view = system.fluid_around(droplet)?;
         Ok(Self::new(system.body(droplet)?, &view, &system.flow_at(droplet)?))

@@ -5,7 +5,7 @@ mod flat_interface;
 mod sphere;
 mod squirmer_flow;
 
-use motile_base::{at_least, finite, not_negative, positive};
+use motile_base::{finite, internal::at_least, not_negative, positive};
 
 use crate::InterfaceError;
 pub use flat_interface::{FlatInterface, Stratum, StratumEnd};

@@ -2,7 +2,7 @@
 
 mod moduli;
 
-use motile_base::{Vec2, all_points_finite, positive, same_length};
+use motile_base::{Vec2, internal::all_points_finite, positive, same_length};
 
 use crate::material::{DeformationGradient, Mat2};
 use crate::mesh::TriangleMesh;

@@ -1,6 +1,6 @@
 //! Errors of solids, meshes and outlines.
 
-use motile_base::{InputError, Vec2, positive, refusal, within};
+use motile_base::{InputError, Vec2, internal::refusal, positive, within};
 
 use crate::material::Mat2;
 

@@ -6,7 +6,11 @@ pub(crate) mod lattice;
 mod quality;
 mod topology;
 
-use motile_base::{Vec2, all_points_finite, at_least, positive};
+use motile_base::{
+    Vec2,
+    internal::{all_points_finite, at_least},
+    positive,
+};
 
 use crate::SolidError;
 

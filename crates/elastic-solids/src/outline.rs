@@ -3,7 +3,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use motile_base::{Vec2, all_points_finite, at_least, finite, positive, within};
+use motile_base::{
+    Vec2, finite,
+    internal::{all_points_finite, at_least},
+    positive, within,
+};
 
 use crate::SolidError;
 use crate::error::{MOST_POINTS, length};

@@ -1,6 +1,11 @@
 //! Rigid bodies that move freely in the flow.
 
-use motile_base::{Vec2, all_points_finite, at_least, polygon::area_and_arm, positive, told_apart};
+use motile_base::{
+    Vec2,
+    internal::{all_points_finite, at_least, told_apart},
+    polygon::area_and_arm,
+    positive,
+};
 use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, Warning, points};
 
 use crate::SolidError;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use motile_base::{BendingMeasure, Membrane, PeriodicSeries, Vec2, all_points_finite, positive, same_length};
+use motile_base::{BendingMeasure, Membrane, PeriodicSeries, Vec2, internal::all_points_finite, positive, same_length};
 use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepLimit, points};
 
 use crate::{SolidError, rigid_body::closed_outline};

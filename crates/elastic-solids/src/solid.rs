@@ -7,7 +7,11 @@ mod spreading;
 
 use std::sync::Arc;
 
-use motile_base::{Vec2, all_points_finite, at_least, positive, same_length};
+use motile_base::{
+    Vec2,
+    internal::{all_points_finite, at_least},
+    positive, same_length,
+};
 
 use crate::active_springs::Bonds;
 use crate::damping::Damping;

@@ -4,7 +4,7 @@ mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;
 
-use motile_base::{Drive, FlowSample, SolveReport, Vec2, all_points_finite, positive, same_length};
+use motile_base::{Drive, FlowSample, SolveReport, Vec2, internal::all_points_finite, positive, same_length};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState,
 };
@@ -178,10 +178,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {
             if other_viscosities(group, self.solver.viscosity())?.is_some() && !self.varying {
-                return Err(FlowError::Unsupported {
-                    what: "an interface to another viscosity on a grid of one viscosity",
-                    remedy: "use layers or boundary integrals, or a smeared contrast",
-                });
+                return Err(FlowError::unsupported(
+                    "an interface to another viscosity on a grid of one viscosity",
+                    "Use layers or boundary integrals, or a smeared contrast",
+                ));
             }
             let positions = &markers.positions()[group.range.clone()];
             let forces = &markers.forces()[group.range.clone()];
@@ -274,16 +274,16 @@ fn load_memory(solver: &mut impl StokesSolver, memory: &[f64]) {
 /// A viscosity that is not positive and finite; a rigid body, an interface that is periodic along x.
 fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
     if group.kind == MarkerKind::Rigid {
-        return Err(FlowError::Unsupported {
-            what: "a rigid body that is coupled to a grid alone",
-            remedy: "use boundary integrals or layers",
-        });
+        return Err(FlowError::unsupported(
+            "a rigid body that is coupled to a grid alone",
+            "Use boundary integrals or layers",
+        ));
     }
     if group.kind.advance().is_some() {
-        return Err(FlowError::Unsupported {
-            what: "an interface that is periodic along x on a grid alone",
-            remedy: "use boundary integrals or layers",
-        });
+        return Err(FlowError::unsupported(
+            "an interface that is periodic along x on a grid alone",
+            "Use boundary integrals or layers",
+        ));
     }
     if !group.kind.is_curve() {
         return Ok(None);

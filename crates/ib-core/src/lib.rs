@@ -102,12 +102,17 @@ mod kernel;
 mod mobility;
 mod transfer;
 
-pub use immersed_boundary::{ImmersedBoundary, SmearedContrast, WALL_TOLERANCE, grid_domain};
+pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use kernel::{AnyKernel, BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
-pub use mobility::{Deficit, MobilityDeficit};
 pub use motile_base::{Drive, FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
     self as scene, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Scene, SceneError,
     StepSize,
 };
 pub use transfer::Transfer;
+
+/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::immersed_boundary::{WALL_TOLERANCE, grid_domain};
+}

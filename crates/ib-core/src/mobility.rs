@@ -8,7 +8,6 @@ use crate::{
     Kernel,
     kernel::{GAUSS_10, Role},
 };
-use motile_base::Vec2;
 
 /// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.
 const LAST: f64 = 6.3;
@@ -37,7 +36,7 @@ const CUT: f64 = 50.0;
 /// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and that of
 /// G_x in sin(4 angle).
 #[derive(Debug, Clone, PartialEq)]
-pub struct MobilityDeficit {
+pub(crate) struct MobilityDeficit {
     /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n, G_x.
     table: Vec<[f64; 6]>,
     /// First grid harmonic of an interface along the grid, at equal steps of the wave number.
@@ -55,25 +54,25 @@ const HARMONIC_INTERVALS: usize = 48;
 /// is missing: with `z = n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4`, n the normal of the interface,
 /// `G = mean + slope z + curvature (32 z^2 - 1)`, and `G_x = cross sin(4 angle)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deficit {
+pub(crate) struct Deficit {
     /// Mean of the tangential deficit.
-    pub tangential: f64,
+    pub(crate) tangential: f64,
     /// Slope of the tangential deficit.
-    pub tangential_slope: f64,
+    pub(crate) tangential_slope: f64,
     /// Curvature of the tangential deficit.
-    pub tangential_curvature: f64,
+    pub(crate) tangential_curvature: f64,
     /// Mean of the normal deficit.
-    pub normal: f64,
+    pub(crate) normal: f64,
     /// Slope of the normal deficit.
-    pub normal_slope: f64,
+    pub(crate) normal_slope: f64,
     /// Amplitude of the deficit that couples tangent and normal, for an angle of the normal of pi/8.
-    pub cross: f64,
+    pub(crate) cross: f64,
 }
 
 impl MobilityDeficit {
     /// Tabulates the deficits of a kernel (some milliseconds).
     #[must_use]
-    pub fn new<K: Kernel>(kernel: &K) -> Self {
+    pub(crate) fn new<K: Kernel>(kernel: &K) -> Self {
         let transforms = Transforms::new(kernel);
         let table = (0..=INTERVALS)
             .map(|i| {
@@ -109,7 +108,7 @@ impl MobilityDeficit {
     /// so that a tangential force F e^{iqx} per length at the height y above a row of nodes moves it by
     /// `(h/eta) F (R/(4q) + 2 H cos(2 pi y/h))`. Without dimension; zero above q = 6.
     #[must_use]
-    pub fn harmonic(&self, q: f64) -> f64 {
+    pub(crate) fn harmonic(&self, q: f64) -> f64 {
         let position = q.abs() / HARMONIC_LAST * HARMONIC_INTERVALS as f64;
         let i = position as usize;
         if i >= HARMONIC_INTERVALS {
@@ -126,7 +125,7 @@ impl MobilityDeficit {
 
     /// The deficits at wave number `q` (in units of 1/h; negative ones count as zero), by interpolation in the table.
     #[must_use]
-    pub fn at(&self, q: f64) -> Deficit {
+    pub(crate) fn at(&self, q: f64) -> Deficit {
         if q >= LAST {
             let all = 0.25 / q;
             return Deficit {
@@ -160,20 +159,10 @@ impl MobilityDeficit {
         Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope, cross }
     }
 
-    /// The tangential deficit `G_t(0)` of forces that do not vary along a flat interface with this unit `tangent` (no
-    /// dimension): half of how much the grid rounds off the kink in the velocity, in units of h/eta times the force per
-    /// length.
-    #[must_use]
-    pub fn flat(&self, tangent: Vec2) -> f64 {
-        let rest = self.at(0.0);
-        let z = tangent.x.powi(4) + tangent.y.powi(4) - 0.75;
-        (rest.tangential + rest.tangential_slope * z + rest.tangential_curvature * (32.0 * z * z - 1.0)).max(0.0)
-    }
-
     /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and
     /// multiplies `cos(4 pi y/h)`.
     #[must_use]
-    pub fn second_harmonic(&self) -> f64 {
+    pub(crate) fn second_harmonic(&self) -> f64 {
         self.second_harmonic
     }
 
@@ -181,7 +170,7 @@ impl MobilityDeficit {
     /// over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the correction.
     /// About 0.33 for the default kernel with the correction and 0.19 without, 0.13 for Peskin's without.
     #[must_use]
-    pub fn interface_stiffness(&self, corrected: bool) -> f64 {
+    pub(crate) fn interface_stiffness(&self, corrected: bool) -> f64 {
         let mut fastest: f64 = 0.0;
         for i in 1..=400 {
             let q = 0.03 * i as f64;

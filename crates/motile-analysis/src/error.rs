@@ -1,6 +1,9 @@
 //! Errors of the analysis.
 
-use motile_base::{InputError, all_finite, refusal};
+use motile_base::{
+    InputError,
+    internal::{all_finite, refusal},
+};
 
 /// An error of this crate. Its text has the offending value and says what to do.
 #[derive(Clone, PartialEq, thiserror::Error)]

@@ -9,7 +9,7 @@ mod regression;
 mod separable;
 mod swings;
 
-use motile_base::{all_finite, not_negative, same_length};
+use motile_base::{internal::all_finite, not_negative, same_length};
 
 use crate::AnalysisError;
 use crate::error::increasing;

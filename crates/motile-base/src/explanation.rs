@@ -20,8 +20,8 @@ pub fn explanation(error: &dyn Error) -> String {
 /// Two numbers as text of three digits, or of as many more as it takes to tell them apart.
 ///
 /// ```
-/// assert_eq!(motile_base::told_apart([0.350_02, 0.35]), ["0.35002", "0.35"]);
-/// assert_eq!(motile_base::told_apart([1.01, 5.0]), ["1.01", "5"]);
+/// assert_eq!(motile_base::internal::told_apart([0.350_02, 0.35]), ["0.35002", "0.35"]);
+/// assert_eq!(motile_base::internal::told_apart([1.01, 5.0]), ["1.01", "5"]);
 /// ```
 #[must_use]
 pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
@@ -32,8 +32,8 @@ pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
 /// Text of a number that was computed, to six digits.
 ///
 /// ```
-/// assert_eq!(motile_base::told(25.800_000_000_000_004), "25.8");
-/// assert_eq!(motile_base::told(6.682_742_181_3e-4), "6.68274e-4");
+/// assert_eq!(motile_base::internal::told(25.800_000_000_000_004), "25.8");
+/// assert_eq!(motile_base::internal::told(6.682_742_181_3e-4), "6.68274e-4");
 /// ```
 #[must_use]
 pub fn told(value: f64) -> String {
@@ -50,7 +50,7 @@ fn rounded(digits: usize, value: f64) -> String {
 /// Text of a refusal: what is wrong, with the value if there is one, and what to do.
 ///
 /// ```
-/// use motile_base::refusal;
+/// use motile_base::internal::refusal;
 ///
 /// let (what, remedy) = ("the grid is too small", "Use at least 4 cells in each direction");
 /// let text = "the grid is too small: 3 x 8 cells. Use at least 4 cells in each direction";
@@ -63,7 +63,7 @@ pub fn refusal(what: &str, value: &str, remedy: &str) -> String {
     format!("{what}{colon}{value}. {remedy}")
 }
 
-/// Implements `Debug` of errors as their [`explanation()`]: what `fn main() -> Result<(), Box<dyn Error>>` prints is
+/// Implements `Debug` of errors as their explanation: what `fn main() -> Result<(), Box<dyn Error>>` prints is
 /// the `Debug` of the error that it returns.
 ///
 /// ```
@@ -79,7 +79,7 @@ macro_rules! debug_as_explanation {
     ($($error:ty),+ $(,)?) => {$(
         impl ::std::fmt::Debug for $error {
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
-                f.write_str(&$crate::explanation(self))
+                f.write_str(&$crate::internal::explanation(self))
             }
         }
     )+};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{FlowSample, InputError, Vec2, all_finite, finite, positive};
+use crate::{FlowSample, InputError, Vec2, finite, internal::all_finite, positive};
 
 /// A flow that is imposed from outside: the one that there would be without bodies.
 ///

@@ -63,7 +63,7 @@ mod real;
 mod region;
 mod series;
 mod sine_cosine;
-pub mod spectrum;
+mod spectrum;
 mod sums;
 mod transform;
 mod vec2;
@@ -71,20 +71,29 @@ mod vec2;
 pub use complex::ComplexTransform;
 pub use curve_forces::CurveForces;
 pub use drive::Drive;
-pub use explanation::{explanation, refusal, told, told_apart};
 pub use flow::{FlowSample, SolveReport};
 pub use imposed::ImposedFlow;
-pub use input::{
-    InputError, all_finite, all_points_finite, at_least, finite, not_negative, positive, same_length, within,
-};
+pub use input::{InputError, finite, not_negative, positive, same_length, within};
 pub use membrane::{BendingMeasure, Membrane};
-pub use quadrature::gauss_legendre;
 pub use real::RealTransform;
 pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;
 pub use sine_cosine::{CosineTransform, NodeSineTransform, SineTransform};
-pub use sums::{dot, sum, widely};
 pub use vec2::Vec2;
+
+/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::explanation::{explanation, refusal, told, told_apart};
+    pub use crate::input::{all_finite, all_points_finite, at_least};
+    pub use crate::quadrature::gauss_legendre;
+    pub use crate::sums::{dot, sum, widely};
+
+    /// Spectra of real numbers.
+    pub mod spectrum {
+        pub use crate::spectrum::*;
+    }
+}
 
 /// Most numbers of a transform: a plan for as many takes some gigabytes.
 const MOST_NUMBERS: usize = 1 << 26;

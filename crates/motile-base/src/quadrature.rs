@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 /// polynomials of degree `2 count - 1`.
 ///
 /// ```
-/// let rule = motile_base::gauss_legendre(3);
+/// let rule = motile_base::internal::gauss_legendre(3);
 /// let integral: f64 = rule.iter().map(|(x, weight)| weight * x.powi(4)).sum();
 /// assert!((integral - 0.4).abs() < 1e-15);
 /// ```

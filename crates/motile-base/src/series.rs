@@ -8,8 +8,9 @@ use crate::{ComplexTransform, InputError, same_length, spectrum};
 ///
 /// `f(alpha) = sum over m of c[m] exp(I m alpha)`, sample k at `alpha = 2 pi k / N`,
 ///
-/// with the coefficients in the order of [`spectrum`]. A vector of the plane is the complex number x + I y. For a
-/// smooth function everything is spectrally accurate: errors fall faster than any power of N.
+/// with entry m of the N coefficients for `exp(I m alpha)` below N/2 and for `exp(I (m - N) alpha)` above. A vector of
+/// the plane is the complex number x + I y. For a smooth function everything is spectrally accurate: errors fall faster
+/// than any power of N.
 #[derive(Debug, Clone)]
 pub struct PeriodicSeries {
     transform: ComplexTransform,

@@ -9,7 +9,7 @@ const LANES: usize = 8;
 /// inlined to be part of it.
 ///
 /// ```
-/// use motile_base::{dot, widely};
+/// use motile_base::internal::{dot, widely};
 ///
 /// let rows = vec![vec![0.5; 11]; 3];
 /// let products = widely(#[inline(always)] || rows.iter().map(|row| dot(row, &[1.0; 11])).sum::<f64>());
@@ -38,7 +38,7 @@ pub fn sum(values: &[f64]) -> f64 {
 /// shorter list do not count.
 ///
 /// ```
-/// assert_eq!(motile_base::dot(&[1.0; 11], &[0.5; 11]), 5.5);
+/// assert_eq!(motile_base::internal::dot(&[1.0; 11], &[0.5; 11]), 5.5);
 /// ```
 #[must_use]
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{FlowSample, Region, SolveReport, Vec2, all_points_finite};
+use motile_base::{FlowSample, Region, SolveReport, Vec2, internal::all_points_finite};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, Markers, checkpoint::SavedState, gap::Boundary,
 };
@@ -54,10 +54,10 @@ impl AxisymmetricIntegral {
         let mut shortest = f64::INFINITY;
         for group in markers.groups() {
             if !group.kind.is_curve() {
-                return Err(FlowError::Unsupported {
-                    what: "points in the fluid around bodies of revolution",
-                    remedy: "give droplets and rigid bodies of revolution alone, or a region of the plane",
-                });
+                return Err(FlowError::unsupported(
+                    "a point in the fluid around axisymmetric bodies",
+                    "Use only axisymmetric droplets and rigid bodies, or a two-dimensional region",
+                ));
             }
             let places = &markers.positions()[group.range.clone()];
             let next = places.iter().cycle().skip(1);

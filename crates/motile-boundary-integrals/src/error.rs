@@ -23,10 +23,10 @@ pub(crate) fn of_layers(error: LayerError) -> FlowError {
             FlowError::NarrowGap { body: curve, gap, least, nodes, needed }
         }
         LayerError::Input(error) => FlowError::Input(error),
-        LayerError::Clockwise { .. } => FlowError::Unsupported {
-            what: "an interface whose markers run clockwise or that crosses itself",
-            remedy: "give its markers in counter-clockwise order",
-        },
+        LayerError::Clockwise { .. } => FlowError::unsupported(
+            "an interface whose markers run clockwise or that crosses itself",
+            "List its markers in counter-clockwise order",
+        ),
         other => FlowError::solver(other),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, positive, told_apart};
+use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, internal::told_apart, positive};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Warning,
     checkpoint::SavedState, gap::Boundary,
@@ -139,10 +139,10 @@ impl BoundaryIntegral {
             group.kind == MarkerKind::Points && forces.iter().any(|force| *force != Vec2::ZERO)
         };
         if markers.groups().iter().any(forced) {
-            return Err(FlowError::Unsupported {
-                what: "force on points that do not belong to an interface",
-                remedy: "use layers or the immersed boundary method for scenes with solids or gels",
-            });
+            return Err(FlowError::unsupported(
+                "force on points that do not belong to an interface",
+                "Use layers or the immersed boundary method for scenes with solids or gels",
+            ));
         }
         Ok(())
     }

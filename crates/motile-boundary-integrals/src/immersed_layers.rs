@@ -3,8 +3,8 @@
 mod contrast;
 mod curves;
 
-use motile_base::{Drive, Region, SolveReport, all_points_finite, same_length};
-use stokes_boundary_integrals::gmres::Outcome;
+use motile_base::{Drive, Region, SolveReport, internal::all_points_finite, same_length};
+use stokes_boundary_integrals::internal::gmres::Outcome;
 use stokes_boundary_integrals::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver, sample_flow, sample_pressure};
 
@@ -14,7 +14,10 @@ use crate::{
 };
 use contrast::LayerContrast;
 use curves::LayerCurves;
-use ib_core::{Kernel, Transfer, WALL_TOLERANCE, grid_domain};
+use ib_core::{
+    Kernel, Transfer,
+    internal::{WALL_TOLERANCE, grid_domain},
+};
 use motile_base::{FlowSample, Vec2};
 use motile_scene::{
     FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState,
@@ -76,10 +79,10 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         let [length, width] = grid.lengths();
         let region = if grid.has_walls() {
             if (grid.origin()[1] + 0.5 * width).abs() > 1e-9 * width {
-                return Err(FlowError::Unsupported {
-                    what: "a channel of layers whose middle is not at y = 0",
-                    remedy: "leave the origin of the grid as it is made",
-                });
+                return Err(FlowError::unsupported(
+                    "a channel of layers whose middle is not at y = 0",
+                    "Leave the origin of the grid at its default",
+                ));
             }
             // Where the grid has a part, the flow that is driven comes from there.
             Region::Channel { length, width, drive: solver.drive() }

@@ -1,6 +1,6 @@
 //! The flow of the groups of markers that are interfaces, by boundary integrals.
 
-use motile_base::{FlowSample, SolveReport, Vec2, all_points_finite};
+use motile_base::{FlowSample, SolveReport, Vec2, internal::all_points_finite};
 use motile_scene::{FlowError, FlowWork, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState};
 use stokes_boundary_integrals::{Interface, InterfaceFlow, Solution, WarmStart};
 

@@ -1,6 +1,6 @@
 //! Rigid walls and obstacles at rest, of any shape.
 
-use motile_base::{PeriodicSeries, Vec2, all_points_finite, not_negative, polygon, positive, within};
+use motile_base::{PeriodicSeries, Vec2, internal::all_points_finite, not_negative, polygon, positive, within};
 use motile_scene::gap::Boundary;
 use num_complex::Complex64;
 use stokes_boundary_integrals::{LayerCurve, LayerError, Settings};

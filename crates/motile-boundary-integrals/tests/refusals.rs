@@ -70,7 +70,12 @@ fn markers_that_are_not_an_interface() {
     let mut points = Markers::new();
     points.push_group(100, MarkerKind::Points);
     points.forces_mut()[7] = Vec2::X;
-    assert!(matches!(solver().velocities(&mut points), Err(FlowError::Unsupported { .. })));
+    let error = solver().velocities(&mut points).unwrap_err();
+    assert!(matches!(error, FlowError::Refused { .. }), "{error}");
+    assert!(
+        error.to_string().starts_with("force on points that do not belong to an interface is not possible"),
+        "{error}"
+    );
 
     // The body is named, which is not the curve of that number.
     let mut few = Markers::new();
@@ -84,7 +89,8 @@ fn markers_that_are_not_an_interface() {
 
     let mut clockwise = markers(&[circle()], 64);
     clockwise.positions_mut().reverse();
-    assert!(matches!(solver().velocities(&mut clockwise), Err(FlowError::Unsupported { .. })));
+    let error = solver().velocities(&mut clockwise).unwrap_err();
+    assert!(matches!(error, FlowError::Refused { .. }) && error.to_string().contains("run clockwise"), "{error}");
 
     for viscosity in [0.0, -3.0, f64::NAN] {
         let mut markers = markers(&[Ellipse { viscosity: Some(viscosity), ..circle() }], 64);

@@ -1,6 +1,6 @@
 //! Errors of fields inside droplets.
 
-use motile_base::{InputError, refusal};
+use motile_base::{InputError, internal::refusal};
 use motile_scene::BodyError;
 
 /// Error of a field inside a droplet, with the offending values and the remedy.
@@ -51,7 +51,7 @@ impl InteriorError {
     /// Mesh of too many nodes.
     pub(crate) fn too_fine(nodes: f64, most: usize) -> Self {
         let value = format!("it would have some {nodes:.1e} nodes, more than {most}");
-        Self::refused("the mesh inside is too fine", value, "Use a larger spacing")
+        Self::refused("the mesh is too fine", value, "Use a larger spacing")
     }
 
     fn refused(what: &str, value: impl Into<String>, remedy: &str) -> Self {

@@ -1,6 +1,9 @@
 //! Triangular factor of a sparse matrix on a triangulation.
 
-use motile_base::{Vec2, dot, widely};
+use motile_base::{
+    Vec2,
+    internal::{dot, widely},
+};
 
 use crate::InteriorError;
 

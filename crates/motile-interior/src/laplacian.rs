@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use motile_base::{Vec2, dot};
+use motile_base::{Vec2, internal::dot};
 
 use crate::{InteriorError, factor::Factor};
 

@@ -4,7 +4,7 @@ mod ring;
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{PeriodicSeries, Vec2, at_least, positive, within};
+use motile_base::{PeriodicSeries, Vec2, internal::at_least, positive, within};
 
 use crate::InteriorError;
 use ring::{Ring, RingValues};

@@ -7,7 +7,7 @@ mod transport;
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, Exchange};
-use motile_base::{Vec2, not_negative, positive, told_apart};
+use motile_base::{Vec2, internal::told_apart, not_negative, positive};
 use motile_scene::{
     Body, BodyError, BodyFlow, FluidView, Handle, InteriorBody, MarkerKind, Observe, StepInfo, StepLimit, Warning,
     checkpoint::SavedState,

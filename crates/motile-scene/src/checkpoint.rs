@@ -9,7 +9,10 @@ pub use error::CheckpointError;
 use serde::{Deserialize, Serialize};
 
 use crate::{Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, scene::Findings, step_report::StepReport};
-use motile_base::{SolveReport, Vec2, told, told_apart};
+use motile_base::{
+    SolveReport, Vec2,
+    internal::{told, told_apart},
+};
 
 /// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
 ///
@@ -112,8 +115,7 @@ fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)])
     for (name, _) in here.iter().chain(saved) {
         let [present, saved] = [value(here, name), value(saved, name)];
         if !present.zip(saved).is_some_and(|(a, b)| same(a, b)) {
-            let (of, property) = (of.to_owned(), name.clone());
-            return Err(SceneError::OtherProperty { of, property, saved, present });
+            return Err(SceneError::other_property(of, name, saved, present));
         }
     }
     Ok(())
@@ -186,7 +188,7 @@ impl<H: Hydrodynamics> Scene<H> {
     ///
     /// # Errors
     /// A checkpoint of another domain, of other bodies, or of a state that a body refuses;
-    /// [`SceneError::OtherProperty`] where bodies or fluid are of something else.
+    /// [`SceneError::Refused`] where bodies or fluid are of something else.
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare(checkpoint)?;
         let before = self.checkpoint("");
@@ -203,7 +205,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// as it was.
     ///
     /// # Errors
-    /// [`SceneError::ForeignCheckpoint`] for other bodies or another number of them, [`SceneError::Body`] for a state
+    /// [`SceneError::Refused`] for other bodies or another number of them, [`SceneError::Body`] for a state
     /// that a body refuses, such as one of another number of markers; places at which bodies overlap, or lie beyond
     /// walls, here.
     pub fn take_over(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
@@ -235,7 +237,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// Refuses a checkpoint of other bodies, by their number and names, or of a time that is none.
     fn compare_bodies(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
-        let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
+        let foreign = |problem: String| Err(SceneError::foreign_checkpoint(problem));
         let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
         if expected != found {
             return foreign(format!("it has {found} bodies, this scene {expected}"));
@@ -254,7 +256,7 @@ impl<H: Hydrodynamics> Scene<H> {
 
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
-        let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
+        let foreign = |problem: String| Err(SceneError::foreign_checkpoint(problem));
         let domain = system.hydrodynamics().fluid_view().domain;
         // The strain of a sheared box is part of the state.
         let unstrained = |domain: Domain| Domain { periods: (*domain.periods).into(), ..domain };
@@ -278,9 +280,8 @@ impl<H: Hydrodynamics> Scene<H> {
         self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize)?;
         if checkpoint.integrator == self.integrator().name() {
             self.load_integrator(&checkpoint.kept)?;
-            self.control = crate::scene::StepControl::load(&checkpoint.control).ok_or_else(|| {
-                SceneError::ForeignCheckpoint { problem: "it has no state of its time steps".to_owned() }
-            })?;
+            self.control = crate::scene::StepControl::load(&checkpoint.control)
+                .ok_or_else(|| SceneError::foreign_checkpoint("it has no state of its time steps"))?;
         }
         self.report = checkpoint.report.clone();
         let same = self.system().hydrodynamics().fluid_view().spacing == checkpoint.spacing;

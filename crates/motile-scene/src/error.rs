@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use motile_base::{InputError, told, told_apart};
+use motile_base::{
+    InputError,
+    internal::{refusal, told, told_apart},
+};
 
 use crate::checkpoint::CheckpointError;
 
@@ -17,7 +20,7 @@ pub enum FlowError {
     #[error(transparent)]
     Solver(Arc<dyn std::error::Error + Send + Sync>),
     /// A body with a curve of too few or too many nodes or points.
-    #[error("a curve of body {body} has {found} {what}: give it {least} to {most}")]
+    #[error("a curve of body {body} has {found} {what}: use {least} to {most}")]
     Count {
         /// Number of the body, in the order of addition.
         body: usize,
@@ -31,7 +34,7 @@ pub enum FlowError {
         most: usize,
     },
     /// A marker position or force is not a finite number.
-    #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
+    #[error("{what} of marker {marker} of body {body} is ({x}, {y}), so the run has failed: use a smaller time step")]
     NonFinite {
         /// Position or force.
         what: &'static str,
@@ -86,8 +89,8 @@ pub enum FlowError {
     /// An iteration did not converge.
     #[error(
         "{what} stopped at a relative residual of {} after {iterations} iterations, above {}: \
-         where a film between different viscosities has become too thin, use more nodes, a finer grid or a repulsion \
-         over a wider range",
+         if a gap between different viscosities has become too narrow, use more nodes, a finer grid or a repulsion \
+         of longer range",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
@@ -100,13 +103,15 @@ pub enum FlowError {
         /// Residual asked for.
         tolerance: f64,
     },
-    /// The method cannot do what the scene asks.
-    #[error("{what} is not possible here: {remedy}")]
-    Unsupported {
-        /// Request.
-        what: &'static str,
-        /// Alternative.
-        remedy: &'static str,
+    /// A request that the method cannot fulfil.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
     },
 }
 
@@ -117,6 +122,13 @@ impl FlowError {
     #[must_use]
     pub fn solver(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Solver(Arc::new(error))
+    }
+
+    /// Returns the refusal of a request that a method cannot fulfil: what it is, and what to use instead.
+    #[must_use]
+    pub fn unsupported(what: &str, remedy: &str) -> Self {
+        let what = format!("{what} is not possible with this method");
+        Self::Refused { what, value: String::new(), remedy: remedy.to_owned() }
     }
 
     /// Returns the error with the number of the body in place of the number of its curve.
@@ -233,23 +245,6 @@ pub enum SceneError {
         /// Depth that is allowed (length).
         allowed: f64,
     },
-    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities.
-    #[error(
-        "at time {time} the fluid between {body} and {other}, or the image of one, would have the viscosities {} and \
-         {}: give both their insides there the same one, or turn one of them",
-        told_apart(*viscosities)[0], told_apart(*viscosities)[1],
-        time = told(*time)
-    )]
-    TwoViscosities {
-        /// Time of the state.
-        time: f64,
-        /// The lower interface.
-        body: String,
-        /// The upper one, or an image of the lower one.
-        other: String,
-        /// The viscosities (stress times time).
-        viscosities: [f64; 2],
-    },
     /// A body has come into an interface or out of it in a step.
     #[error(
         "at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step",
@@ -291,7 +286,7 @@ pub enum SceneError {
     /// A gap is narrower than the bound that was set.
     #[error(
         "at time {time} the gap between {body} and {other} is {} at ({x:.4}, {y:.4}), below the bound of {}: use \
-         a finer grid, no grid or a repulsion, or a lower bound if the film between them does not matter",
+         a finer grid, no grid or a repulsion, or a lower bound if the flow in the gap does not matter",
         told_apart([*gap, *bound])[0], told_apart([*gap, *bound])[1],
         time = told(*time)
     )]
@@ -313,7 +308,8 @@ pub enum SceneError {
     },
     /// A scene that is to be held symmetric ([`crate::Scene::held_symmetric`]) is not.
     #[error(
-        "at time {time} the scene is not its own mirror image in y = 0, as it is to be held: {body} {problem}",
+        "at time {time} the scene cannot be held symmetric, because it is not its own mirror image in y = 0: {body} \
+         {problem}",
         time = told(*time)
     )]
     NotSymmetric {
@@ -339,50 +335,9 @@ pub enum SceneError {
         /// Name of the body.
         body: String,
     },
-    /// A stability limit so short that a run would never end.
-    #[error(
-        "the time step at the start of the run would be {}, set by {reason} of {body}, below {}, with \
-         which it takes 1e10 steps: give {body} less activity, tension or stiffness, or run for less time",
-        told_apart([*dt, *least])[0], told_apart([*dt, *least])[1]
-    )]
-    StepTooShort {
-        /// The step that is stable (time).
-        dt: f64,
-        /// The shortest that the run takes (time).
-        least: f64,
-        /// Reason for the limit.
-        reason: &'static str,
-        /// Name of the body.
-        body: String,
-    },
-    /// A step size that is a part of the stability limit, where no body states a finite one.
-    #[error(
-        "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
-         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)",
-        time = told(*time)
-    )]
-    NoStepLimit {
-        /// Time of the state.
-        time: f64,
-    },
-    /// Adaptive steps with an integrator whose errors cannot be estimated.
-    #[error("the error of a step of {integrator} cannot be estimated: use another step size than `StepSize::Adaptive`")]
-    NoErrorEstimate {
-        /// The integrator's name.
-        integrator: &'static str,
-    },
-    /// Parts of the motion that an integrator would have to treat implicitly and does not.
-    #[error(
-        "{integrator} does not step what bodies have implicit, such as the diffusion of particles: use the midpoint \
-         rule or the Runge-Kutta-Chebyshev method"
-    )]
-    ImplicitParts {
-        /// The integrator's name.
-        integrator: &'static str,
-    },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
-        "at time {time} the time step would have to fall to {}, below the least of {}: take a larger \
+        "at time {time} the time step would have to fall to {}, below the minimum of {}: use a larger \
          tolerance, or refine the grid and the markers{}",
         told_apart([*dt, *least])[0], told_apart([*dt, *least])[1],
         source.as_ref().map_or_else(String::new, |source| format!("; the last attempt ended because {source}")),
@@ -400,7 +355,7 @@ pub enum SceneError {
     },
     /// A run has taken all the steps it was allowed.
     #[error(
-        "at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones",
+        "at time {time} the run has used all {most} steps that it was allowed: allow more steps or longer ones",
         time = told(*time)
     )]
     TooManySteps {
@@ -411,7 +366,7 @@ pub enum SceneError {
     },
     /// The run was told to stop.
     #[error(
-        "stopped at time {time}: the state is that of the last complete step, from which the run can go on",
+        "stopped at time {time}: the state is that of the last complete step, from which you can continue the run",
         time = told(*time)
     )]
     Stopped {
@@ -429,44 +384,6 @@ pub enum SceneError {
     /// A time, time step or other number that makes no sense, or a saved state of something else.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A checkpoint that is not of this scene.
-    #[error("the checkpoint is of another scene: {problem}")]
-    ForeignCheckpoint {
-        /// Difference.
-        problem: String,
-    },
-    /// A body that cannot be moved as a whole.
-    #[error("{body} cannot be moved as a whole: only droplets, rigid bodies, shells and plain markers can")]
-    Immovable {
-        /// Name of the body.
-        body: String,
-    },
-    /// A handle of another scene.
-    #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
-    ForeignHandle,
-    /// The flow of the present state is asked for before it has been computed.
-    #[error("the flow at {body} is not known in the present state: call `evaluate` first, or `observe`, which does")]
-    NotEvaluated {
-        /// The body's name.
-        body: String,
-    },
-    /// A checkpoint of a scene whose fluid or bodies are made of something else.
-    #[error(
-        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was \
-         saved with",
-        shown(*saved),
-        shown(*present)
-    )]
-    OtherProperty {
-        /// The body, or the scene.
-        of: String,
-        /// Name of the property.
-        property: String,
-        /// Its value in the checkpoint, if it has one there.
-        saved: Option<f64>,
-        /// Its value in the present scene.
-        present: Option<f64>,
-    },
     /// An observer failed.
     #[error("an observer failed at time {time}: {source}", time = told(*time))]
     Observer {
@@ -475,18 +392,108 @@ pub enum SceneError {
         /// Cause.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+    /// A scene, checkpoint, handle or integrator that cannot be used.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
+    },
 }
 
 motile_base::debug_as_explanation!(SceneError);
 
+impl SceneError {
+    /// Neighbouring interfaces that are periodic along x, the lower one and the upper one or an image of the lower, and
+    /// give the fluid between them two viscosities (stress times time).
+    pub(crate) fn two_viscosities(time: f64, [body, other]: [String; 2], viscosities: [f64; 2]) -> Self {
+        let (time, [lower, upper]) = (told(time), told_apart(viscosities));
+        let between = format!("the fluid between {body} and {other}, or the image of one,");
+        let what = format!("at time {time} {between} would have the viscosities {lower} and {upper}");
+        Self::refused(what, "", "Give both the same viscosity inside, or turn one of them over")
+    }
+
+    /// A stability limit so short that a run would never end.
+    pub(crate) fn step_too_short(dt: f64, least: f64, reason: &str, body: &str) -> Self {
+        let [dt, least] = told_apart([dt, least]);
+        let what = format!("the time step at the start of the run would be {dt}, set by {reason} of {body}");
+        let value = format!("below {least}, the run takes more than 1e10 steps");
+        let remedy = format!("Use less activity, tension or stiffness for {body}, or run for less time");
+        Self::refused(what, value, remedy)
+    }
+
+    /// A step size that is a fraction of the stability limit, where no body states a finite one.
+    pub(crate) fn no_step_limit(time: f64) -> Self {
+        let what =
+            format!("at time {} no body states a limit of the time step, so there is no fraction of it", told(time));
+        let remedy = "Use `StepSize::Fixed` or `StepSize::Adaptive`, or let a body state a limit (`Body::step_limits`)";
+        Self::refused(what, "", remedy)
+    }
+
+    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    pub(crate) fn no_error_estimate(integrator: &str) -> Self {
+        let what = format!("the error of a step of {integrator} cannot be estimated");
+        Self::refused(what, "", "Use another step size than `StepSize::Adaptive`")
+    }
+
+    /// Parts of the motion that an integrator would have to treat implicitly and does not.
+    pub(crate) fn implicit_parts(integrator: &str) -> Self {
+        let what = format!("the {integrator} integrator cannot handle particles or gels");
+        let value = "their diffusion is treated implicitly";
+        Self::refused(what, value, "Use the midpoint rule or the Runge-Kutta-Chebyshev method")
+    }
+
+    /// A checkpoint that is not of this scene.
+    pub(crate) fn foreign_checkpoint(difference: impl Into<String>) -> Self {
+        Self::refused("the checkpoint is of another scene", difference, "Resume with the scene that wrote it")
+    }
+
+    /// A checkpoint of a scene whose fluid or bodies are made of something else: the body or the scene, its property,
+    /// and the values of the property in the checkpoint and here.
+    pub(crate) fn other_property(of: &str, property: &str, saved: Option<f64>, present: Option<f64>) -> Self {
+        let value = format!("for {of}, {property} is {} in it and {} here", shown(saved), shown(present));
+        Self::refused("the checkpoint is of other physics", value, "Resume with the values it was saved with")
+    }
+
+    /// A body that cannot be moved as a whole.
+    pub(crate) fn immovable(body: &str) -> Self {
+        let remedy = "Move only droplets, rigid bodies, shells and plain markers";
+        Self::refused(format!("{body} cannot be moved as a whole"), "", remedy)
+    }
+
+    /// A handle of another scene.
+    pub(crate) fn foreign_handle() -> Self {
+        let remedy = "Use the handle that this scene returned when the body was added";
+        Self::refused("the handle is of a body of another scene", "", remedy)
+    }
+
+    /// The flow of the present state is asked for before it has been computed.
+    pub(crate) fn not_evaluated(body: &str) -> Self {
+        let what = format!("the flow at {body} is not known in the present state");
+        Self::refused(what, "", "Call `evaluate` first, or `observe`, which does it for you")
+    }
+
+    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
+    }
+
+    /// The error and its causes in one sentence.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        motile_base::internal::explanation(self)
+    }
+}
+
+/// Text of a property that may be missing.
 fn shown(value: Option<f64>) -> String {
     value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
 
-impl SceneError {
-    /// The error and its causes in one sentence.
-    #[must_use]
-    pub fn explanation(&self) -> String {
-        motile_base::explanation(self)
-    }
+/// Whether an error is a refusal whose text contains these words.
+#[cfg(test)]
+pub(crate) fn refused(error: &SceneError, words: &str) -> bool {
+    matches!(error, SceneError::Refused { .. }) && error.to_string().contains(words)
 }

@@ -126,7 +126,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         if flow.is_none() && strain == 0.0 {
             return Ok(());
         }
-        Err(FlowError::Unsupported { what: "an imposed flow", remedy: "use boundary integrals (the method integral)" })
+        Err(FlowError::unsupported("an imposed flow", "Use boundary integrals (the method `integral`)"))
     }
 
     /// The flow that is imposed, which velocities and samples are the sum of it and of the bodies' own; what the drive

@@ -12,7 +12,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Deformation of a body that is a closed curve, and its motion along itself, in the present state.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`]; those of [`System::evaluate`]; a body of fewer than eight markers.
+    /// [`SceneError::Refused`]; those of [`System::evaluate`]; a body of fewer than eight markers.
     pub fn deformation(&mut self, handle: impl Into<Handle<dyn Body>>) -> Result<Deformation, SceneError> {
         self.evaluate()?;
         let flow = self.flow_at(handle)?;

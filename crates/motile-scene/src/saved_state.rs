@@ -1,6 +1,6 @@
 //! States that bodies, integrators and flows keep from step to step, as plain numbers.
 
-use motile_base::{InputError, all_finite, same_length};
+use motile_base::{InputError, internal::all_finite, same_length};
 use serde::{Deserialize, Serialize};
 
 /// Numbers from which an object makes its state again, bitwise; only the object knows what they mean.

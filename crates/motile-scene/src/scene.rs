@@ -116,7 +116,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// A body.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    /// [`SceneError::Refused`] for a handle of another scene.
     pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
         self.system.body(handle)
     }
@@ -124,7 +124,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// A body, to be changed between steps.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    /// [`SceneError::Refused`] for a handle of another scene.
     pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
         self.system.body_mut(handle)
     }
@@ -133,7 +133,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// scene is as it was.
     ///
     /// # Errors
-    /// A displacement that is not finite; [`SceneError::ForeignHandle`]; [`SceneError::Immovable`] for a body that
+    /// A displacement that is not finite; [`SceneError::Refused`]; [`SceneError::Refused`] for a body that
     /// cannot be moved as a whole; a place where it would overlap another body or lie beyond a wall.
     pub fn translate(&mut self, bodies: &[Handle<dyn Body>], by: Vec2) -> Result<(), SceneError> {
         finite("the displacement in x", by.x)?;
@@ -151,7 +151,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// yet.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`] for a handle of another scene; those of the flow and of the body.
+    /// [`SceneError::Refused`] for a handle of another scene; those of the flow and of the body.
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         self.system.observe(handle)
     }

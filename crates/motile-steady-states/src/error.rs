@@ -3,7 +3,7 @@
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::boundary_integrals::LayerError;
-use motile_base::{InputError, refusal};
+use motile_base::{InputError, internal::refusal};
 
 /// Error of a steady state, a branch or a limit cycle, with the offending value and the remedy.
 #[derive(thiserror::Error)]

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::Exchange;
 use motile::setup::Particles;
-use motile_base::{Vec2, gauss_legendre};
+use motile_base::{Vec2, internal::gauss_legendre};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::SteadyError;

@@ -2,6 +2,7 @@
 
 use active_interface::InterfaceError;
 use elastic_solids::SolidError;
+use motile_base::internal::{refusal, told_apart};
 use motile_boundary_integrals::LayerError;
 use motile_interior::InteriorError;
 use motile_scene::FlowError;
@@ -66,7 +67,7 @@ pub enum SetupError {
     /// Body that starts inside another one, or where another one is.
     #[error(
         "{key} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move them apart or make one of them smaller",
-        motile_base::told_apart([*depth, *allowed])[0], motile_base::told_apart([*depth, *allowed])[1]
+        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     Overlap {
         /// Key of the entry in the description, with its name if it has one.
@@ -105,7 +106,7 @@ pub enum SetupError {
         largest: f64,
     },
     /// Scene file that cannot be read, or bodies that contradict each other.
-    #[error("{}", motile_base::refusal(what, value, remedy))]
+    #[error("{}", refusal(what, value, remedy))]
     Refused {
         /// Sentence that says what is wrong.
         what: String,

@@ -32,8 +32,8 @@ pub(crate) fn short_tube(length: f64, least: f64) -> LayerError {
 /// A meridian that meets the axis between its poles, at this coordinate x.
 pub(crate) fn meets_axis(curve: usize, x: f64) -> LayerError {
     let what = format!("curve {curve} meets the axis between its poles, at x = {x:.4}");
-    let remedy = "Keep the meridian off the axis. If this ended a run, a neck has pinched, after which the droplet \
-                  would be two droplets, which the model does not describe";
+    let remedy = "Keep the meridian off the axis. If this ended a run, a neck has pinched: the droplet would become \
+                  two droplets, which the model does not describe";
     LayerError::refused(what, "", remedy)
 }
 

@@ -11,13 +11,13 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::spectrum::largest_wave;
+use motile_base::internal::spectrum::largest_wave;
 use num_complex::Complex64;
 
 mod kernels;
 mod place;
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use crate::{
     curve::Curve,

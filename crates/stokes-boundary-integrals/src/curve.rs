@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use motile_base::{
-    InputError, Vec2, same_length,
-    spectrum::{copy_band, differentiate, largest_wave},
+    InputError, Vec2,
+    internal::spectrum::{copy_band, differentiate, largest_wave},
+    same_length,
 };
 use num_complex::Complex64;
 
@@ -15,7 +16,7 @@ use crate::{
     greens::{GreensFunction, Vectors, half_turns},
     transforms::{REFINEMENT, Transform, Transforms},
 };
-use motile_base::{Region, widely};
+use motile_base::{Region, internal::widely};
 
 /// Shape and force of a curve at equally spaced parameters, as complex numbers x + i y.
 #[derive(Debug, Clone, Default)]

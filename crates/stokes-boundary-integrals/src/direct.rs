@@ -4,7 +4,7 @@ mod arrays;
 mod stored;
 mod sums;
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use crate::{
     curve::Curve,

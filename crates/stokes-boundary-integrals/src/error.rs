@@ -1,6 +1,9 @@
 //! Errors of layers: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, Vec2, refusal, told_apart};
+use motile_base::{
+    InputError, Vec2,
+    internal::{refusal, told_apart},
+};
 
 /// An error of this crate; its message names the offending value and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]

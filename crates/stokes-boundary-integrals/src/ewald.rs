@@ -21,7 +21,7 @@ mod window;
 
 use std::{f64::consts::PI, ops::Range};
 
-use motile_base::{InputError, Region, Vec2, spectrum::is_product};
+use motile_base::{InputError, Region, Vec2, internal::spectrum::is_product};
 
 use crate::{
     curve::Curve,

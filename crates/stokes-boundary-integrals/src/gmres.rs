@@ -1,7 +1,7 @@
 //! Generalised minimal residuals (GMRES) for dense well-conditioned systems, with directions recycled from solution to
 //! solution.
 
-use motile_base::dot;
+use motile_base::internal::dot;
 
 /// Basis vectors before a restart: with directions and images 180 vectors, 2 MB for ten interfaces of 64 nodes. Usual
 /// solutions take a few iterations.
@@ -23,7 +23,7 @@ pub struct Outcome {
 /// once a size has been used.
 ///
 /// ```
-/// use stokes_boundary_integrals::gmres::Gmres;
+/// use stokes_boundary_integrals::internal::gmres::Gmres;
 ///
 /// let product = |x: &[f64], out: &mut [f64], _accuracy: f64| {
 ///     (out[0], out[1]) = (2.0 * x[0] + x[1], x[0] + 3.0 * x[1]);

@@ -47,7 +47,7 @@ pub struct Solution {
 pub struct WarmStart {
     /// Velocities at the nodes (length per time), x then y, interface after interface.
     pub velocities: Vec<f64>,
-    /// Recycled directions; see [`Gmres::save`](crate::gmres::Gmres::save).
+    /// Directions that the iterative solver recycles.
     pub directions: Vec<f64>,
 }
 

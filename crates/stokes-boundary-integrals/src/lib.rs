@@ -57,7 +57,7 @@
 //!   (Ewald). These are the same sums to the tolerance, in
 //!   time and memory that grow like the number of nodes, and with the feature `rayon` on several threads, to the same
 //!   bits.
-//! * A viscosity contrast needs the double layer and GMRES ([`gmres`]); its iterations depend neither on the nodes nor,
+//! * A viscosity contrast needs the double layer and GMRES; its iterations depend neither on the nodes nor,
 //!   beyond a ratio of about ten, on the ratio.
 //! * At points and nodes close to a curve the quadrature uses the preimage of the point under the complex
 //!   parametrisation.
@@ -76,7 +76,7 @@ mod density;
 mod direct;
 mod error;
 mod ewald;
-pub mod gmres;
+mod gmres;
 mod greens;
 mod images;
 mod interface_flow;
@@ -93,14 +93,20 @@ mod transforms;
 pub use calculus::{PeriodicCalculus, TensionPlacement};
 pub use curve::LayerCurve;
 pub use error::LayerError;
-pub use interface_flow::{DenseFactors, Inside, Interface, InterfaceFlow, Solution, WarmStart};
+pub use interface_flow::{Inside, Interface, InterfaceFlow, Solution, WarmStart};
 pub use rigid_motion::RigidMotion;
 pub use settings::{Settings, Symmetry};
 pub use single_layer::SingleLayer;
 
-/// What the axisymmetric crate shares with this one. It is not part of the interface and may change at any time.
+/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
+    pub use crate::interface_flow::{DenseFactors, MOST_CONTRAST};
     pub use crate::shares::{MOST as MOST_SHARES, each as each_share};
-    pub use crate::{calculus::MOST_POINTS, error::finite_vectors, interface_flow::MOST_CONTRAST};
+    pub use crate::{calculus::MOST_POINTS, error::finite_vectors};
+
+    /// The iterative solver of the equations.
+    pub mod gmres {
+        pub use crate::gmres::{Gmres, Outcome};
+    }
 }

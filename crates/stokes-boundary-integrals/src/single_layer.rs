@@ -105,7 +105,7 @@ impl SingleLayer {
     pub fn apply(&mut self, forces: &[f64], out: &mut [f64]) -> Result<(), LayerError> {
         same_length("the forces", self.entry_count(), forces.len())?;
         same_length("out", self.entry_count(), out.len())?;
-        motile_base::all_finite("the forces", forces)?;
+        motile_base::internal::all_finite("the forces", forces)?;
         self.layers.stored_layer(forces);
         out.fill(0.0);
         for curve in 0..self.layers.curves.len() {

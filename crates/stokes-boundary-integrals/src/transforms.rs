@@ -2,7 +2,7 @@
 
 use motile_base::{
     ComplexTransform, InputError, Vec2,
-    spectrum::{copy_band, largest_wave},
+    internal::spectrum::{copy_band, largest_wave},
 };
 use num_complex::Complex64;
 

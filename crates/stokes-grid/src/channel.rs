@@ -3,7 +3,7 @@
 mod mean_flow;
 mod modes;
 
-use motile_base::{Drive, SolveReport, positive, sum};
+use motile_base::{Drive, SolveReport, internal::sum, positive};
 use num_complex::Complex64;
 
 use crate::{

@@ -1,6 +1,9 @@
 //! Errors of solvers and grids: the value that cannot be used and the remedy.
 
-use motile_base::{InputError, finite, refusal, told_apart};
+use motile_base::{
+    InputError, finite,
+    internal::{refusal, told_apart},
+};
 
 /// An error of this crate; its message names the offending values and the remedy.
 #[derive(Clone, PartialEq, thiserror::Error)]

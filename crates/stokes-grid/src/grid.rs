@@ -1,6 +1,6 @@
 //! Rectangular grids of square cells.
 
-use motile_base::{all_finite, finite, positive};
+use motile_base::{finite, internal::all_finite, positive};
 
 use crate::StokesError;
 

@@ -2,7 +2,7 @@
 //!
 //! Each function checks that its fields share a grid and then writes `out`; nothing is allocated.
 
-use motile_base::{same_length, sum};
+use motile_base::{internal::sum, same_length};
 
 use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion, stencil};
 

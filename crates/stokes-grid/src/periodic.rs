@@ -3,7 +3,7 @@
 #[cfg(feature = "rayon")]
 pub(crate) mod parallel;
 
-use motile_base::{SolveReport, finite, positive, sum};
+use motile_base::{SolveReport, finite, internal::sum, positive};
 
 use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, StokesSolver, Symbol, Work, stencil};
 

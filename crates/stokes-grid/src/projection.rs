@@ -6,7 +6,7 @@ mod lagged;
 mod periodic;
 mod wall_response;
 
-use motile_base::{Drive, SolveReport, finite, positive, same_length, sum};
+use motile_base::{Drive, SolveReport, finite, internal::sum, positive, same_length};
 
 use crate::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, Work};
 use channel::ChannelProjection;

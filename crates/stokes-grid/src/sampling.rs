@@ -1,6 +1,6 @@
 //! Values of grid fields between grid points.
 
-use motile_base::{FlowSample, Vec2, all_points_finite, same_length};
+use motile_base::{FlowSample, Vec2, internal::all_points_finite, same_length};
 
 use crate::{CentreField, Grid, StaggeredField, StokesError};
 

@@ -383,5 +383,5 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
 
 /// Scalar product of two fields.
 fn dot(a: &StaggeredField, b: &StaggeredField) -> f64 {
-    motile_base::dot(a.x(), b.x()) + motile_base::dot(a.y(), b.y())
+    motile_base::internal::dot(a.x(), b.x()) + motile_base::internal::dot(a.y(), b.y())
 }

@@ -1,6 +1,9 @@
 //! Tangential velocities of the walls of a channel.
 
-use motile_base::{all_finite, same_length, sum};
+use motile_base::{
+    internal::{all_finite, sum},
+    same_length,
+};
 use num_complex::Complex64;
 
 use crate::transform::RowTransform;

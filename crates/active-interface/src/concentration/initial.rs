@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, all_finite, finite, not_negative, positive, within};
+use motile_base::{Vec2, finite, internal::all_finite, not_negative, positive, within};
 
 use crate::InterfaceError;
 use crate::curve::{Function, check_period, polygon::edges};

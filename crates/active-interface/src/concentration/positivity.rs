@@ -1,6 +1,6 @@
 //! Repair of negative particle numbers.
 
-use motile_base::all_finite;
+use motile_base::internal::all_finite;
 
 use crate::InterfaceError;
 

@@ -1,6 +1,6 @@
 //! Points at equal distances along a curve, closed or periodic.
 
-use motile_base::{Vec2, all_points_finite};
+use motile_base::{Vec2, internal::all_points_finite};
 
 use crate::InterfaceError;
 

@@ -2,7 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, all_finite, all_points_finite, at_least, finite, polygon::CrossingFinder, positive, within};
+use motile_base::{
+    Vec2, finite,
+    internal::{all_finite, all_points_finite, at_least},
+    polygon::CrossingFinder,
+    positive, within,
+};
 
 use super::{
     MAXIMUM_MARKERS, MAXIMUM_UNEVENNESS, MINIMUM_MARKERS, equidistant::equidistant, polygon::raw_area,

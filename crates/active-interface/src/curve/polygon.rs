@@ -1,7 +1,11 @@
 //! Exact geometry of the polygon through the markers.
 
 pub(crate) use motile_base::polygon::{area as raw_area, edges};
-use motile_base::{Vec2, all_points_finite, at_least, polygon::area_and_arm};
+use motile_base::{
+    Vec2,
+    internal::{all_points_finite, at_least},
+    polygon::area_and_arm,
+};
 
 use crate::InterfaceError;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, told_apart};
+use motile_base::{Vec2, internal::told_apart};
 use motile_scene::{
     Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit, Warning, checkpoint::SavedState,
 };

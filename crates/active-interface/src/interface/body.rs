@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{Vec2, at_least};
+use motile_base::{Vec2, internal::at_least};
 use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Warning, checkpoint::SavedState, points,
 };

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use motile_base::{
-    InputError, Membrane, Vec2, all_finite, finite, not_negative, polygon::CrossingFinder, positive, same_length,
+    InputError, Membrane, Vec2, finite, internal::all_finite, not_negative, polygon::CrossingFinder, positive,
+    same_length,
 };
 
 use super::{

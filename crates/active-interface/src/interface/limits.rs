@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::told_apart;
+use motile_base::internal::told_apart;
 use motile_scene::{FluidView, StepCause, StepLimit};
 
 use super::{ActiveInterface, Motion};

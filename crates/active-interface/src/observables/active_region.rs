@@ -1,6 +1,10 @@
 //! Active region: the part of the interface that is crowded with particles.
 
-use motile_base::{Vec2, all_finite, all_points_finite, at_least, same_length};
+use motile_base::{
+    Vec2,
+    internal::{all_finite, all_points_finite, at_least},
+    same_length,
+};
 
 use super::curvature::fitted_curvature;
 use crate::InterfaceError;

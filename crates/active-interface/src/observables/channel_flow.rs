@@ -1,6 +1,6 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
-use motile_base::{FlowSample, SolveReport, Vec2, finite, gauss_legendre, positive};
+use motile_base::{FlowSample, SolveReport, Vec2, finite, internal::gauss_legendre, positive};
 use motile_scene::{BodyError, FlowError, FluidView, Handle, Hydrodynamics, SceneError, System};
 
 use crate::curve::polygon::edges;
@@ -129,11 +129,9 @@ fn named<H: Hydrodynamics>(system: &System<H>, droplet: Handle<ActiveDroplet>, s
 }
 
 fn walls(view: &FluidView, time: f64) -> Result<[f64; 2], SceneError> {
-    let source = FlowError::Unsupported {
-        what: "the flux through a cross-section",
-        remedy: "put the droplet into a channel with walls",
-    };
-    view.domain.walls.ok_or(SceneError::Flow { time, source })
+    let source =
+        || FlowError::unsupported("the flux through a cross-section", "Put the droplet into a channel with walls");
+    view.domain.walls.ok_or_else(|| SceneError::Flow { time, source: source() })
 }
 
 /// Lowest and highest point of the polygon at `x`; infinite and exchanged where it does not reach there.

@@ -1,6 +1,10 @@
 //! Curvatures of an interface: from a circle fitted to an arc, and from the balance of stresses.
 
-use motile_base::{FlowSample, Vec2, all_points_finite, at_least, finite, positive};
+use motile_base::{
+    FlowSample, Vec2, finite,
+    internal::{all_points_finite, at_least},
+    positive,
+};
 
 use super::least_squares::NormalEquations;
 use crate::InterfaceError;

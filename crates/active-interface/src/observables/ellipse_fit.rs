@@ -1,6 +1,6 @@
 //! Least squares ellipse through the markers.
 
-use motile_base::{Vec2, at_least};
+use motile_base::{Vec2, internal::at_least};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
 use super::least_squares::NormalEquations;

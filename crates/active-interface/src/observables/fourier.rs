@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use motile_base::{Vec2, all_finite, same_length};
+use motile_base::{Vec2, internal::all_finite, same_length};
 
 use super::frame::Frame;
 use super::polar::{Polar, PolarMarkers};

@@ -1,6 +1,6 @@
 //! Centroid and velocity of a droplet, and the axes along its motion.
 
-use motile_base::{Vec2, all_points_finite, finite, same_length};
+use motile_base::{Vec2, finite, internal::all_points_finite, same_length};
 
 use crate::curve::polygon::AreaMoments;
 use crate::{InterfaceError, curve::polygon_moments};

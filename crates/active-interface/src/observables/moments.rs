@@ -1,6 +1,10 @@
 //! Moments of the interface's force, which determine the flow far away from a droplet.
 
-use motile_base::{InputError, Vec2, all_points_finite, at_least, finite, same_length};
+use motile_base::{
+    InputError, Vec2, finite,
+    internal::{all_points_finite, at_least},
+    same_length,
+};
 use motile_scene::Enclosed;
 
 use super::frame::{Frame, weighted_normals};

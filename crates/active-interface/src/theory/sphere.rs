@@ -1,6 +1,6 @@
 //! Exact and approximate results for a spherical droplet in three dimensions.
 
-use motile_base::{at_least, finite, positive, within};
+use motile_base::{finite, internal::at_least, positive, within};
 
 use super::RoundDroplet;
 use crate::InterfaceError;

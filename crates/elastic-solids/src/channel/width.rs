@@ -1,6 +1,10 @@
 //! Width of a channel between deformed walls.
 
-use motile_base::{Vec2, all_points_finite, at_least, positive};
+use motile_base::{
+    Vec2,
+    internal::{all_points_finite, at_least},
+    positive,
+};
 
 use crate::{Solid, SolidError};
 

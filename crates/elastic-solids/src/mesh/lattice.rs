@@ -1,6 +1,10 @@
 //! Lattices of equilateral triangles.
 
-use motile_base::{InputError, Vec2, all_points_finite, at_least, within};
+use motile_base::{
+    InputError, Vec2,
+    internal::{all_points_finite, at_least},
+    within,
+};
 
 use crate::SolidError;
 use crate::error::{MOST_POINTS, length};

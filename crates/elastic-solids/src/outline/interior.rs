@@ -1,6 +1,6 @@
 //! Interiors: the solid that outlines enclose.
 
-use motile_base::{Vec2, at_least};
+use motile_base::{Vec2, internal::at_least};
 use motile_scene::gap::Boundary;
 
 use crate::mesh::TriangleMesh;

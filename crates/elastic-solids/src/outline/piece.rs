@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motile_base::{Vec2, all_points_finite};
+use motile_base::{Vec2, internal::all_points_finite};
 
 use crate::SolidError;
 use crate::error::length;

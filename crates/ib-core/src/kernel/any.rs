@@ -76,9 +76,11 @@ impl std::str::FromStr for AnyKernel {
     type Err = FlowError;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|kernel| kernel.name() == name).ok_or(FlowError::Unsupported {
-            what: "a kernel of that name",
-            remedy: "use peskin4, roma3, gaussian6, bspline3, bspline4, bspline5 or bspline6",
+        Self::ALL.into_iter().find(|kernel| kernel.name() == name).ok_or_else(|| {
+            FlowError::unsupported(
+                "a kernel of that name",
+                "Use peskin4, roma3, gaussian6, bspline3, bspline4, bspline5 or bspline6",
+            )
         })
     }
 }

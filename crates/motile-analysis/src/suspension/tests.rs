@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use motile_base::{Drive, Region, Vec2};
 
 use super::*;
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 
 fn directions(angles: impl Iterator<Item = f64>) -> Vec<Vec2> {
     angles.map(|angle| Vec2::new(angle.cos(), angle.sin())).collect()

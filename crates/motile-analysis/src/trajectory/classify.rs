@@ -1,6 +1,6 @@
 //! Classification of a trajectory.
 
-use motile_base::at_least;
+use motile_base::internal::at_least;
 
 use super::linear_mode::FEWEST_SAMPLES;
 use super::regression::line;

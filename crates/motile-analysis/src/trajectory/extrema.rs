@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use motile_base::{all_finite, not_negative, same_length};
+use motile_base::{internal::all_finite, not_negative, same_length};
 
 use super::regression::Solution;
 use crate::AnalysisError;

@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{all_finite, at_least, same_length};
+use motile_base::{
+    internal::{all_finite, at_least},
+    same_length,
+};
 
 use super::Estimate;
 use super::regression::Solution;

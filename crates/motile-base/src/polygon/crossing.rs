@@ -1,6 +1,9 @@
 //! Crossings of a closed polygon with itself.
 
-use crate::{InputError, Vec2, all_points_finite, at_least, finite};
+use crate::{
+    InputError, Vec2, finite,
+    internal::{all_points_finite, at_least},
+};
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
 /// they are about equally spaced.

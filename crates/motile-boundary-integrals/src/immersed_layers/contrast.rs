@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{PeriodicSeries, spectrum::largest_wave};
+use motile_base::{PeriodicSeries, internal::spectrum::largest_wave};
 use num_complex::Complex64;
-use stokes_boundary_integrals::gmres::{Gmres, Outcome};
+use stokes_boundary_integrals::internal::gmres::{Gmres, Outcome};
 use stokes_boundary_integrals::{InterfaceFlow, SingleLayer, Solution};
 
 use crate::error::of_layers;

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use motile_base::{InputError, PeriodicSeries, at_least, spectrum::largest_wave};
+use motile_base::{
+    InputError, PeriodicSeries,
+    internal::{at_least, spectrum::largest_wave},
+};
 use num_complex::Complex64;
 use stokes_boundary_integrals::{LayerCurve, Settings};
 

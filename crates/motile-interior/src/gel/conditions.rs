@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 use motile_base::{Vec2, finite, not_negative};
 
 use crate::InteriorError;

@@ -1,6 +1,6 @@
 //! Gel that fills a periodic box.
 
-use motile_base::{Vec2, at_least, positive};
+use motile_base::{Vec2, internal::at_least, positive};
 use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit};
 
 use super::director::{Director, GelObservables};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{ComplexTransform, InputError, PeriodicSeries, Vec2, spectrum::largest_wave};
+use motile_base::{ComplexTransform, InputError, PeriodicSeries, Vec2, internal::spectrum::largest_wave};
 use num_complex::Complex64;
 
 /// Factor of a mode below which its share of a position is round-off.

@@ -6,7 +6,7 @@ use std::cell::{Cell, RefCell};
 
 use crate::{Body, BodyError, FluidView, MarkerKind, body::StepLimit, points, saved_state::SavedState};
 use decay::Mobility;
-use motile_base::{InputError, Vec2, all_points_finite, not_negative};
+use motile_base::{InputError, Vec2, internal::all_points_finite, not_negative};
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.
 type ForceLaw = Box<dyn FnMut(&[Vec2], &mut [Vec2]) + Send>;

@@ -3,6 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use motile_base::internal::refusal;
+
 /// A checkpoint could not be written or read.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
@@ -26,21 +28,6 @@ pub enum CheckpointError {
         /// The path.
         path: PathBuf,
     },
-    /// A directory at this path.
-    #[error("{} is a directory: give the path of a checkpoint in it", path.display())]
-    Directory {
-        /// The path.
-        path: PathBuf,
-    },
-    /// A file that may not be read.
-    #[error("there is no permission to read the checkpoint {}: change its permissions", path.display())]
-    Permission {
-        /// The path.
-        path: PathBuf,
-    },
-    /// Something else than a checkpoint.
-    #[error("this is not a checkpoint, since it does not start as one does: give the path of one")]
-    Foreign,
     /// A checkpoint of another version of the format.
     #[error(
         "the checkpoint has version {found} of the format, this program reads version {supported}: use the program \
@@ -52,28 +39,16 @@ pub enum CheckpointError {
         /// The version that is read.
         supported: u32,
     },
-    /// The end is missing, or there is something after it.
-    #[error(
-        "the checkpoint has {found} bytes where {expected} are needed: it is incomplete or has been added to, use \
-         another one"
-    )]
-    Length {
-        /// Bytes needed.
-        expected: u64,
-        /// Bytes found.
-        found: u64,
+    /// A file that is not a complete and undamaged checkpoint, or cannot be opened.
+    #[error("{}", refusal(what, value, remedy))]
+    Refused {
+        /// Sentence that says what is wrong.
+        what: String,
+        /// The offending value and the reason, empty if the sentence has them.
+        value: String,
+        /// Sentence that says what to do.
+        remedy: String,
     },
-    /// The contents are not those that were written.
-    #[error("the checkpoint is damaged: its checksum is {found:08x} where {expected:08x} was written, use another one")]
-    Damaged {
-        /// Checksum written.
-        expected: u32,
-        /// Checksum of the contents found.
-        found: u32,
-    },
-    /// The contents are not those of a checkpoint, though they are what was written.
-    #[error("the contents of the checkpoint make no sense: use another one")]
-    Contents(#[source] postcard::Error),
 }
 
 motile_base::debug_as_explanation!(CheckpointError);
@@ -84,9 +59,48 @@ impl CheckpointError {
         let path = path.to_owned();
         match source.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => Self::Missing { path },
-            ErrorKind::IsADirectory => Self::Directory { path },
-            ErrorKind::PermissionDenied => Self::Permission { path },
+            ErrorKind::IsADirectory => Self::directory(&path),
+            ErrorKind::PermissionDenied => Self::permission(&path),
             _ => Self::File { action: "read", path, source },
         }
     }
+
+    fn directory(path: &Path) -> Self {
+        Self::refused(format!("{} is a directory", path.display()), "", "Use the path of a checkpoint in it")
+    }
+
+    fn permission(path: &Path) -> Self {
+        let what = format!("there is no permission to read the checkpoint {}", path.display());
+        Self::refused(what, "", "Change its permissions")
+    }
+
+    /// Something else than a checkpoint.
+    pub(super) fn foreign() -> Self {
+        let what = "this file is not a checkpoint, because it does not start as one does";
+        Self::refused(what, "", "Use the path of a checkpoint")
+    }
+
+    /// The end is missing, or there is something after it.
+    pub(super) fn length(expected: u64, found: u64) -> Self {
+        let value = format!("it has {found} bytes where {expected} are needed");
+        Self::refused("the checkpoint is incomplete or has been added to", value, ANOTHER)
+    }
+
+    /// The contents are not those that were written, by their checksums.
+    pub(super) fn damaged(expected: u32, found: u32) -> Self {
+        let value = format!("its checksum is {found:08x} where {expected:08x} was written");
+        Self::refused("the checkpoint is damaged", value, ANOTHER)
+    }
+
+    /// The contents are not those of a checkpoint, though they are what was written.
+    pub(super) fn contents(cause: &postcard::Error) -> Self {
+        Self::refused("the contents of the checkpoint make no sense", cause.to_string(), ANOTHER)
+    }
+
+    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: &str) -> Self {
+        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.to_owned() }
+    }
 }
+
+/// Remedy for files that are beyond repair.
+const ANOTHER: &str = "Use another checkpoint";

@@ -24,7 +24,7 @@ impl Checkpoint {
     /// # Errors
     /// None that is known.
     pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
-        let contents = postcard::to_stdvec(self).map_err(CheckpointError::Contents)?;
+        let contents = postcard::to_stdvec(self).map_err(|error| CheckpointError::contents(&error))?;
         let mut bytes = Vec::with_capacity(HEADER + contents.len());
         bytes.extend_from_slice(&MARK);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
@@ -40,12 +40,12 @@ impl Checkpoint {
     /// Bytes that are not exactly those of a checkpoint.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
         if !bytes.starts_with(&MARK) {
-            return Err(CheckpointError::Foreign);
+            return Err(CheckpointError::foreign());
         }
         let found = bytes.len() as u64;
         let header = part(bytes, 8).zip(part(bytes, 12)).zip(part(bytes, 20));
         let Some(((version, length), checksum)) = header else {
-            return Err(CheckpointError::Length { expected: HEADER as u64, found });
+            return Err(CheckpointError::length(HEADER as u64, found));
         };
         let version = u32::from_le_bytes(version);
         if version != VERSION {
@@ -53,12 +53,12 @@ impl Checkpoint {
         }
         let expected = u64::from_le_bytes(length).saturating_add(HEADER as u64);
         if expected != found {
-            return Err(CheckpointError::Length { expected, found });
+            return Err(CheckpointError::length(expected, found));
         }
         let contents = &bytes[HEADER..];
         let (expected, found) = (u32::from_le_bytes(checksum), crc32fast::hash(contents));
         if expected != found {
-            return Err(CheckpointError::Damaged { expected, found });
+            return Err(CheckpointError::damaged(expected, found));
         }
         Self::from_contents(contents)
     }
@@ -70,8 +70,8 @@ impl Checkpoint {
     pub fn from_contents(contents: &[u8]) -> Result<Self, CheckpointError> {
         match postcard::take_from_bytes(contents) {
             Ok((checkpoint, [])) => Ok(checkpoint),
-            Ok(_) => Err(CheckpointError::Contents(postcard::Error::DeserializeBadEncoding)),
-            Err(error) => Err(CheckpointError::Contents(error)),
+            Ok(_) => Err(CheckpointError::contents(&postcard::Error::DeserializeBadEncoding)),
+            Err(error) => Err(CheckpointError::contents(&error)),
         }
     }
 

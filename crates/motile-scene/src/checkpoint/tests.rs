@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::refused;
 use crate::hydrodynamics::drag_box::DragBox;
 
 /// The fault comes to light only after the flow has taken its state over.
@@ -13,7 +14,8 @@ fn a_refusal_leaves_the_flow_as_it_was() {
         time: 1.0,
         ..before.clone()
     };
-    assert!(matches!(scene.resume(&other), Err(SceneError::ForeignCheckpoint { .. })));
+    let error = scene.resume(&other).unwrap_err();
+    assert!(refused(&error, "the checkpoint is of another scene"), "{error}");
     assert_eq!(scene.checkpoint(""), before);
 }
 
@@ -34,7 +36,7 @@ fn what_keeps_a_file_from_being_read_is_told() {
     assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b: check the path");
     assert_eq!(
         told(ErrorKind::PermissionDenied),
-        "there is no permission to read the checkpoint a/b: change its permissions"
+        "there is no permission to read the checkpoint a/b. Change its permissions"
     );
     assert!(told(ErrorKind::IsADirectory).starts_with("a/b is a directory"));
     assert!(told(ErrorKind::Other).starts_with("could not read the checkpoint a/b"));

@@ -1,7 +1,7 @@
 //! The gap between interfaces and solids during a run.
 
 use crate::{Body, Handle, Hydrodynamics, Observer, System};
-use motile_base::{Vec2, told_apart};
+use motile_base::{Vec2, internal::told_apart};
 
 /// Name of the record of the smallest gap.
 const RECORD: &str = "smallest gap to a solid";

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::gap::SurfaceCurve;
-use motile_base::{InputError, Vec2, all_finite, positive, within};
+use motile_base::{InputError, Vec2, internal::all_finite, positive, within};
 
 /// Kind of a group of markers, which decides how the flow treats it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! A flow that is given.
 
-use motile_base::{FlowSample, SolveReport, Vec2, all_points_finite, same_length};
+use motile_base::{FlowSample, SolveReport, Vec2, internal::all_points_finite, same_length};
 
 use super::{Domain, FlowWork, FluidView, Hydrodynamics, Markers};
 use crate::FlowError;

@@ -35,7 +35,7 @@ impl Integrator for RungeKutta {
         self.sum.fill(0.0);
         system.add_implicit(&self.start, 1.0, &mut self.sum);
         if self.sum.iter().any(|&part| part != 0.0) {
-            return Err(SceneError::ImplicitParts { integrator: self.name() });
+            return Err(SceneError::implicit_parts(self.name()));
         }
         system.present_rate(&mut self.rate)?;
         self.sum.copy_from_slice(&self.rate);

@@ -3,7 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use motile_base::PeriodicSeries;
-use motile_base::{InputError, Vec2, at_least, same_length, spectrum};
+use motile_base::{
+    InputError, Vec2,
+    internal::{at_least, spectrum},
+    same_length,
+};
 use num_complex::Complex64;
 
 /// Places of a curve for each marker that are looked at for its largest and smallest radius.

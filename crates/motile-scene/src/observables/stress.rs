@@ -98,13 +98,13 @@ impl<H: Hydrodynamics> System<H> {
     /// bodies inside others are apart. Closed curves are integrated by their trigonometric interpolants.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`]; [`FlowError::Unsupported`] beside interfaces that are periodic along x, whose
+    /// Those of [`System::evaluate`]; [`FlowError::Refused`] beside interfaces that are periodic along x, whose
     /// tension pulls across the ends of a period.
     pub fn stresslets(&mut self) -> Result<Vec<[[f64; 2]; 2]>, SceneError> {
         if self.markers().groups().iter().any(|group| group.kind.advance().is_some()) {
             let what = "the stresslet of an interface that is periodic along x";
-            let remedy = "average the stress over a horizontal line that crosses no interface, by `System::sample`";
-            return Err(SceneError::Flow { time: self.time(), source: FlowError::Unsupported { what, remedy } });
+            let remedy = "Average the stress over a horizontal line that crosses no interface, by `System::sample`";
+            return Err(SceneError::Flow { time: self.time(), source: FlowError::unsupported(what, remedy) });
         }
         self.evaluate()?;
         let viscosity = self.hydrodynamics().fluid_view().viscosity;
@@ -116,12 +116,12 @@ impl<H: Hydrodynamics> System<H> {
     /// Mean stress of a periodic box.
     ///
     /// # Errors
-    /// Those of [`System::stresslets`]; [`FlowError::Unsupported`] where the region is no box.
+    /// Those of [`System::stresslets`]; [`FlowError::Refused`] where the region is no box.
     pub fn stress(&mut self) -> Result<Stress, SceneError> {
         let view = self.hydrodynamics().fluid_view();
         let [Some(lx), Some(ly)] = *view.domain.periods else {
-            let (what, remedy) = ("the mean stress of a region without an area", "use a periodic box, or `stresslets`");
-            return Err(SceneError::Flow { time: self.time(), source: FlowError::Unsupported { what, remedy } });
+            let (what, remedy) = ("the mean stress of a region without an area", "Use a periodic box, or `stresslets`");
+            return Err(SceneError::Flow { time: self.time(), source: FlowError::unsupported(what, remedy) });
         };
         let mut total = [[0.0; 2]; 2];
         for stresslet in self.stresslets()? {

@@ -16,7 +16,7 @@ impl SceneId {
 }
 
 /// A body of type B in the scene that it was added to, and in no other: there it is
-/// [`crate::SceneError::ForeignHandle`]. Valid for as long as the scene lives.
+/// [`crate::SceneError::Refused`]. Valid for as long as the scene lives.
 pub struct Handle<B: ?Sized> {
     scene: SceneId,
     index: usize,

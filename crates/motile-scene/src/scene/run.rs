@@ -321,7 +321,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         }
         if self.tolerance().is_some() && self.scene.integrator().error_constant().is_none() {
             let integrator = self.scene.integrator().name();
-            return Err(SceneError::NoErrorEstimate { integrator });
+            return Err(SceneError::no_error_estimate(integrator));
         }
         self.step.check()?;
         let least = length / MOST_STEPS;
@@ -333,7 +333,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
             StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {
                 self.check_limit()?;
                 if let Some((dt, reason, body)) = self.limit().filter(|(dt, ..)| dt.is_nan() || *dt < least) {
-                    return Err(SceneError::StepTooShort { dt, least, reason, body });
+                    return Err(SceneError::step_too_short(dt, least, reason, &body));
                 }
             }
         }
@@ -351,7 +351,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
             self.scene.system_mut().evaluate()?;
         }
         if unknown(self.scene) {
-            return Err(SceneError::NoStepLimit { time: self.scene.time() });
+            return Err(SceneError::no_step_limit(self.scene.time()));
         }
         Ok(())
     }

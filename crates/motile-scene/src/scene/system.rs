@@ -239,7 +239,7 @@ impl<H: Hydrodynamics> System<H> {
         if velocities.len() != self.bodies.markers.len() {
             let (found, expected) = (velocities.len(), self.bodies.markers.len());
             let problem = format!("it has the velocities of {found} markers, the scene has {expected}");
-            return Err(SceneError::ForeignCheckpoint { problem });
+            return Err(SceneError::foreign_checkpoint(problem));
         }
         // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only
         // to the tolerance of its iterations, so those that were found take their place, and so does what the next

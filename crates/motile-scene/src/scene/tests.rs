@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::refused;
 use crate::hydrodynamics::drag_box::DragBox;
 use crate::integrator::IntegratorKind;
 use crate::{BodyError, BodyFlow, FluidView, MarkerBody};
@@ -33,11 +34,23 @@ fn a_handle_knows_its_scene() {
     assert_eq!(second.body(own).unwrap().name(), "c");
     // The first has an index that the second scene has too, the other one has not.
     for handle in foreign {
-        assert!(matches!(second.body(handle), Err(SceneError::ForeignHandle)));
-        assert!(matches!(second.body_mut(handle), Err(SceneError::ForeignHandle)));
-        assert!(matches!(second.observe(handle), Err(SceneError::ForeignHandle)));
-        assert!(matches!(second.system().any_body(handle), Err(SceneError::ForeignHandle)));
-        assert!(matches!(second.system().flow_at(handle), Err(SceneError::ForeignHandle)));
+        assert!(second.body(handle).is_err_and(|error| refused(&error, "the handle is of a body of another scene")));
+        assert!(
+            second.body_mut(handle).is_err_and(|error| refused(&error, "the handle is of a body of another scene"))
+        );
+        assert!(second.observe(handle).is_err_and(|error| refused(&error, "the handle is of a body of another scene")));
+        assert!(
+            second
+                .system()
+                .any_body(handle)
+                .is_err_and(|error| refused(&error, "the handle is of a body of another scene"))
+        );
+        assert!(
+            second
+                .system()
+                .flow_at(handle)
+                .is_err_and(|error| refused(&error, "the handle is of a body of another scene"))
+        );
         assert_ne!(handle, own);
     }
     // With another integrator, and after a checkpoint, it is the same scene.
@@ -62,7 +75,7 @@ fn a_body_is_observed_in_its_present_state() {
     let mut scene = scene();
     let handle = scene.add(pulled("a"));
     let error = scene.system().flow_at(handle).unwrap_err();
-    assert!(matches!(error, SceneError::NotEvaluated { .. }) && error.to_string().contains("`evaluate`"), "{error}");
+    assert!(refused(&error, "is not known in the present state. Call `evaluate` first"), "{error}");
     let seen = scene.observe(handle).unwrap();
     assert!(seen.x > 0.01 && seen.y > 0.01, "{seen}");
     // What was known is of no use after the body has been changed.

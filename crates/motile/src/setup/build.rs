@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, SmearedContrast};
-use motile_base::{Region, Vec2, polygon, spectrum::is_product};
+use motile_base::{Region, Vec2, internal::spectrum::is_product, polygon};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
 use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};

@@ -1,6 +1,6 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
-use motile_base::{Region, TubeShape, Vec2, told_apart};
+use motile_base::{Region, TubeShape, Vec2, internal::told_apart};
 use motile_scene::{
     Hydrodynamics,
     gap::{Overlap, Surfaces},

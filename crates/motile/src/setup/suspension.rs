@@ -7,7 +7,7 @@ mod placement;
 
 use std::f64::consts::{PI, TAU};
 
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 use motile_base::Region;
 use serde::{Deserialize, Serialize};
 

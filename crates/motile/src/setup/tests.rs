@@ -185,7 +185,10 @@ fn gels_that_make_no_scene_are_refused() {
         ("droplet.gel.spacing = 0.6: it is for a droplet of radius 1.000: give 0.500 or less", {
             with(GelSetup { spacing: Some(0.6), ..GelSetup::default() })
         }),
-        ("droplets[0]: the mesh would have some 3", with(GelSetup { spacing: Some(1e-6), ..GelSetup::default() })),
+        (
+            "droplets[0]: the mesh is too fine: it would have some 3",
+            with(GelSetup { spacing: Some(1e-6), ..GelSetup::default() }),
+        ),
         ("droplets[0].gel.start.uniform.noise =", {
             let start = DirectorStart::Uniform { angle: 0.0, noise: -1.0, seed: 0 };
             with(GelSetup { start, ..GelSetup::default() })
@@ -228,7 +231,10 @@ fn gels_fill_boxes_and_nothing_else_lies_in_them() {
             of(GelInBoxSetup { material: GelMaterial { frank: -1.0, ..gel.material }, ..gel }),
         ),
         ("gels[0].spacing = 0", of(GelInBoxSetup { spacing: Some(0.0), ..gel })),
-        ("gels[0]: the mesh would have some 6.0e14 nodes", of(GelInBoxSetup { spacing: Some(1e-7), ..gel })),
+        (
+            "gels[0]: the mesh is too fine: it would have some 6.0e14 nodes",
+            of(GelInBoxSetup { spacing: Some(1e-7), ..gel }),
+        ),
         ("gels[0].start = around a centre", of(GelInBoxSetup { start: DirectorStart::Aster, ..gel })),
         ("method = layers: it has no gels that fill a box: give grid", Setup { method: layers(), ..base.clone() }),
         ("region = channel", Setup { region: channel(3.0), ..base.clone() }),

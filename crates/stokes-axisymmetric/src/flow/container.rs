@@ -14,7 +14,7 @@ use super::{
     waves::dot,
 };
 use crate::refusal::short_tube;
-use stokes_boundary_integrals::{DenseFactors, LayerError};
+use stokes_boundary_integrals::{LayerError, internal::DenseFactors};
 
 /// Length of a closed tube beyond the surfaces at either end, over its radius: flows decay to 2e-11.
 const BEYOND: f64 = 5.5;

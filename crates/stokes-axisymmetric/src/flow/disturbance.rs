@@ -14,7 +14,7 @@ use super::{
     waves::{Pair, Waves},
 };
 use crate::refusal::{not_one_interface, singular_surfaces};
-use stokes_boundary_integrals::{DenseFactors, LayerError};
+use stokes_boundary_integrals::{LayerError, internal::DenseFactors};
 
 /// Largest order: the integrals over the azimuth take 16 points for every panel of a few waves.
 const MOST_ORDER: f64 = 8.0;

@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, ops::Range};
 
-use motile_base::gauss_legendre;
+use motile_base::internal::gauss_legendre;
 
 use super::waves::{Point, Waves};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::spectrum::largest_wave;
+use motile_base::internal::spectrum::largest_wave;
 use num_complex::Complex64;
 
 use crate::{curve::Curve, transforms::REFINEMENT};

@@ -4,7 +4,7 @@
 //! Both directions of a pair share one evaluation of the kernel, and the loop over i has no sums across i, so it runs
 //! in vector registers.
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use crate::greens::{PairKernel, Stokeslet, Vectors, ln};
 

@@ -1,6 +1,6 @@
 //! Points of a box sorted into cells of half the cut-off, with the images beyond its sides.
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use super::lattice::Lattice;
 use crate::shares;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use crate::{greens::ln, shares};
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use motile_base::{ComplexTransform, InputError, widely};
+use motile_base::{ComplexTransform, InputError, internal::widely};
 use num_complex::Complex64;
 
 use super::{cells::Cells, window::Window};

@@ -18,7 +18,7 @@
 
 use std::f64::consts::PI;
 
-use motile_base::gauss_legendre;
+use motile_base::internal::gauss_legendre;
 
 use super::{
     polynomial::{powers, value},

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::widely;
+use motile_base::internal::widely;
 use num_complex::Complex64;
 
 use crate::shares;

@@ -1,6 +1,6 @@
 //! Factors of a dense matrix that is solved with many times.
 
-use motile_base::widely;
+use motile_base::internal::widely;
 use nalgebra::{DMatrix, Dim, Dyn, LU, Matrix, PermutationSequence, VecStorage};
 
 /// Columns that are taken off the right-hand side together, so that it is read and written once for all of them.

@@ -2,7 +2,10 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-use motile_base::{Vec2, spectrum::differentiate, widely};
+use motile_base::{
+    Vec2,
+    internal::{spectrum::differentiate, widely},
+};
 use num_complex::Complex64;
 
 use crate::{

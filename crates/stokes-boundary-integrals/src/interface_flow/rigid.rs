@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Vec2, gauss_legendre, within};
+use motile_base::{Vec2, internal::gauss_legendre, within};
 use nalgebra::{DMatrix, DVector};
 
 use num_complex::Complex64;

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use motile_base::{
     Vec2,
     boxes::{BoxTree, Frame},
-    spectrum::{copy_band, largest_wave},
+    internal::spectrum::{copy_band, largest_wave},
 };
 use num_complex::Complex64;
 

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use motile_base::widely;
+use motile_base::internal::widely;
 
 use crate::{close_weights::KernelArrays, greens::Vectors};
 

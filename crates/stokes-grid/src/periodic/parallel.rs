@@ -1,6 +1,6 @@
 //! Transforms of a large periodic box on several threads.
 
-use motile_base::{InputError, sum};
+use motile_base::{InputError, internal::sum};
 use num_complex::Complex64;
 use rayon::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use motile_base::{Drive, sum};
+use motile_base::{Drive, internal::sum};
 use num_complex::Complex64;
 
 use super::across::Across;

@@ -1,6 +1,6 @@
 //! Intermediate velocities at the walls that the next solution takes over.
 
-use motile_base::{InputError, all_finite, same_length};
+use motile_base::{InputError, internal::all_finite, same_length};
 
 /// Numbers for each wave number: real and imaginary part at the bottom, then at the top.
 const NUMBERS: usize = 4;

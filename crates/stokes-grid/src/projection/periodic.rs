@@ -1,6 +1,6 @@
 //! The projection method in a periodic box.
 
-use motile_base::sum;
+use motile_base::internal::sum;
 
 #[cfg(feature = "rayon")]
 use crate::periodic::parallel;

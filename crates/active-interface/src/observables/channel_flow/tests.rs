@@ -192,7 +192,9 @@ fn channels_only() {
     let body = scene.add(droplet(20, 0.5, [0.0, 0.0]));
     assert!(matches!(net_flux(scene.system_mut(), 0.0), Err(SceneError::Flow { .. })));
     let error = gap_flow(scene.system_mut(), body).unwrap_err();
-    assert!(error.explanation().contains("put the droplet into a channel"), "{error}");
+    assert!(error.explanation().contains("Put the droplet into a channel"), "{error}");
     let mut other = Scene::new(Profile { plug: 1.0, shear: 0.0, curve: 0.0, walls: true });
-    assert!(matches!(gap_flow(other.system_mut(), body), Err(SceneError::ForeignHandle)));
+    let error = gap_flow(other.system_mut(), body).unwrap_err();
+    assert!(matches!(error, SceneError::Refused { .. }), "{error}");
+    assert!(error.to_string().starts_with("the handle is of a body of another scene"), "{error}");
 }

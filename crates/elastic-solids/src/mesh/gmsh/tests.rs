@@ -137,7 +137,9 @@ fn errors_name_the_line() {
     let at = |from: &str, to: &str| {
         let error = changed(from, to);
         assert!(is_refused(&error, "of the mesh file cannot be used: "), "{error}");
-        (numbers(&error)[0] as usize, error.to_string())
+        let line = numbers(&error)[0] as usize;
+        let SolidError::Refused { value, .. } = error else { panic!("{error}") };
+        (line, value)
     };
     assert_eq!(at("4.1 0 8", "2.2 0 8").0, 2);
     assert!(at("4.1 0 8", "4.1 1 8").1.contains("binary"));

@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 use motile_base::Vec2;
 use motile_scene::StepCause;
 

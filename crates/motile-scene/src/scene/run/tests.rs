@@ -1,3 +1,4 @@
+use crate::error::refused;
 use std::convert::Infallible;
 
 use super::*;
@@ -47,7 +48,9 @@ fn runs_that_would_never_end_are_refused() {
     assert!(matches!(error, SceneError::Input(InputError::OutOfRange { .. })), "{error}");
     scene.add(drawn().with_stiffness(1e12).unwrap());
     let error = scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go().unwrap_err();
-    assert!(matches!(error, SceneError::StepTooShort { dt, .. } if dt < 1e-10), "{error}");
+    assert!(refused(&error, "the time step at the start of the run would be "), "{error}");
+    let dt = error.to_string().split("would be ").nth(1).and_then(|rest| rest.split(',').next()?.parse::<f64>().ok());
+    assert!(dt.is_some_and(|dt| dt < 1e-10), "{error}");
     assert!(scene.run(1e-9).step_size(StepSize::OfLimit(0.5)).go().is_ok());
 }
 
@@ -115,12 +118,13 @@ fn a_run_needs_a_bound_on_its_steps() {
     };
     let part = StepSize::OfLimit(0.5);
     let error = scene.run(50.0).step_size(part).observe(Every::Steps(1), &mut look).go().unwrap_err();
-    assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
+    assert!(refused(&error, "no body states a limit of the time step"), "{error}");
     assert!(error.to_string().contains("`StepSize::Fixed`"), "{error}");
     assert_eq!((calls, scene.steps(), scene.time()), (0, 0, 0.0));
     // The method that bounds its errors has no better idea of what is stable.
     let mut scene = scene.advanced_by(IntegratorKind::RungeKuttaChebyshev);
-    assert!(matches!(scene.run(50.0).step_size(part).go(), Err(SceneError::NoStepLimit { .. })));
+    let error = scene.run(50.0).step_size(part).go().unwrap_err();
+    assert!(refused(&error, "no body states a limit of the time step"), "{error}");
     let mut scene = scene.advanced_by(IntegratorKind::Midpoint);
     for step in [StepSize::Fixed(0.01), StepSize::Adaptive { tolerance: 1e-4 }] {
         scene.body_mut(point).unwrap().markers_mut()[0].x = 0.3;
@@ -177,7 +181,7 @@ fn adaptive_steps_need_an_estimate_of_errors() {
     let point = scene.add(drawn().with_stiffness(100.0).unwrap());
     let adaptive = StepSize::Adaptive { tolerance: 1e-4 };
     let error = scene.run(1.0).step_size(adaptive).go().unwrap_err();
-    assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");
+    assert!(refused(&error, "the error of a step of Euler's method cannot be estimated"), "{error}");
     assert_eq!(scene.steps(), 0);
     scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go().unwrap();
     assert!(scene.body(point).unwrap().markers()[0].length() < 1e-3);

@@ -49,7 +49,7 @@ impl Bodies {
 
     /// The number of a body, if it is one of this scene.
     pub(super) fn index_of(&self, handle: Handle<dyn Body>) -> Result<usize, SceneError> {
-        if handle.scene() == self.scene { Ok(handle.index()) } else { Err(SceneError::ForeignHandle) }
+        if handle.scene() == self.scene { Ok(handle.index()) } else { Err(SceneError::foreign_handle()) }
     }
 
     /// The name of a body, with its number where another one has the same.

@@ -7,7 +7,7 @@ use crate::{
     Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
     gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, RepulsionLoad, Surfaces, wall_gap},
 };
-use motile_base::{Drive, Vec2, told_apart};
+use motile_base::{Drive, Vec2, internal::told_apart};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
@@ -59,7 +59,7 @@ impl<H: Hydrodynamics> System<H> {
     /// boundary. Needs no evaluation, but memory and time.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`].
+    /// [`SceneError::Refused`].
     pub fn gap(
         &self,
         first: impl Into<Handle<dyn Body>>,
@@ -200,8 +200,8 @@ impl<H: Hydrodynamics> System<H> {
         self.find_gaps();
         let view = self.hydrodynamics.fluid_view();
         if let Some((body, other, viscosities)) = self.contacts.surfaces.conflict(view.domain.periods, view.viscosity) {
-            let [body, other] = [body, other].map(|index| self.bodies.name_of(index));
-            return Err(SceneError::TwoViscosities { time: self.clock.time, body, other, viscosities });
+            let bodies = [body, other].map(|index| self.bodies.name_of(index));
+            return Err(SceneError::two_viscosities(self.clock.time, bodies, viscosities));
         }
         if let Some(overlap) = self.contacts.gaps.crossed.or_else(|| self.contacts.surfaces.first_overlap(&view)) {
             let Overlap { body, other, place: Vec2 { x, y }, depth, allowed } = overlap;

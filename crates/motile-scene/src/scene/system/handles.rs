@@ -12,16 +12,16 @@ impl<H: Hydrodynamics> System<H> {
     /// A body.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`].
+    /// [`SceneError::Refused`].
     pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
         let body: &dyn Any = self.any_body(handle)?;
-        body.downcast_ref().ok_or(SceneError::ForeignHandle)
+        body.downcast_ref().ok_or_else(SceneError::foreign_handle)
     }
 
     /// A body whose type does not matter.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`].
+    /// [`SceneError::Refused`].
     pub fn any_body(&self, handle: impl Into<Handle<dyn Body>>) -> Result<&dyn Body, SceneError> {
         Ok(self.bodies.list[self.bodies.index_of(handle.into())?].as_ref())
     }
@@ -32,7 +32,7 @@ impl<H: Hydrodynamics> System<H> {
         self.known = Known::Nothing;
         self.clock.first_step = true;
         let body: &mut dyn Any = self.bodies.list[index].as_mut();
-        body.downcast_mut().ok_or(SceneError::ForeignHandle)
+        body.downcast_mut().ok_or_else(SceneError::foreign_handle)
     }
 
     /// The bodies of type B with their handles, in the order in which they were added.
@@ -52,12 +52,12 @@ impl<H: Hydrodynamics> System<H> {
     /// The flow at the markers of a body in the present state.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`]; [`SceneError::NotEvaluated`] where the flow of the present state is not known, as
+    /// [`SceneError::Refused`]; [`SceneError::Refused`] where the flow of the present state is not known, as
     /// before the first [`System::evaluate`].
     pub fn flow_at(&self, handle: impl Into<Handle<dyn Body>>) -> Result<BodyFlow<'_>, SceneError> {
         let index = self.bodies.index_of(handle.into())?;
         if self.known != Known::Flow {
-            return Err(SceneError::NotEvaluated { body: self.bodies.list[index].name().to_owned() });
+            return Err(SceneError::not_evaluated(self.bodies.list[index].name()));
         }
         let Bodies { markers, enclosing, .. } = &self.bodies;
         let FluidView { viscosity, domain, .. } = self.hydrodynamics.fluid_view();
@@ -75,7 +75,7 @@ impl<H: Hydrodynamics> System<H> {
     /// lies inside an interface. As of the last [`System::evaluate`].
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`].
+    /// [`SceneError::Refused`].
     pub fn fluid_around(&self, handle: impl Into<Handle<dyn Body>>) -> Result<FluidView, SceneError> {
         let outside = self.bodies.viscosity_around[self.bodies.index_of(handle.into())?];
         Ok(self.hydrodynamics.fluid_view().in_fluid(outside).into_owned())
@@ -84,7 +84,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Observables of a body in the present state, whose flow is computed if it is not known yet.
     ///
     /// # Errors
-    /// [`SceneError::ForeignHandle`]; those of [`System::evaluate`] and of [`Observe::observables`].
+    /// [`SceneError::Refused`]; those of [`System::evaluate`] and of [`Observe::observables`].
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         let index = self.bodies.index_of(handle.into())?;
         self.evaluate()?;

@@ -18,7 +18,7 @@ impl Bodies {
 
     /// Refuses interior_bodies whose hosts are not in this scene.
     pub(super) fn check_interior_bodies(&self) -> Result<(), SceneError> {
-        if self.stray_interior_body { Err(SceneError::ForeignHandle) } else { Ok(()) }
+        if self.stray_interior_body { Err(SceneError::foreign_handle()) } else { Ok(()) }
     }
 
     /// Shows all interior_bodies their hosts in the present state.

@@ -87,7 +87,7 @@ impl<H: Hydrodynamics> System<H> {
             let mut state = vec![0.0; body.state_len()];
             body.write_state(&mut state);
             if !body.translate(by, &mut state) {
-                return Err(SceneError::Immovable { body: body.name().to_owned() });
+                return Err(SceneError::immovable(body.name()));
             }
             body.read_state(&state).map_err(|source| failure(time, body, source))?;
         }

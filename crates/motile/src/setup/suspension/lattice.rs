@@ -1,6 +1,6 @@
 //! Lattices that fill a region.
 
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 use motile_base::{Region, Vec2};
 
 /// So many sites of the lattice of rows along x, each second one displaced by half a spacing or none, whose least

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use active_interface::SplitMix64;
+use active_interface::internal::SplitMix64;
 use motile_base::{Region, Vec2, boxes::Periods};
 
 use super::cells::Cells;

@@ -120,8 +120,9 @@ fn nothing_flows_through_walls() {
         let leak = samples(&mut flow, &on_wall).iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
         assert!(leak < 1e-10, "{leak:e}");
         for x in [-3.0, -1.2, 1.7] {
-            let places =
-                motile_base::gauss_legendre(64).into_iter().map(|(at, weight)| (wave(x) * at, wave(x) * weight));
+            let places = motile_base::internal::gauss_legendre(64)
+                .into_iter()
+                .map(|(at, weight)| (wave(x) * at, wave(x) * weight));
             let found: f64 =
                 places.map(|(y, weight)| samples(&mut flow, &[Vec2::new(x, y)])[0].velocity.x * weight).sum();
             assert!((found - flux).abs() < 1e-9, "{x}: {found} {flux}");

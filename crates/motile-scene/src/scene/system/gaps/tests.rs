@@ -1,3 +1,4 @@
+use crate::error::refused;
 use std::f64::consts::TAU;
 
 use crate::hydrodynamics::drag_box::DragBox;
@@ -196,7 +197,8 @@ fn the_gap_between_any_two_bodies() {
     assert!((scene.system().gap(island, core).unwrap().unwrap() + 0.1).abs() < 0.03);
     let mut other = self::scene();
     let foreign = other.add(Disc(square.to_vec()));
-    assert!(matches!(scene.system().gap(cell, foreign), Err(SceneError::ForeignHandle)));
+    let error = scene.system().gap(cell, foreign).unwrap_err();
+    assert!(refused(&error, "the handle is of a body of another scene"), "{error}");
 }
 
 /// A long interface along either diagonal of the box comes near its own image there.
