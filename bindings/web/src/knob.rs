@@ -88,7 +88,8 @@ impl Knob {
                 Region::Box { lengths } => Some(lengths[0]),
                 Region::Channel { width, .. } => Some(width),
                 Region::Tube { radius, .. } => Some(radius),
-                Region::Plane | Region::Space => None,
+                // The plane, space, and regions that the page does not know have no size to turn.
+                _ => None,
             },
         }
     }
@@ -131,7 +132,7 @@ impl Knob {
                 }
                 Region::Channel { width, .. } => *width = value,
                 Region::Tube { radius, .. } => *radius = value,
-                Region::Plane | Region::Space => {}
+                _ => {}
             }
         }
         turned.check()?;

@@ -249,11 +249,6 @@ impl Live {
         let region = self.placed.region;
         let system = self.built.scene.system_mut();
         Ok(match region {
-            Region::Plane | Region::Space => {
-                system.evaluate()?;
-                let spacing = MARGIN * 3.0 / cells;
-                Raster::around(system, MARGIN, spacing)?
-            }
             Region::Tube { radius, .. } => {
                 system.evaluate()?;
                 let places = system.markers().positions().iter().map(|place| place.x);
@@ -265,6 +260,12 @@ impl Live {
             }
             Region::Box { lengths: [a, b] } | Region::Channel { length: a, width: b, .. } => {
                 Raster::of(system, a.max(b) / cells)?
+            }
+            // The plane, space, and regions whose size the page does not know: what is around the bodies.
+            _ => {
+                system.evaluate()?;
+                let spacing = MARGIN * 3.0 / cells;
+                Raster::around(system, MARGIN, spacing)?
             }
         })
     }
