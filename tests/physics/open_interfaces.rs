@@ -354,7 +354,7 @@ fn layers_in_a_shear() {
     }
     assert!((samples[2].velocity - Vec2::new(walls[1], 0.0)).length() < 1e-8, "{samples:?}");
     let refused = scene.system_mut().stresslets().unwrap_err().to_string();
-    assert!(refused.contains("periodic along x") && refused.contains("average the stress"), "{refused}");
+    assert!(refused.contains("periodic along x") && refused.contains("Average the stress"), "{refused}");
     let region = Region::Box { lengths: [PERIOD, width] };
     let boxed = Setup { region, flow: FlowSetup { shear: 0.8, ..FlowSetup::default() }, ..setup };
     let refused = boxed.check().unwrap_err().to_string();

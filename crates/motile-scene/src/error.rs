@@ -127,7 +127,7 @@ impl FlowError {
     /// Returns the refusal of a request that a method cannot fulfil: what it is, and what to use instead.
     #[must_use]
     pub fn unsupported(what: &str, remedy: &str) -> Self {
-        let what = format!("{what} is not possible with this method");
+        let what = format!("{what} is not possible here");
         Self::Refused { what, value: String::new(), remedy: remedy.to_owned() }
     }
 
