@@ -162,7 +162,10 @@ fn flows_that_no_state_is_steady_in() {
     assert!(refused.contains("deformed by the imposed flow"), "{refused}");
     let boxed = Setup { region: Region::Box { lengths: [6.0; 2] }, ..drop.clone() };
     let refused = SteadyState::find(&boxed).unwrap_err().to_string();
-    assert!(refused.contains("images of a sheared box never stop moving") && refused.contains("run the scene"), "{refused}");
+    assert!(
+        refused.contains("images of a sheared box never stop moving") && refused.contains("run the scene"),
+        "{refused}"
+    );
     let capsule = Setup { droplets: Vec::new(), shells: vec![ShellSetup::default()], ..drop };
     let refused = SteadyState::find(&capsule).unwrap_err().to_string();
     assert!(refused.contains("has a shell") && refused.contains("Run it until"), "{refused}");
