@@ -186,7 +186,7 @@ pub(crate) fn all_positive(name: &'static str, values: &[f64]) -> Result<(), Int
     }
 }
 
-/// Whether an error is a refusal whose text contains these words.
+/// Returns true if an error is a refusal whose text contains these words.
 #[cfg(test)]
 pub(crate) fn refused(error: &InterfaceError, words: &str) -> bool {
     matches!(error, InterfaceError::Refused { .. }) && error.to_string().contains(words)

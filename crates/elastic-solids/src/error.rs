@@ -217,7 +217,7 @@ pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, InputError> 
     within(name, positive(name, value)?, 1e-100, 1e100)
 }
 
-/// Whether an error is a refusal whose text contains these words.
+/// Returns true if an error is a refusal whose text contains these words.
 #[cfg(test)]
 pub(crate) fn refused(error: &SolidError, words: &str) -> bool {
     matches!(error, SolidError::Refused { .. }) && error.to_string().contains(words)

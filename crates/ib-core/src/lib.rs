@@ -111,7 +111,7 @@ pub use motile_scene::{
 };
 pub use transfer::Transfer;
 
-/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+/// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::immersed_boundary::{WALL_TOLERANCE, grid_domain};

@@ -5,7 +5,7 @@ use motile_base::{InputError, Vec2};
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField, StokesError};
 
-/// Whether a result is a refusal whose text contains these words.
+/// Returns true if a result is a refusal whose text contains these words.
 fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
     matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))
 }

@@ -81,7 +81,7 @@ pub use series::PeriodicSeries;
 pub use sine_cosine::{CosineTransform, NodeSineTransform, SineTransform};
 pub use vec2::Vec2;
 
-/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+/// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::explanation::{explanation, refusal, told, told_apart};

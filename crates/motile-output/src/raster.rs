@@ -67,7 +67,7 @@ impl Raster {
         Ok(Self { tilt, ..Self::new(origin, [width, height], cells, periodic)? })
     }
 
-    /// The same cells for the present state of a system: a shear displaces images while a run goes on.
+    /// These cells for the present state of a system: a shear displaces images while a run goes on.
     pub(crate) fn in_state_of<H: Hydrodynamics>(self, system: &System<H>) -> Self {
         if self.tilt.is_none() && !self.periodic[1] {
             return self;

@@ -492,7 +492,7 @@ fn shown(value: Option<f64>) -> String {
     value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
 
-/// Whether an error is a refusal whose text contains these words.
+/// Returns true if an error is a refusal whose text contains these words.
 #[cfg(test)]
 pub(crate) fn refused(error: &SceneError, words: &str) -> bool {
     matches!(error, SceneError::Refused { .. }) && error.to_string().contains(words)

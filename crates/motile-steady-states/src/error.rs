@@ -67,7 +67,7 @@ impl SteadyError {
         Self::refused(format!("{what} was not found between {from} and {to}"), "", remedy)
     }
 
-    /// What is wrong, the value and the reason, and what to do.
+    /// The problem, the value with the reason, and the remedy.
     pub(crate) fn refused(what: impl Into<String>, value: impl Into<String>, remedy: &str) -> Self {
         Self::Refused { what: what.into(), value: value.into(), remedy: remedy.to_owned() }
     }

@@ -200,7 +200,7 @@ pub fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Resu
     }
 }
 
-/// Whether an error is a refusal whose text contains these words.
+/// Returns true if an error is a refusal whose text contains these words.
 #[cfg(test)]
 pub(crate) fn refused(error: &LayerError, words: &str) -> bool {
     matches!(error, LayerError::Refused { .. }) && error.to_string().contains(words)

@@ -98,7 +98,7 @@ pub use rigid_motion::RigidMotion;
 pub use settings::{Settings, Symmetry};
 pub use single_layer::SingleLayer;
 
-/// What the other crates of motile share with this one. It is not part of the interface and may change at any time.
+/// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::interface_flow::{DenseFactors, MOST_CONTRAST};

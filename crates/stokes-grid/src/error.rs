@@ -96,7 +96,7 @@ impl StokesError {
     }
 }
 
-/// Whether a result is a refusal whose text contains these words.
+/// Returns true if a result is a refusal whose text contains these words.
 #[cfg(test)]
 pub(crate) fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
     matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))

@@ -75,7 +75,7 @@ fn node_sine_transforms_are_the_sums_they_say() {
     }
 }
 
-/// What makes them of use: each diagonalises the second difference with its own ends.
+/// Their use: each diagonalises the second difference with its own ends.
 #[test]
 fn second_differences_become_factors() {
     let len = 11;

@@ -46,7 +46,7 @@ struct Part {
     v: Vec<f64>,
 }
 
-/// What is wanted of a force.
+/// Result that is wanted of a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
     Velocity,
@@ -363,7 +363,7 @@ fn response(responses: &[WallResponse], m: usize) -> Option<&WallResponse> {
     responses.get(m.checked_sub(1)?)
 }
 
-/// What the values on both walls add to each row.
+/// Contribution of the values on both walls to each row.
 fn by_walls(response: &[f64], [bottom, top]: [f64; 2]) -> impl Iterator<Item = f64> {
     response.iter().zip(response.iter().rev()).map(move |(by_bottom, by_top)| bottom * by_bottom + top * by_top)
 }

@@ -10,7 +10,7 @@ const NUMBERS: usize = 4;
 pub(crate) struct LaggedWalls {
     /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one.
     numbers: Vec<f64>,
-    /// The same values after the present solution.
+    /// These values after the present solution.
     coming: Vec<f64>,
 }
 
@@ -50,12 +50,12 @@ impl LaggedWalls {
         self.known().then(|| self.at(1, m, part))
     }
 
-    /// The same of the last solution.
+    /// That of the last solution.
     pub(crate) fn used(&self, m: usize, part: usize) -> Option<[f64; 2]> {
         self.known().then(|| self.at(1 + self.coming.len() / 2, m, part))
     }
 
-    /// What the last solution used minus what the next one will: the velocity by which the fluid slips.
+    /// Values of the last solution minus those of the next one: the velocity by which the fluid slips.
     pub(crate) fn slip(&self, m: usize, part: usize) -> [f64; 2] {
         let values = self.used(m, part).zip(self.next(m, part));
         values.map_or([0.0; 2], |(used, next)| [used[0] - next[0], used[1] - next[1]])

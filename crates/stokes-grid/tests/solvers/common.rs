@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use motile_base::SolveReport;
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, Wall, WallMotion};
 
-/// Whether a result is a refusal whose text contains these words.
+/// Returns true if a result is a refusal whose text contains these words.
 pub(crate) fn refused<T>(result: &Result<T, StokesError>, words: &str) -> bool {
     matches!(result, Err(error @ StokesError::Refused { .. }) if error.to_string().contains(words))
 }

@@ -260,7 +260,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 }
 
-/// What resolves films so many times thinner.
+/// Advice that resolves films so many times thinner.
 fn finer(view: &FluidView, times: f64) -> String {
     let nodes = view.shape_modes.map(|nodes| (times * nodes as f64).ceil());
     match (on_grid(view), nodes) {
