@@ -165,8 +165,8 @@ fn skins(quick: bool) -> Table {
     let mut table = Table::new(
         &format!(
             "E = 1e3, forces on triangles, and a surface of stretching modulus 300 and bending modulus 1, at t = 30, \
-             with spacings h and of the mesh of {SKINNED:?}, by the Runge-Kutta-Chebyshev method; the difference of the \
-             first two in %"
+             with spacings h and of the mesh of {SKINNED:?}, by the Runge-Kutta-Chebyshev method; the difference of \
+             the first two in %"
         ),
         &["activity", "surface", "speeds", "difference", "seconds"],
     );
