@@ -298,7 +298,7 @@ fn a_file_that_is_not_whole_is_refused() {
         later[8] = version;
         let error = Checkpoint::from_bytes(&later).expect_err("another version");
         let expected = u32::from(version);
-        assert!(matches!(error, CheckpointError::Version { found, supported: 4 } if found == expected), "{error}");
+        assert!(matches!(error, CheckpointError::Version { found, supported: 5 } if found == expected), "{error}");
     }
     assert!(refused(&Checkpoint::from_bytes(b"some other file").expect_err("another file"), NO_CHECKPOINT));
 }

@@ -90,6 +90,9 @@ impl ContractileTension {
         let bare = not_negative("the bare tension", bare)?;
         excluded_volume.check()?;
         let law = excluded_volume.law(positive("the mean concentration", mean_concentration)?);
+        if let Law::Step { threshold, .. } = law {
+            positive("the threshold of the excluded volume", threshold)?;
+        }
         let activity = finite("the activity", activity)?;
         Ok(Self { bare, activity, excluded_volume, law })
     }

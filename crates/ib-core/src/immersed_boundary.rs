@@ -47,6 +47,8 @@ pub struct ImmersedBoundary<S, K> {
     transfer: Transfer<K>,
     density: StaggeredField,
     velocity: StaggeredField,
+    /// Velocity relative to the flow between sliding walls, if there are any.
+    relative: Option<StaggeredField>,
     correction: Option<MobilityCorrection>,
     stiffness: f64,
     variance: f64,
@@ -88,6 +90,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             transfer: Transfer::new(grid, kernel),
             density: StaggeredField::zeros(grid),
             velocity: StaggeredField::zeros(grid),
+            relative: None,
             correction: corrected.then(|| MobilityCorrection::new(deficit)),
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
@@ -133,6 +136,30 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     /// The flow on the grid of the markers' forces.
+    /// Interpolates the velocity to the markers. Next to walls that slide, the kernel reaches beyond them, where the grid
+    /// continues a velocity that vanishes on the walls: so the flow between the walls is left out on the grid.
+    fn interpolate(&mut self, markers: &mut Markers) -> Result<(), StokesError> {
+        let walls = self.solver.walls();
+        if walls.is_at_rest() {
+            return self.transfer.interpolate(&self.velocity, markers.velocities_mut());
+        }
+        let grid = *self.solver.grid();
+        let [x0, y0] = grid.origin();
+        let relative = self.relative.get_or_insert_with(|| StaggeredField::zeros(grid));
+        relative.copy_from(&self.velocity);
+        for (index, value) in relative.components_mut().0.iter_mut().enumerate() {
+            let (column, row) = (index % grid.nx(), index / grid.nx());
+            let x = x0 + column as f64 * grid.spacing();
+            *value -= walls.between(&grid, Vec2::new(x, y0 + (row as f64 + 0.5) * grid.spacing()));
+        }
+        self.transfer.interpolate(relative, markers.velocities_mut())?;
+        let [positions, _, velocities] = markers.lists_mut();
+        for (velocity, place) in velocities.iter_mut().zip(&*positions) {
+            velocity.x += walls.between(&grid, *place);
+        }
+        Ok(())
+    }
+
     fn solve(&mut self, markers: &Markers) -> Result<SolveReport, FlowError> {
         self.transfer.locate(markers.positions());
         self.density.fill(0.0);
@@ -223,7 +250,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.check(markers)?;
         let report = self.solve(markers)?;
-        self.transfer.interpolate(&self.velocity, markers.velocities_mut()).map_err(flow_error)?;
+        self.interpolate(markers).map_err(flow_error)?;
         self.work.evaluations += 1;
         for index in 0..markers.groups().len() {
             self.correct(index, markers)?;
@@ -239,7 +266,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.solver.rewind();
         self.solve(markers)?;
         let pressure = self.pressure_field().map_err(flow_error)?;
-        sample_flow(&self.velocity, &pressure, points, out).map_err(flow_error)
+        sample_flow(&self.velocity, &pressure, self.solver.walls(), points, out).map_err(flow_error)
     }
 
     fn work(&self) -> FlowWork {

@@ -308,7 +308,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         self.solve_nodes(markers)?;
         self.solve_all()?;
         let pressure = self.pressure()?;
-        sample_flow(&self.velocity, &pressure, points, out).map_err(of_grid)?;
+        sample_flow(&self.velocity, &pressure, self.solver.walls(), points, out).map_err(of_grid)?;
         if self.is_uniform(markers) { Ok(()) } else { self.sample_pressure(markers, points, out) }
     }
 

@@ -294,7 +294,7 @@ impl<H: Hydrodynamics> Scene<H> {
         self.step_size
     }
 
-    /// Sets the step size of runs (half the stability limit otherwise).
+    /// Sets the step size of runs (adaptive steps with a tolerance of 1e-4 otherwise).
     #[must_use]
     pub fn with_step_size(mut self, step: StepSize) -> Self {
         self.step_size = step;

@@ -248,7 +248,8 @@ impl ProjectionStokes {
     /// Writes the velocity of the fluid relative to a wall (length per time) at the columns of nodes, in the last
     /// solution; `out` has `nx` values.
     ///
-    /// It is zero for [`WallTreatment::Exact`]. For [`WallTreatment::Lagged`] it measures the error.
+    /// It is zero for [`WallTreatment::Exact`], and after [`StokesSolver::rewind`] until the next solution. For
+    /// [`WallTreatment::Lagged`] it measures the error.
     ///
     /// # Errors
     /// Returns [`StokesError`] in a periodic box, and if `out` has the wrong length.

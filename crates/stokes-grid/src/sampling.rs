@@ -2,7 +2,9 @@
 
 use motile_base::{FlowSample, Vec2, internal::all_points_finite, same_length};
 
-use crate::{CentreField, Grid, StaggeredField, StokesError};
+use crate::{CentreField, Grid, StaggeredField, StokesError, Wall, WallMotion};
+
+static AT_REST: WallMotion = WallMotion::AT_REST;
 
 /// A field on a shifted lattice of a grid, continued beyond walls by symmetry.
 struct Lattice<'a> {
@@ -12,26 +14,32 @@ struct Lattice<'a> {
     shift: [f64; 2],
     /// Sign of the continuation beyond a wall.
     parity: f64,
+    /// Velocities along the walls, about which a component is continued.
+    walls: &'a WallMotion,
 }
 
 impl<'a> Lattice<'a> {
     /// The components of a velocity.
-    fn of_velocity(velocity: &'a StaggeredField) -> [Self; 2] {
-        let lattice = |values, shift| Lattice { values, grid: velocity.grid(), shift, parity: -1.0 };
-        [lattice(velocity.x(), [0.0, 0.5]), lattice(velocity.y(), [0.5, 0.0])]
+    fn of_velocity(velocity: &'a StaggeredField, walls: &'a WallMotion) -> [Self; 2] {
+        let lattice = |values, shift, walls| Lattice { values, grid: velocity.grid(), shift, parity: -1.0, walls };
+        [lattice(velocity.x(), [0.0, 0.5], walls), lattice(velocity.y(), [0.5, 0.0], &AT_REST)]
     }
 
     fn value(&self, column: i64, row: i64) -> f64 {
         let (nx, ny) = (self.grid.nx() as i64, self.grid.ny() as i64);
-        let (row, sign) = if self.grid.has_walls() {
-            let row = row.rem_euclid(2 * ny);
-            // About rows of nodes or between rows of cells.
-            let mirrored = 2 * ny - i64::from(self.shift[1] != 0.0) - row;
-            if row <= mirrored { (row, 1.0) } else { (mirrored, self.parity) }
-        } else {
-            (row.rem_euclid(ny), 1.0)
-        };
-        sign * self.values[(row * nx + column.rem_euclid(nx)) as usize]
+        let column = column.rem_euclid(nx);
+        let at = |row: i64| self.values[(row * nx + column) as usize];
+        if !self.grid.has_walls() {
+            return at(row.rem_euclid(ny));
+        }
+        let inside = row.rem_euclid(2 * ny);
+        // About rows of nodes or between rows of cells.
+        let mirrored = 2 * ny - i64::from(self.shift[1] != 0.0) - inside;
+        if inside <= mirrored {
+            return at(inside);
+        }
+        let wall = if row < 0 { Wall::Bottom } else { Wall::Top };
+        self.parity * at(mirrored) + 2.0 * self.walls.at(wall, column as usize)
     }
 
     /// The entry below and to the left of a point, and how far beyond it the point is, in cells.
@@ -39,7 +47,12 @@ impl<'a> Lattice<'a> {
         let (h, origin) = (self.grid.spacing(), self.grid.origin());
         let place = [0, 1].map(|k| (point[k] - origin[k]) / h - self.shift[k]);
         let first = place.map(f64::floor);
-        (first.map(|entry| entry as i64), [place[0] - first[0], place[1] - first[1]])
+        // Whole periods, or distances between images in walls, are taken off first: a whole number may not hold them.
+        let rows = if self.grid.has_walls() { 2 * self.grid.ny() } else { self.grid.ny() };
+        let near = |entry: f64, count: usize| {
+            if entry.abs() < 1e15 { entry as i64 } else { entry.rem_euclid(count as f64) as i64 }
+        };
+        ([near(first[0], self.grid.nx()), near(first[1], rows)], [place[0] - first[0], place[1] - first[1]])
     }
 
     /// Value and gradient at a point by bilinear interpolation.
@@ -55,17 +68,18 @@ impl<'a> Lattice<'a> {
 /// Returns the pressure (force per length) at a point (length), bilinear between the centres of grid cells.
 ///
 /// The point may lie anywhere: a periodic field repeats, and beyond a wall the pressure continues symmetrically. A
-/// coordinate that is not finite gives a meaningless value.
+/// coordinate that is not finite gives a value that is not finite.
 #[must_use]
 pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
-    Lattice { values: pressure.values(), grid: pressure.grid(), shift: [0.5; 2], parity: 1.0 }.bilinear(point).0
+    let (grid, walls) = (pressure.grid(), &AT_REST);
+    Lattice { values: pressure.values(), grid, shift: [0.5; 2], parity: 1.0, walls }.bilinear(point).0
 }
 
 /// Fills `out` with the flow at `points` (length): velocity (length per time) and pressure (force per length), bilinear
 /// between grid points, and the gradient of this velocity (1/time).
 ///
-/// Errors are of second order in the spacing where the flow is smooth. Beyond a wall the velocity continues
-/// antisymmetrically, so that it vanishes on a wall at rest.
+/// Errors are of second order in the spacing where the flow is smooth. `walls` are the velocities of the walls in that
+/// flow ([`crate::StokesSolver::walls`]), about which the velocity continues antisymmetrically beyond a wall.
 ///
 /// # Errors
 /// Returns [`StokesError::Input`] if the numbers of samples and points differ or a point is not finite, and
@@ -73,16 +87,21 @@ pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
 pub fn sample_flow(
     velocity: &StaggeredField,
     pressure: &CentreField,
+    walls: &WallMotion,
     points: &[Vec2],
     out: &mut [FlowSample],
 ) -> Result<(), StokesError> {
     same_length("the samples", points.len(), out.len())?;
     all_points_finite("the points to sample", points)?;
     velocity.grid().check([("the pressure", pressure.grid())])?;
+    walls.check(velocity.grid())?;
     for (&point, out) in points.iter().zip(out) {
-        let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity).map(|component| component.bilinear(point));
+        let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity, walls).map(|component| component.bilinear(point));
         let velocity = Vec2::new(ux, uy);
         *out = FlowSample { velocity, pressure: sample_pressure(pressure, point), gradient: [du, dv] };
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

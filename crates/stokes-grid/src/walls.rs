@@ -1,5 +1,6 @@
 //! Tangential velocities of the walls of a channel.
 
+use motile_base::Vec2;
 use motile_base::{
     internal::{all_finite, sum},
     same_length,
@@ -77,6 +78,27 @@ impl WallMotion {
     pub fn mean(&self, wall: Wall) -> f64 {
         let velocities = self.velocities(wall);
         if velocities.is_empty() { 0.0 } else { sum(velocities) / velocities.len() as f64 }
+    }
+
+    /// Returns true if both walls are at rest.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.bottom.iter().chain(&self.top).all(|velocity| *velocity == 0.0)
+    }
+
+    /// Returns the velocity along x (length per time) at a point (length) that varies linearly between the walls of a
+    /// channel, and linearly between the columns of nodes.
+    ///
+    /// Between walls that slide uniformly this is Couette flow. The velocity of the fluid minus it vanishes on both
+    /// walls, so that it can be interpolated there.
+    #[must_use]
+    pub fn between(&self, grid: &Grid, point: Vec2) -> f64 {
+        let ([x0, y0], [_, width], nx) = (grid.origin(), grid.lengths(), grid.nx());
+        let place = ((point.x - x0) / grid.spacing()).rem_euclid(nx as f64);
+        let (column, share) = (place as usize % nx, place - place.floor());
+        let along = |wall| (1.0 - share) * self.at(wall, column) + share * self.at(wall, (column + 1) % nx);
+        let height = (point.y - y0) / width;
+        (1.0 - height) * along(Wall::Bottom) + height * along(Wall::Top)
     }
 
     /// Writes the Fourier coefficients of the velocities of a wall.

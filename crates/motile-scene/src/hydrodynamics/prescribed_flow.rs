@@ -61,17 +61,23 @@ impl Hydrodynamics for PrescribedFlow {
         Ok(SolveReport::default())
     }
 
-    /// Samples the velocity. Its gradient comes from central differences over a distance of 1e-5 of the point's
-    /// coordinates (at least 1e-5), and the pressure is zero.
-    fn sample(&mut self, _: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+    /// Samples the velocity. Its gradient comes from central differences over 1e-5 of the largest coordinate of the
+    /// markers and points, and the pressure is zero.
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         same_length("the samples", points.len(), out.len())?;
         all_points_finite("the points to sample", points)?;
-        for (&point, out) in points.iter().zip(out) {
-            let step = 1e-5 * point.length().max(1.0);
+        let extent = points.iter().chain(markers.positions()).map(|place| place.x.abs().max(place.y.abs()));
+        let extent = extent.fold(0.0, f64::max);
+        let step = 1e-5 * if extent > 0.0 { extent } else { 1.0 };
+        for (&point, out) in points.iter().zip(&mut *out) {
             let slope = |way: Vec2| ((self.velocity)(point + way) - (self.velocity)(point - way)) / (2.0 * step);
             let [by_x, by_y] = [slope(Vec2::new(step, 0.0)), slope(Vec2::new(0.0, step))];
             let gradient = [[by_x.x, by_y.x], [by_x.y, by_y.y]];
             *out = FlowSample { velocity: (self.velocity)(point), pressure: 0.0, gradient };
+        }
+        for seen in &*out {
+            let [a, b] = seen.gradient;
+            all_points_finite("a prescribed velocity or its gradient", &[seen.velocity, Vec2::from(a), Vec2::from(b)])?;
         }
         Ok(())
     }

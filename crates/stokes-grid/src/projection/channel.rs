@@ -74,7 +74,7 @@ impl ChannelProjection {
             drive: Drive::default(),
             walls: WallMotion::AT_REST,
             treatment: WallTreatment::default(),
-            lagged: LaggedWalls::new(width),
+            lagged: LaggedWalls::new(width, n),
             wall_spectra: [spectrum(width), spectrum(width)],
             rows,
             across: Across::new(n)?,
@@ -93,8 +93,16 @@ impl ChannelProjection {
 
     pub(crate) fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
         walls.check(&self.grid)?;
+        let before = self.wall_spectra.clone();
         for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
             walls.spectrum(wall, &mut self.rows, spectrum);
+        }
+        // Only the gradient of the potential lags, so that the next solution has the new velocities.
+        for m in 0..self.rows.width() {
+            let turn = shift(m, self.grid.nx());
+            let [bottom, top] = [0, 1].map(|wall| turn * (self.wall_spectra[wall][m] - before[wall][m]));
+            self.lagged.move_next(m, 0, [bottom.re, top.re]);
+            self.lagged.move_next(m, 1, [bottom.im, top.im]);
         }
         self.walls = walls;
         Ok(())
@@ -110,6 +118,9 @@ impl ChannelProjection {
         let gradient = self.columns(force, Goal::Velocity, work);
         self.write_vectors(velocity, work)?;
         if self.treatment == WallTreatment::Lagged {
+            if !self.lagged.is_finite() {
+                return Err(StokesError::overflow("the intermediate velocity at the walls"));
+            }
             self.lagged.advance();
         }
         Ok([gradient, 0.0])

@@ -1,6 +1,6 @@
 //! Intermediate velocities at the walls that the next solution takes over.
 
-use motile_base::{InputError, internal::all_finite, same_length};
+use motile_base::{InputError, internal::all_finite, same_length, within};
 
 /// Numbers for each wave number: real and imaginary part at the bottom, then at the top.
 const NUMBERS: usize = 4;
@@ -8,16 +8,19 @@ const NUMBERS: usize = 4;
 /// Values of the intermediate velocity at both walls, in the solution before and for the next one.
 #[derive(Debug, Clone)]
 pub(crate) struct LaggedWalls {
-    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one.
+    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one; then
+    /// the number of rows of cells, by which the memory of another grid is known.
     numbers: Vec<f64>,
     /// These values after the present solution.
     coming: Vec<f64>,
 }
 
 impl LaggedWalls {
-    pub(crate) fn new(waves: usize) -> Self {
+    pub(crate) fn new(waves: usize, rows: usize) -> Self {
         let count = 2 * NUMBERS * waves;
-        Self { numbers: vec![0.0; 1 + count], coming: vec![0.0; count] }
+        let mut numbers = vec![0.0; count + 2];
+        numbers[count + 1] = rows as f64;
+        Self { numbers, coming: vec![0.0; count] }
     }
 
     /// All that the next solution depends on besides its arguments; empty before the first one.
@@ -32,6 +35,10 @@ impl LaggedWalls {
         }
         same_length("the memory of a solver with lagged walls", self.numbers.len(), memory.len())?;
         all_finite("the memory of a solver with lagged walls", memory)?;
+        let last = memory.len() - 1;
+        within("the solutions in the memory of a solver with lagged walls", memory[0], 1.0, 2.0)?;
+        let rows = self.numbers[last];
+        within("the rows of cells in the memory of a solver with lagged walls", memory[last], rows, rows)?;
         self.numbers.copy_from_slice(memory);
         Ok(())
     }
@@ -41,7 +48,8 @@ impl LaggedWalls {
         if self.numbers[0] < 2.0 {
             self.numbers[0] = 0.0;
         }
-        let (next, used) = self.numbers[1..].split_at_mut(self.coming.len() / 2);
+        let count = self.coming.len();
+        let (next, used) = self.numbers[1..=count].split_at_mut(count / 2);
         next.copy_from_slice(used);
     }
 
@@ -71,10 +79,22 @@ impl LaggedWalls {
         }
     }
 
+    /// Adds to the values for the next solution of a wave number, at the bottom and at the top.
+    pub(crate) fn move_next(&mut self, m: usize, part: usize, by: [f64; 2]) {
+        for (wall, by) in by.into_iter().enumerate() {
+            self.numbers[1 + place(m, part, wall)] += by;
+        }
+    }
+
+    /// Returns true if the values of the present solution are numbers that the next one can start from.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.coming.iter().all(|value| value.is_finite())
+    }
+
     /// Makes the present solution the last one.
     pub(crate) fn advance(&mut self) {
         self.numbers[0] = (self.numbers[0] + 1.0).min(2.0);
-        self.numbers[1..].copy_from_slice(&self.coming);
+        self.numbers[1..=self.coming.len()].copy_from_slice(&self.coming);
     }
 
     fn known(&self) -> bool {

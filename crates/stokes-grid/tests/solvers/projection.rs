@@ -352,6 +352,45 @@ fn a_viscosity_that_varies_is_solved_around_it_with_exact_walls() {
     assert_eq!(flow.set_viscosity(|_, _| 1.0), Ok(()));
 }
 
+/// Only the gradient of the potential lags (Cowley (3.1)): walls that are set to slide carry the fluid along at once.
+#[test]
+fn lagged_walls_have_new_velocities_in_the_next_solution() {
+    let grid = Grid::channel(24, 8, 0.25).unwrap();
+    let mut solver = lagged(grid, 2.0, Drive::ZeroGradient);
+    let (rest, mut velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
+    solver.solve(&rest, &mut velocity).unwrap();
+    solver.set_walls(sliding(&grid)).unwrap();
+    let exact = run(&mut channel_solver(grid, 2.0, &sliding(&grid), Drive::ZeroGradient), &rest).0;
+    let largest_slip = |solver: &mut ProjectionStokes| {
+        let mut slip = vec![0.0; grid.nx()];
+        solver.wall_slip(Wall::Bottom, &mut slip).unwrap();
+        largest(&slip)
+    };
+    // The potential still lags, so that the first solution slips, but by less than the walls slide.
+    solver.solve(&rest, &mut velocity).unwrap();
+    assert!(largest_slip(&mut solver) < 0.7, "{}", largest_slip(&mut solver));
+    assert!(relative_distance(&velocity, &exact) < 0.7);
+    for _ in 0..80 {
+        solver.solve(&rest, &mut velocity).unwrap();
+    }
+    assert!(largest_slip(&mut solver) < 1e-6 && relative_distance(&velocity, &exact) < 1e-6);
+}
+
+#[test]
+fn memory_of_another_channel_or_of_no_solution_is_refused() {
+    let solver = |ny: usize| lagged(Grid::channel(9, ny, 0.1).unwrap(), 1.0, Drive::ZeroFlux);
+    let mut other = solver(7);
+    let grid = *other.grid();
+    other.solve(&random_force(grid, 3), &mut StaggeredField::zeros(grid)).unwrap();
+    let memory = other.memory().to_vec();
+    assert!(solver(7).set_memory(&memory).is_ok());
+    assert!(solver(11).set_memory(&memory).is_err());
+    for count in [0.0, -3.0, 1e300] {
+        let wrong = [&[count], &memory[1..]].concat();
+        assert!(solver(7).set_memory(&wrong).is_err(), "{count}");
+    }
+}
+
 #[test]
 fn forces_on_the_walls_do_nothing() {
     let grid = Grid::channel(20, 12, 0.1).unwrap();
