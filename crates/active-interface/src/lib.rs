@@ -88,8 +88,8 @@ pub use exchange::Exchange;
 pub use interface::{ActiveInterface, Motion};
 pub use motile_base::{FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
-    self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerKind, Markers, PrescribedFlow, Scene,
-    SceneError, StepSize, Substrate,
+    self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerKind, Markers, Observer, PrescribedFlow, Scene,
+    SceneError, StepSize, Substrate, System, Warnings,
 };
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::{Quantity, Units};

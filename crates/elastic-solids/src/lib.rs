@@ -126,8 +126,8 @@ pub use material::{DeformationGradient, EnergyDensity, Mat2, Moduli, MooneyRivli
 pub use mesher::Mesher;
 pub use motile_base::{BendingMeasure, FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
-    self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, PrescribedFlow,
-    Scene, SceneError, StepSize, Substrate,
+    self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Observer,
+    PrescribedFlow, Scene, SceneError, StepSize, Substrate, System, Warnings,
 };
 pub use outline::{Interior, Outline};
 pub use relaxation::Maxwell;

@@ -31,7 +31,7 @@ use seeds::{Fit, Lay};
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// println!("{}", disc.quality());

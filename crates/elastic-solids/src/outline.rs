@@ -30,7 +30,7 @@ pub(crate) use track::{Place, Track};
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.rounded(0.2)?;
 /// println!("circumference {:.4}", post.length()); // 6 - 8 r + 2 pi r = 5.6566

@@ -15,7 +15,7 @@ use crate::{SolidError, rigid_body::closed_outline};
 ///
 /// ```
 /// use elastic_solids::{Shell, SolidError};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let turn = std::f64::consts::TAU;
 /// let circle = |r: f64| (0..64).map(|k| r * Vec2::from_angle(turn * f64::from(k) / 64.0)).collect::<Vec<_>>();

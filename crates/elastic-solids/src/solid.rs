@@ -35,7 +35,7 @@ pub use deformation::Deformation;
 ///
 /// ```
 /// use elastic_solids::{ChannelShape, Mesher, NeoHookean, Solid, SolidError};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest
 /// // row pinned.
@@ -92,7 +92,7 @@ impl Solid {
     ///
     /// ```
     /// use elastic_solids::{Moduli, Solid, SolidError, mesh::equilateral_strip};
-    /// use motile_base::Vec2;
+    /// use elastic_solids::Vec2;
     ///
     /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
     /// let moduli = Moduli::from_thesis_spring_constant(1e4)?;
@@ -215,7 +215,7 @@ impl Solid {
     ///
     /// ```
     /// use elastic_solids::{Maxwell, NeoHookean, Solid, SolidError, mesh::equilateral_strip};
-    /// use motile_base::Vec2;
+    /// use elastic_solids::Vec2;
     ///
     /// // A standard linear solid: G(t) = 100 + 400 exp(-t/2).
     /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 60, 9, 0.2)?;

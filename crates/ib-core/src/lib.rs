@@ -106,8 +106,8 @@ pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use kernel::{AnyKernel, BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
 pub use motile_base::{Drive, FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
-    self as scene, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Scene, SceneError,
-    StepSize,
+    self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Observer,
+    PrescribedFlow, Scene, SceneError, StepSize, Substrate, System, Warnings,
 };
 pub use transfer::Transfer;
 

@@ -37,7 +37,7 @@ pub enum InnerPoints {
 /// ```
 /// use elastic_solids::check::{InnerPoints, measured_moduli};
 /// use elastic_solids::{Outline, SolidError, Springs};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// let springs = Springs::new(&disc, 100.0)?;

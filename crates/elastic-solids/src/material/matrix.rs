@@ -8,7 +8,7 @@ use motile_base::Vec2;
 ///
 /// ```
 /// use elastic_solids::Mat2;
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let shear = Mat2::from_rows_array(&[1.0, 0.5, 0.0, 1.0]);
 /// assert_eq!(shear * Vec2::Y, Vec2::new(0.5, 1.0));

@@ -31,7 +31,7 @@ pub struct PhysicalGroup {
 /// ```
 /// use elastic_solids::SolidError;
 /// use elastic_solids::mesh::{GmshMesh, PhysicalGroup, equilateral_block};
-/// use motile_base::Vec2;
+/// use elastic_solids::Vec2;
 ///
 /// let mesh = equilateral_block(Vec2::ZERO, 4, 3, 0.5)?;
 /// let stiff = PhysicalGroup { tag: 1, name: Some("stiff".into()), triangles: (0..7).collect() };
