@@ -5,7 +5,7 @@
 //!        correct the mobility of interfaces --> velocities
 //! ```
 //!
-//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`](motile_scene::Hydrodynamics), the trait of
+//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`], the trait of
 //! flows for the scenes of [`motile_scene`].
 //!
 //! # Example
