@@ -9,7 +9,7 @@
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
 //! [`ActiveDroplet`] is that droplet as a body of a scene ([`motile_scene::Body`]). The parts it is made of, each
-//! usable by itself, work on plain slices of markers ([`Vec2`](motile_base::Vec2)) and numbers:
+//! usable by itself, work on plain slices of markers ([`Vec2`]) and numbers:
 //!
 //! * **Shapes**: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
 //!   crossings; area, moments and perimeter of polygons, exact.

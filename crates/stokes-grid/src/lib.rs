@@ -27,9 +27,9 @@
 //! request.
 //!
 //! **Mean values.** In a box the velocity has mean zero unless [`PeriodicStokes::set_mean_velocity`] prescribes another
-//! one, and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`](motile_base::Drive)
+//! one, and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`]
 //! prescribes the mean pressure gradient or the flux.
-//! [`SolveReport::mean_pressure_gradient`](motile_base::SolveReport::mean_pressure_gradient) has the uniform part of
+//! [`SolveReport::mean_pressure_gradient`] has the uniform part of
 //! grad p, and [`StokesSolver::pressure`] gives the periodic part of p, with mean zero.
 //!
 //! # Example
