@@ -98,11 +98,13 @@ impl ChannelProjection {
             walls.spectrum(wall, &mut self.rows, spectrum);
         }
         // Only the gradient of the potential lags, so that the next solution has the new velocities.
-        for m in 0..self.rows.width() {
-            let turn = shift(m, self.grid.nx());
-            let [bottom, top] = [0, 1].map(|wall| turn * (self.wall_spectra[wall][m] - before[wall][m]));
-            self.lagged.move_next(m, 0, [bottom.re, top.re]);
-            self.lagged.move_next(m, 1, [bottom.im, top.im]);
+        let (Self { wall_spectra: [bottom, top], lagged, grid, .. }, [old_bottom, old_top]) = (&mut *self, before);
+        let changes = bottom.iter().zip(old_bottom).zip(top.iter().zip(old_top));
+        for (m, ((bottom, old_bottom), (top, old_top))) in changes.enumerate() {
+            let turn = shift(m, grid.nx());
+            let [bottom, top] = [turn * (bottom - old_bottom), turn * (top - old_top)];
+            lagged.move_next(m, 0, [bottom.re, top.re]);
+            lagged.move_next(m, 1, [bottom.im, top.im]);
         }
         self.walls = walls;
         Ok(())
