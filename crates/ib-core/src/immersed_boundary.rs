@@ -135,9 +135,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(pressure)
     }
 
-    /// The flow on the grid of the markers' forces.
-    /// Interpolates the velocity to the markers. Next to walls that slide, the kernel reaches beyond them, where the grid
-    /// continues a velocity that vanishes on the walls: so the flow between the walls is left out on the grid.
+    /// The flow on the grid of the markers' forces. Interpolates the velocity to the markers. Next to walls that slide,
+    /// the kernel reaches beyond them, where the grid continues a velocity that vanishes on the walls: so the flow
+    /// between the walls is left out on the grid.
     fn interpolate(&mut self, markers: &mut Markers) -> Result<(), StokesError> {
         let walls = self.solver.walls();
         if walls.is_at_rest() {

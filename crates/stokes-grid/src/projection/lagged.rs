@@ -8,8 +8,8 @@ const NUMBERS: usize = 4;
 /// Values of the intermediate velocity at both walls, in the solution before and for the next one.
 #[derive(Debug, Clone)]
 pub(crate) struct LaggedWalls {
-    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one; then
-    /// the number of rows of cells, by which the memory of another grid is known.
+    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one;
+    /// then the number of rows of cells, by which the memory of another grid is known.
     numbers: Vec<f64>,
     /// These values after the present solution.
     coming: Vec<f64>,
