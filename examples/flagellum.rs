@@ -1,4 +1,4 @@
-//! A body of your own: a flagellum that swims by a wave of curvature.
+//! Your own body: a flagellum that swims by a wave of curvature.
 //!
 //! The flagellum is a chain of markers with springs between them. A phase that grows in time sets the curvature that
 //! each part prefers. Since the phase is part of the state, `Flagellum` implements [`Body`]; if markers were all of the

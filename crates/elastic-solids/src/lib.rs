@@ -6,8 +6,8 @@
 //!
 //! # Example
 //!
-//! Forces pull the upper edge of a neo-Hookean strip. The strip, with a law of your own, relaxes to the stretch that
-//! the stress of the material predicts:
+//! Forces pull the upper edge of a neo-Hookean strip. The strip has your own law of forces and relaxes to the stretch
+//! that the stress of the material predicts:
 //!
 //! ```
 //! use elastic_solids::mesh::{TriangleMesh, fitted_strip};

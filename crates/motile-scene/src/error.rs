@@ -118,7 +118,7 @@ pub enum FlowError {
 motile_base::debug_as_explanation!(FlowError);
 
 impl FlowError {
-    /// Wraps an error of a solver, such as a grid solver of your own.
+    /// Wraps an error of a solver, such as your own grid solver.
     #[must_use]
     pub fn solver(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Solver(Arc::new(error))

@@ -31,7 +31,8 @@
 //! # Ok::<(), LayerError>(())
 //! ```
 //!
-//! With the feature `rayon`, off by default, the rows of the matrix are computed on several threads, to the same bits.
+//! With the feature `rayon`, off by default, the rows of the matrix are computed on several threads, and the results
+//! are bitwise identical.
 
 mod flow;
 mod refusal;

@@ -12,7 +12,7 @@ use crate::concentration::{Flux, element_peclet};
 /// resolved, on however fine a grid: speeds may be off by a per cent (measured by the study `warnings`).
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
-/// Nodes of a swimmer's shape below which its speed is off by more than a per cent: at activities of -2, -3 and -4,
+/// Nodes of a swimmer's shape below which its speed is off by more than 1 %: at activities of -2, -3 and -4,
 /// with 600 cells, by -1.8, -1.6 and -0.5 per cent with 16 nodes, and by -0.1, 0 and -0.6 with 24.
 const LEAST_NODES: usize = 24;
 /// Error of the speed of swimmers with the upwind flux, in per cent: 2.9 to 6.6 with 192 cells at activities of -2 to

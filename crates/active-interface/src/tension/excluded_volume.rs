@@ -19,7 +19,7 @@ pub enum ExcludedVolume {
     /// Cowley's step-like excluded volume of strength A (tension times length), with her threshold of twice the mean
     /// concentration and her steepness of 20 (eq. 2.41).
     Step(f64),
-    /// The step-like excluded volume of Cowley, eqs. (2.40) and (2.41), with a threshold and a steepness of your own:
+    /// The step-like excluded volume of Cowley, eqs. (2.40) and (2.41), with your own threshold and steepness:
     /// negligible below a concentration c_T and a repulsion of constant strength A above it.
     ///
     /// With x = a c / c_T and the steepness a,

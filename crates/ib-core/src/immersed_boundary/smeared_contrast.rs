@@ -23,7 +23,7 @@ const UNCORRECTED_ERROR: f64 = 3.1;
 /// them.
 ///
 /// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
-/// as viscous as the exterior fluid is 25 to 40 per cent too fast. Boundary integrals
+/// as viscous as the exterior fluid is 25 to 40 % too fast. Boundary integrals
 /// (`motile_boundary_integrals::ImmersedLayers`) do better at a fraction of the cost; this is here to reproduce Cowley.
 /// There is no mobility correction. Where all viscosities are equal this is [`ImmersedBoundary::uncorrected`].
 #[derive(Debug, Clone)]

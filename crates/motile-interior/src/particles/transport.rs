@@ -13,7 +13,7 @@ const ROOM: f64 = 2.0;
 ///
 /// Fluxes of fluid between cells come from velocities at the nodes, corrected so that the fluid that leaves each cell
 /// matches the change of its area: a uniform density stays uniform however the mesh moves. The density at a face is the
-/// mean of its two nodes. Where diffusion is too weak for that to stay positive (element Peclet numbers above 2),
+/// mean of its two nodes. If diffusion is too weak for that to stay positive (element Peclet numbers above 2),
 /// upwind diffusion is added in part, by the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin,
 /// J. Comput. Phys. 228 (2009) 2517.
 #[derive(Debug, Clone)]

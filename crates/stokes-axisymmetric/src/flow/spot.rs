@@ -1,4 +1,4 @@
-//! Where a place lies with respect to a surface: its nearest point, and whether the place is inside.
+//! The position of a place relative to a surface: its nearest point, and whether the place is inside.
 
 use std::f64::consts::PI;
 

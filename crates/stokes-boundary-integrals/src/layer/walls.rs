@@ -32,7 +32,7 @@ const MOST_NODES: usize = 64;
 
 /// Thinnest film between a rigid body and a wall in squared distances of nodes times the curvature of the body there:
 /// with fewer nodes in the width of the film, sqrt(2 film/curvature), the speed at which it drains is off by more than
-/// a per cent. Measured for a disc with 48 to 512 nodes, which err by up to 0.65 % there.
+/// a per cent. Measured for a disc with 48 to 512 nodes, whose error is at most 0.65 % there.
 const FILM: f64 = 2.3;
 /// Gap over the radius of curvature above which the flow between body and wall is no longer that of a film.
 const WIDEST_FILM: f64 = 0.3;
