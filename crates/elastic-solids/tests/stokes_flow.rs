@@ -1,7 +1,7 @@
 //! Solids in the flow of the grid: stability limits, no allocation.
 
 use allocation_counter::measure;
-use elastic_solids::mesh::{TriangleMesh, fitted_strip};
+use elastic_solids::mesh::{TriangleMesh, equilateral_block, fitted_strip};
 use elastic_solids::{NeoHookean, Outline, Solid};
 use ib_core::{AnyKernel, ImmersedBoundary};
 use motile_base::Vec2;
@@ -80,6 +80,35 @@ fn tethered_solids_are_stable_up_to_their_limit() {
     for (low, high) in [(-0.06, 0.06), (-0.3, 0.3), (-0.7, 0.7)] {
         let (stable, unstable) = (held(low, high, 0.97), held(low, high, 1.5));
         assert!(stable < 1.0 && unstable > 1e3, "from {low} to {high}: {stable} {unstable}");
+    }
+}
+
+/// In mid-stream, the fluid carries the free points past the pinned points, which makes the elements between the two
+/// the stiffest.
+#[test]
+fn solids_pinned_in_mid_stream_are_stable_up_to_their_limit() {
+    let h = 0.1;
+    let held = |rows: usize, bulk: f64, pinned: &dyn Fn(Vec2) -> bool, steps_over_limit: f64| {
+        let height = h * rows as f64;
+        let mesh = equilateral_block(Vec2::new(0.3, -0.5 * height), 12, rows, h).unwrap();
+        let material = NeoHookean::new(SHEAR, bulk * SHEAR).unwrap();
+        let mut solid = Solid::hyperelastic(mesh, material).pinned(pinned).unwrap();
+        let mut moved = solid.positions().to_vec();
+        solid.free_points().iter().for_each(|&point| moved[point] += Vec2::splat(1e-4));
+        solid.set_positions(&moved).unwrap();
+        growth(solid, h, steps_over_limit, |solid| solid.elastic_energy().unwrap())
+    };
+    for (rows, bulk, too_long) in [(4, 1.0, 3.0), (10, 1.0, 3.0), (16, 1.0, 3.0), (10, 20.0, 8.0), (16, 20.0, 8.0)] {
+        let lowest = -0.05 * rows as f64;
+        let places: [(&str, &dyn Fn(Vec2) -> bool); 3] = [
+            ("one column", &|s: Vec2| s.x < 0.36),
+            ("two columns", &|s: Vec2| s.x < 0.46),
+            ("the lowest row", &|s: Vec2| s.y < lowest + 0.01),
+        ];
+        for (name, pinned) in places {
+            let [stable, unstable] = [0.97, too_long].map(|by| held(rows, bulk, pinned, by));
+            assert!(stable < 1.0 && unstable > 1e3, "{rows} rows, bulk {bulk}, {name}: {stable} {unstable}");
+        }
     }
 }
 

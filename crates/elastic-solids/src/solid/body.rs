@@ -269,6 +269,7 @@ impl Body for Solid {
             let dt = bonds.resolved_step();
             limits(StepLimit { dt, reason: "the rates of the active springs", cause: StepCause::Accuracy });
         }
+        let elastic = elastic + self.pinned_stiffness(view);
         let (stiffness, reason) = if self.tethers.is_empty() {
             (elastic, "the elastic moduli")
         } else {
@@ -327,10 +328,62 @@ impl Solid {
     /// walls a row in a box of length L at `k L/(12 eta)`. A group shorter than half of H or L moves no more easily
     /// than one of that length.
     fn tether_stiffness(&self, view: &FluidView) -> f64 {
-        let anchors = || self.tethers.iter().map(|tether| tether.anchor);
-        let first = self.tethers[0].anchor;
-        let (low, high) = anchors().fold((first, first), |(a, b), p| (a.min(p), b.max(p)));
-        let size = (high - low) + Vec2::splat(self.spacing);
+        let group = Group::of(self.tethers.iter().map(|tether| tether.anchor), self.spacing, view);
+        let total: f64 = self.tethers.iter().map(|tether| tether.stiffness).sum();
+        total / group.length * group.mobility
+    }
+
+    /// Upper bound of viscosity times the fastest rate at which the free points move back together to the pinned
+    /// points (force per length), beyond the elastic moduli.
+    ///
+    /// A pinned point exerts no force on the fluid. In mid-stream, the fluid therefore carries all free points past the
+    /// pinned points, and the elements between the two act as tethers. Their stiffness is the second derivative of
+    /// their energy, `sum of A |grad phi|^2 (mu + kappa)` over the elements that have both, with phi = 1 at free points
+    /// and 0 at pinned points. At a height y above a wall, the fluid moves no more easily than `y (H - y)/H`; the part
+    /// of a mesh spacing is in the elastic moduli already, so that points pinned to a wall add nothing.
+    fn pinned_stiffness(&self, view: &FluidView) -> f64 {
+        if self.free.len() == self.positions.len() {
+            return 0.0;
+        }
+        let (mesh, moduli) = (&self.mesh, self.law.stiffest());
+        let is_free = |point: usize| self.free.binary_search(&point).is_ok();
+        let joints = || {
+            mesh.triangles().iter().zip(mesh.areas()).enumerate().filter_map(move |(index, (corners, area))| {
+                let free = corners.map(is_free);
+                let odd = (0..3).find(|&k| free[k] != free[(k + 1) % 3] && free[k] != free[(k + 2) % 3])?;
+                let places = mesh.corners(index, mesh.points())?;
+                // The gradient of phi points from the opposite side to the corner that differs from the other two.
+                let side = (places[(odd + 2) % 3] - places[(odd + 1) % 3]).length();
+                Some((mesh.centroid(index), side * side / (4.0 * area)))
+            })
+        };
+        let group = Group::of(joints().map(|(place, _)| place), self.spacing, view);
+        let mobility = |place: Vec2| match view.domain.walls {
+            Some([bottom, top]) => {
+                let [low, high] = [place.y - bottom, top - place.y].map(|gap| gap.max(0.0));
+                (low * high / (low + high)).min(group.mobility)
+            }
+            None => group.mobility,
+        };
+        let total: f64 = joints().map(|(place, share)| share * (mobility(place) - self.spacing).max(0.0)).sum();
+        (moduli.shear() + moduli.bulk()) * total / group.length
+    }
+}
+
+/// A group of points that moves together.
+struct Group {
+    /// Length over which its force spreads (length), no shorter than half of the fluid's reach.
+    length: f64,
+    /// Velocity times viscosity that a force per length of 1 causes (length).
+    mobility: f64,
+}
+
+impl Group {
+    /// Group of the given points, each of which stands for one mesh spacing. See [`Solid::tether_stiffness`].
+    fn of(points: impl Iterator<Item = Vec2>, spacing: f64, view: &FluidView) -> Self {
+        let (low, high) =
+            points.fold((Vec2::splat(f64::INFINITY), Vec2::splat(f64::NEG_INFINITY)), |(a, b), p| (a.min(p), b.max(p)));
+        let size = (high - low).max(Vec2::ZERO) + Vec2::splat(spacing);
         let (length, thickness) = (size.x.max(size.y), size.x.min(size.y));
         let domain = &view.domain;
         let (reach, mobility) = match domain.walls {
@@ -342,7 +395,6 @@ impl Solid {
                 (reach, reach / 12.0)
             }
         };
-        let total: f64 = self.tethers.iter().map(|tether| tether.stiffness).sum();
-        total / length.max(0.5 * reach) * mobility
+        Self { length: length.max(0.5 * reach), mobility }
     }
 }
