@@ -31,10 +31,11 @@ const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-gradient", "No mean pressure gradient, as in Cowley", Drive::ZeroGradient),
 ];
 
-/// The droplet, the first one of a scene. What is not given stays as it is in the scene, by default as listed.
+/// The droplets of a scene: each flag changes all droplets that it can apply to. What is not given stays as it is in the
+/// scene, by default as listed.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DropletFlags {
-    /// Activity zeta delta-mu, negative: contractile [default: -2]
+    /// Activity zeta delta-mu of all droplets with particles, negative: contractile [default: -2]
     #[arg(long, value_parser = activity, allow_hyphen_values = true)]
     pub activity: Option<f64>,
     /// Strength A of the excluded volume tension [default: 10]
@@ -43,33 +44,32 @@ pub struct DropletFlags {
     /// Viscosity of the fluids, where they have none of their own [default: 100]
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity: Option<f64>,
-    /// Viscosity of the droplet
+    /// Viscosity of all droplets
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity_in: Option<f64>,
-    /// Viscosity of the exterior fluid
+    /// Viscosity of the exterior fluid; droplets without a viscosity of their own keep the one that they had
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity_out: Option<f64>,
-    /// Initial direction of motion (degrees from the x axis) [default: 0]
+    /// Initial direction of motion (degrees from the x axis), of a scene with one droplet [default: 0]
     #[arg(long, value_parser = finite, allow_hyphen_values = true)]
     pub angle: Option<f64>,
     /// Initial concentration [default: polarised]
     #[arg(long, value_parser = one_of(&STARTS))]
     pub initial: Option<Start>,
-    /// Seed of the random perturbation [default: 1]
+    /// Seed of the random perturbation; each further droplet takes the next one [default: 1]
     #[arg(long, value_parser = seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
 }
 
 impl DropletFlags {
-    /// Overrides the entries of a scene, those of droplets in its first one, and says so where there are others.
+    /// Overrides the entries of a scene: those of all its droplets, or of all that have particles.
     ///
     /// # Errors
-    /// A seed of a start that is not random; flags of a droplet or of its particles where there are none.
+    /// A seed of a start that is not random; flags of droplets or of particles where there are none; a direction where
+    /// there are several droplets.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         let common = self.viscosity.unwrap_or(setup.viscosity);
         setup.viscosity = self.viscosity_out.unwrap_or(common);
-        let count = setup.droplets.len();
-        let particles = setup.droplets.first().map(|droplet| droplet.particles.is_some());
         let of_particles = [
             ("--activity", self.activity.is_some()),
             ("--excluded-volume", self.excluded_volume.is_some()),
@@ -77,33 +77,42 @@ impl DropletFlags {
             ("--seed", self.seed.is_some()),
         ];
         let of_droplets = [("--viscosity-in", self.viscosity_in.is_some()), ("--angle", self.angle.is_some())];
+        for suspension in &mut setup.suspension {
+            suspension.activity.take_if(|_| self.activity.is_some());
+            suspension.viscosity.take_if(|_| self.viscosity_in.is_some());
+        }
+        let of_suspensions = setup.suspension.iter_mut().map(|suspension| &mut suspension.droplet);
+        let several = of_suspensions.len() > 0 || setup.droplets.len() > 1;
+        let mut droplets: Vec<&mut DropletSetup> = setup.droplets.iter_mut().chain(of_suspensions).collect();
+        let no_particles = droplets.iter().all(|droplet| droplet.particles.is_none());
         for (flags, lacking, what) in [
-            (&of_particles[..], particles != Some(true), "without a first droplet that has particles"),
-            (&of_droplets, particles.is_none(), "without droplets"),
+            (&of_particles[..], no_particles, "without a droplet that has particles"),
+            (&of_droplets, droplets.is_empty(), "without droplets"),
         ] {
             if let Some((flag, _)) = flags.iter().find(|(_, given)| lacking && *given) {
                 bail!("{flag} means nothing in a scene {what}: leave it out");
             }
         }
-        let Some(droplet) = setup.droplets.first_mut() else { return Ok(()) };
-        let before = droplet.clone();
-        let DropletSetup { particles, viscosity, angle, .. } = droplet;
-        *viscosity = self.viscosity_in.or(self.viscosity_out.map(|_| common)).or(*viscosity);
-        *angle = self.angle.map_or(*angle, f64::to_radians);
-        if let Some(particles) = particles {
+        ensure!(
+            self.angle.is_none() || !several,
+            "--angle is for a scene with one droplet, and this scene has several: write their angles into the scene file"
+        );
+        let (mut seeds, mut seeded) = (self.seed.into_iter().flat_map(|first| first..), false);
+        for droplet in &mut droplets {
+            let DropletSetup { particles, viscosity, angle, .. } = &mut **droplet;
+            *viscosity = self.viscosity_in.or(*viscosity).or(self.viscosity_out.map(|_| common));
+            *angle = self.angle.map_or(*angle, f64::to_radians);
+            let Some(particles) = particles else { continue };
             particles.activity = self.activity.unwrap_or(particles.activity);
             particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, ExcludedVolume::Step);
             particles.start = self.initial.unwrap_or(particles.start);
-            match (&mut particles.start, self.seed) {
-                (Start::Perturbed { seed, .. }, Some(given)) => *seed = given,
-                (_, Some(seed)) => {
-                    bail!("--seed {seed} means nothing without --initial perturbed: leave it out or give that")
-                }
-                (_, None) => {}
+            if let Start::Perturbed { seed, .. } = &mut particles.start {
+                *seed = seeds.next().unwrap_or(*seed);
+                seeded = true;
             }
         }
-        if count > 1 && *droplet != before {
-            eprintln!("note: of the {count} droplets of the scene, the flags change the first one alone");
+        if let (Some(seed), false) = (self.seed, seeded) {
+            bail!("--seed {seed} means nothing without --initial perturbed: leave it out or give that");
         }
         Ok(())
     }
@@ -130,15 +139,19 @@ impl BoxFlags {
     /// Overrides the entries of a scene.
     ///
     /// # Errors
-    /// A box that is unreasonably large, a place for a droplet that there is not.
+    /// A box that is unreasonably large; a place for a droplet where there is none, or where there are several.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         if let Some(side) = self.side {
             ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
             setup.region = Region::Box { lengths: [side, side] };
         }
-        match (self.offset, setup.droplets.first_mut()) {
-            (Some(offset), Some(droplet)) => droplet.centre = offset,
-            (Some(_), None) => bail!("--offset means nothing in a scene without droplets: leave it out"),
+        match (self.offset, setup.droplets.as_mut_slice()) {
+            (Some(offset), [droplet]) => droplet.centre = offset,
+            (Some(_), []) => bail!("--offset means nothing in a scene without droplets: leave it out"),
+            (Some(_), _) => bail!(
+                "--offset is for a scene with one droplet, and this scene has several: write their centres into the \
+                 scene file"
+            ),
             (None, _) => {}
         }
         self.impose(setup);

@@ -40,8 +40,7 @@ const INTEGRATORS: [(&str, &str, IntegratorKind); 3] = [
 /// The numerical method.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct MethodFlags {
-    /// How the flow is computed; without it as layers where there are solids, else on a grid if a flag of the grid is
-    /// given, and without a grid otherwise
+    /// How the flow is computed; without it as the scene says. No other flag but --preset changes it
     #[arg(long, value_parser = one_of(&METHODS))]
     pub method: Option<MethodKind>,
     /// Grid spacing h (R0); without a grid, that of pictures [default: 0.05]
@@ -122,20 +121,9 @@ impl MethodFlags {
         Ok(setup)
     }
 
-    /// The method: as `--method` says, or else on a grid if the preset is Cowley's, as layers if `base` is, on a grid
-    /// if a flag is given that only a grid has a use for, without a grid if one of the nodes is, and as `base`
-    /// otherwise.
+    /// The method that `--method` names; without it on a grid if the preset is Cowley's, and as `base` otherwise.
     fn kind(&self, base: MethodKind) -> MethodKind {
-        let for_nodes = self.nodes.is_some() || self.elements.is_some();
-        let for_grid = self.spacing.is_some() || self.kernel.is_some();
-        match self.method {
-            Some(kind) => kind,
-            None if self.preset == Preset::Thesis => MethodKind::Grid,
-            None if base == MethodKind::Layers => base,
-            None if for_grid && !for_nodes => MethodKind::Grid,
-            None if for_nodes => MethodKind::Integral,
-            None => base,
-        }
+        self.method.unwrap_or(if self.preset == Preset::Thesis { MethodKind::Grid } else { base })
     }
 
     fn grid(&self, base: GridMethod) -> Result<GridMethod> {

@@ -159,11 +159,14 @@ impl TubeFlags {
     }
 }
 
+/// Nodes of a steady swimmer.
+const STEADY_NODES: usize = 160;
+
 /// An active droplet in three dimensions.
 #[derive(Debug, Parser)]
 #[command(after_help = "The default run takes 1,022 steps, 2,045 evaluations of the flow.")]
 struct Flags {
-    /// Steady swimmer by Newton's method, without a run
+    /// Steady swimmer by Newton's method, without a run; with 160 nodes if --nodes does not say otherwise
     #[arg(long, conflicts_with_all = ["time", "dt", "integrator", "rows", "checkpoint", "resume", "droplets"])]
     steady: bool,
     #[command(flatten)]
@@ -179,14 +182,8 @@ fn swim(Flags { steady, scene }: &Flags) -> Result<()> {
         scene.method.method.is_none_or(|kind| kind == MethodKind::Integral),
         "three dimensions have no grid: leave --method out or give integral"
     );
-    let nodes = scene.method.nodes.unwrap_or(if *steady { 160 } else { 64 });
-    let cells = scene.method.elements.unwrap_or(4 * nodes);
-    let method = MethodFlags {
-        method: Some(MethodKind::Integral),
-        nodes: Some(nodes),
-        elements: Some(cells),
-        ..scene.method.clone()
-    };
+    let nodes = scene.method.nodes.or(steady.then_some(STEADY_NODES));
+    let method = MethodFlags { method: Some(MethodKind::Integral), nodes, ..scene.method.clone() };
     let mut setup = method.setup(&scene.droplet, None)?;
     scene.region.apply(&mut setup)?;
     setup.check()?;

@@ -4,7 +4,10 @@ use clap::CommandFactory as _;
 use motile::base::Region;
 use motile::ib_core::AnyKernel;
 use motile::scene::StepSize;
-use motile::setup::{DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, MethodKind, Setup, Start};
+use motile::setup::{
+    Distribution, DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, MethodKind, Setup, Start,
+    SuspensionSetup,
+};
 use motile_cli::run::OutputFlags;
 
 #[derive(Debug, Parser)]
@@ -91,7 +94,7 @@ fn presets_set_what_is_not_said() {
     assert_eq!(mixed, Setup { method: Method::Grid(grid), step: StepSize::OfLimit(0.5), ..Setup::thesis() });
     // A contrast on the grid has no mobility correction.
     assert!(matches!(setup("--preset thesis --viscosity-in 10").unwrap().method, Method::Grid(_)));
-    let refused = setup("--spacing 0.1 --viscosity-in 10").unwrap_err();
+    let refused = setup("--method grid --spacing 0.1 --viscosity-in 10").unwrap_err();
     assert!(refused.contains("give --method layers"), "{refused}");
 }
 
@@ -109,12 +112,42 @@ fn flags_override_a_scene_file_and_leave_the_rest() {
     };
     assert_eq!(over(Some(file.clone()), "").unwrap(), file);
     let mut expected = file.clone();
-    expected.droplets[0] = DropletSetup { centre: [0.0, 0.5], ..DropletSetup::active(-1.0) };
-    expected.droplets[0].viscosity = Some(9.0);
+    expected.droplets[0] = DropletSetup { centre: [1.0, 2.0], ..DropletSetup::active(-1.0) };
+    expected.droplets.iter_mut().for_each(|droplet| droplet.viscosity = Some(9.0));
     expected.region = Region::Box { lengths: [20.0, 20.0] };
     expected.method = Method::Layers(LayersMethod::of_spacing(0.1));
-    let line = "--activity -1 --viscosity-in 9 --offset 0,0.5 --box 20 --method layers --spacing 0.1";
-    assert_eq!(over(Some(file), line).unwrap(), expected);
+    let line = "--activity -1 --viscosity-in 9 --box 20 --method layers --spacing 0.1";
+    assert_eq!(over(Some(file.clone()), line).unwrap(), expected);
+    for flag in ["--offset 0,0.5", "--angle 3"] {
+        let error = over(Some(file.clone()), flag).unwrap_err();
+        assert!(error.contains("this scene has several"), "{error}");
+    }
+    // A grid spacing does not turn a scene of boundary integrals into a scene on a grid.
+    assert_eq!(over(Some(file), "--spacing 0.1").unwrap().method.kind(), MethodKind::Integral);
+}
+
+/// Flags of droplets change all of them, in a suspension too.
+#[test]
+fn flags_change_all_droplets() {
+    let two = || {
+        let other = DropletSetup { name: "other".to_owned(), viscosity: Some(3.0), ..DropletSetup::active(-5.0) };
+        Setup { droplets: vec![DropletSetup::active(-2.0), other], viscosity: 8.0, ..Setup::default() }
+    };
+    let inside =
+        |setup: &Setup| setup.droplets.iter().map(|d| d.viscosity.unwrap_or(setup.viscosity)).collect::<Vec<_>>();
+    let changed = over(Some(two()), "--activity -4 --viscosity-out 20").unwrap();
+    assert!(changed.droplets.iter().all(|droplet| droplet.activity() == -4.0));
+    assert_eq!((changed.viscosity, inside(&changed)), (20.0, vec![8.0, 3.0]));
+    assert_eq!(inside(&over(Some(two()), "--viscosity-in 7").unwrap()), [7.0, 7.0]);
+    let perturbed = over(Some(two()), "--initial perturbed --seed 5").unwrap();
+    let seeds = perturbed.droplets.iter().map(|droplet| droplet.particles.unwrap().start);
+    assert!(seeds.eq([5, 6].map(|seed| Start::Perturbed { amplitude: 0.05, seed })));
+
+    let activity = Some(Distribution::Between([-3.0, -2.0]));
+    let suspension = SuspensionSetup { count: Some(4), activity, ..SuspensionSetup::default() };
+    let many = Setup { droplets: Vec::new(), suspension: vec![suspension], ..Setup::default() };
+    let placed = over(Some(many), "--activity -4").unwrap().placed().unwrap();
+    assert!(placed.droplets.len() == 4 && placed.droplets.iter().all(|droplet| droplet.activity() == -4.0));
 }
 
 #[test]
@@ -132,16 +165,17 @@ fn a_seed_is_that_of_a_random_start() {
 #[test]
 fn the_method_follows_from_the_flags() {
     let method = |line: &str| setup(line).map(|setup| setup.method.kind());
-    for line in ["", "--nodes 64", "--spacing 0.1 --method integral", "--nodes 64 --spacing 0.1"] {
+    for line in ["", "--nodes 64", "--spacing 0.1 --method integral", "--nodes 64 --spacing 0.1", "--spacing 0.1"] {
         assert_eq!(method(line), Ok(MethodKind::Integral), "{line}");
     }
-    for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis"] {
+    for line in ["--method grid", "--method grid --kernel roma3", "--preset thesis"] {
         assert_eq!(method(line), Ok(MethodKind::Grid), "{line}");
     }
     let layers = setup("--method layers --nodes 64 --spacing 0.1 --kernel bspline5").unwrap().method;
     let expected = LayersMethod { nodes: 64, elements: 256, spacing: 0.1, kernel: AnyKernel::BSpline5 };
     assert_eq!(layers, Method::Layers(expected));
-    for line in ["--method grid --nodes 64", "--method integral --kernel roma3", "--nodes 96 --elements 64"] {
+    for line in ["--method grid --nodes 64", "--kernel roma3", "--nodes 96 --elements 64", "--preset thesis --nodes 64"]
+    {
         assert!(method(line).is_err(), "{line}");
     }
 }
@@ -191,7 +225,13 @@ fn what_is_wrong_is_said_in_one_sentence() {
 #[test]
 fn regions_that_do_not_fit_are_refused() {
     let build = |setup: Setup| setup.build().map(drop).map_err(|error| error.to_string());
-    for line in ["--box 1.5", "--box 1e5", "--spacing 1", "--box 6 --spacing 0.07", "--box 600 --spacing 0.01"] {
+    for line in [
+        "--box 1.5",
+        "--box 1e5",
+        "--method grid --spacing 1",
+        "--method grid --box 6 --spacing 0.07",
+        "--method grid --box 600 --spacing 0.01",
+    ] {
         assert!(setup(line).and_then(build).is_err(), "{line}");
     }
     assert!(setup("--time 1 --dt 2").is_err());
@@ -200,8 +240,14 @@ fn regions_that_do_not_fit_are_refused() {
         flags.channel.apply(&mut setup).map_err(|e| e.to_string())?;
         build(setup)
     };
-    assert_eq!(channel("--width 2 --length 12 --spacing 0.05"), Ok(()));
-    for line in ["--width 1.9", "--width 3 --lateral-offset 0.6", "--length 1.5", "--length 1e5", "--spacing 0.07"] {
+    assert_eq!(channel("--width 2 --length 12 --method grid --spacing 0.05"), Ok(()));
+    for line in [
+        "--width 1.9",
+        "--width 3 --lateral-offset 0.6",
+        "--length 1.5",
+        "--length 1e5",
+        "--method grid --spacing 0.07",
+    ] {
         assert!(channel(line).is_err(), "{line}");
     }
 }
