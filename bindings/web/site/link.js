@@ -13,11 +13,28 @@ export async function packed(text) {
   return "s=" + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** Text of the scene in a part of an address; null where there is none. */
-export async function unpacked(hash) {
-  const found = /^#?s=(.*)$/.exec(hash);
-  if (!found) return null;
-  const binary = atob(found[1].replaceAll("-", "+").replaceAll("_", "/"));
+async function unfolded(packed) {
+  const binary = atob(packed.replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
   return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
+}
+
+/**
+ * Text of the scene in a part of an address; null where there is none. Whatever follows the scene in a message that
+ * quotes the link, such as a full stop or a bracket, is left out: the letters of a link have none of these. A link that
+ * is cut short is an error.
+ */
+export async function unpacked(hash) {
+  const found = /^#?s(?:=|%3[dD])([\w-]*)/.exec(hash);
+  if (!found) return null;
+  let packed = found[1];
+  for (;;) {
+    try {
+      return await unfolded(packed);
+    } catch (error) {
+      // Underscores and hyphens are letters of a link, but also marks about one.
+      if (!/[-_]$/.test(packed)) throw error;
+      packed = packed.slice(0, -1);
+    }
+  }
 }

@@ -90,7 +90,7 @@ function choose(name) {
 }
 
 async function fromAddress() {
-  let broken = false;
+  let problem = "";
   try {
     const text = await unpacked(location.hash);
     if (text !== null) {
@@ -98,12 +98,15 @@ async function fromAddress() {
       return;
     }
   } catch {
-    broken = true;
+    problem = "The link is not complete: it holds no scene. Ask for it again, or copy it as a whole.";
   }
-  const named = /^#p=([a-z]+)$/.exec(location.hash)?.[1];
-  const found = presets.find((one) => one.name === named) ?? presets[0];
-  load(found.scene, { name: found.name, play: true });
-  if (broken) note("The link is not complete: it holds no scene.", true);
+  const named = /^#p=([a-z]+)/.exec(location.hash)?.[1];
+  const found = presets.find((one) => one.name === named);
+  const known = found || location.hash.length < 2 || $(location.hash.slice(1));
+  if (!problem && !known) problem = "The link names no scene that this page has: this is the first of its scenes.";
+  const shown = found ?? presets[0];
+  load(shown.scene, { name: shown.name, play: true });
+  if (problem) note(problem, true);
 }
 
 const knobs = new Map();

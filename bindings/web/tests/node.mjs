@@ -1,6 +1,6 @@
 // The compiled page in node against native numbers, and against the command line's of a scene that the tests of the
 // Python package compare with the same command: `node tests/node.mjs FOLDER NUMBERS SCENE SUMMARY`.
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -48,6 +48,25 @@ try {
 } catch (error) {
   const { key, remedy } = JSON.parse(error);
   if (key !== "viscosity" || !remedy) throw new Error(`an error without key and remedy: ${error}`);
+}
+// Links of the page's own text, and links to scenes with what messages add, or cut.
+const page = readFileSync(join(folder, "index.html"), "utf8");
+for (const [, address] of page.matchAll(/(?:href|src)="([^"#][^"#]*)/g)) {
+  if (!/^https?:/.test(address) && !existsSync(join(folder, address))) throw new Error(`no ${address} beside the page`);
+}
+const { packed, unpacked } = await import(pathToFileURL(resolve(folder, "link.js")));
+for (const { name, scene: text } of known) {
+  const link = `#${await packed(text)}`;
+  const endings = ["", ".", ")", ",", '"', "%20", "&utm_source=mail", "%3D", "_", "__", "-", "*", "\u201d", "/", "'s"];
+  for (const ending of endings) {
+    for (const whole of [link, link.replace("=", "%3D"), link.replace("=", "%3d")]) {
+      if ((await unpacked(whole + ending)) !== text) throw new Error(`${name}: the link is lost before ${ending}`);
+    }
+  }
+  for (let length = 3; length < link.length; length += 1) {
+    const found = await unpacked(link.slice(0, length)).catch(() => "refused");
+    if (found !== "refused") throw new Error(`${name}: a link cut after ${length} letters gives ${found}`);
+  }
 }
 console.log(
   `wasm in node: ${expected.length} scenes, largest difference from native ${largest.toExponential(1)},`,

@@ -241,6 +241,11 @@ try {
   await shot(page, "wide-dark");
   check(problems.length === 0, problems.join("\n"));
   await context.close();
+  const unknown = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#scene-of-old" });
+  await until(unknown.page, "no word of a link to nothing", () =>
+    document.getElementById("note").textContent.startsWith("The link names no scene"),
+  );
+  await unknown.context.close();
   // A link that was cut says so, and one that the library does not understand shows its text.
   const cut = await visit({ width: 390, height: 844, touch: false, scheme: "light", path: "#s=%AAAA" });
   await until(cut.page, "no word of the link", () =>
