@@ -124,11 +124,14 @@ impl SetupError {
     #[cfg(feature = "toml")]
     pub(crate) fn file(problem: impl std::fmt::Display) -> Self {
         let what = "the scene file is not valid".to_owned();
-        Self::Refused {
-            what,
-            value: problem.to_string().trim_end().to_owned(),
-            remedy: "Correct this entry".to_owned(),
-        }
+        let told = problem.to_string();
+        // A long line would hide the problem, which stands above and below its copy.
+        let is_copy = |line: &str| line.len() > LONGEST_LINE && line.contains(" | ");
+        let is_mark = |line: &str| line.trim_start().starts_with('|');
+        let copied = told.lines().any(is_copy);
+        let lines = told.trim_end().lines().filter(|line| !(copied && (is_copy(line) || is_mark(line))));
+        let value = lines.map(shortened).collect::<Vec<_>>().join("\n");
+        Self::Refused { what, value, remedy: "Correct this entry".to_owned() }
     }
 
     /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities: the keys of
@@ -148,4 +151,20 @@ impl SetupError {
             other => Self::Entry { key: key.to_owned(), source: Box::new(other) },
         }
     }
+}
+
+/// Most characters of a line of an error about a scene file.
+#[cfg(feature = "toml")]
+const LONGEST_LINE: usize = 300;
+
+/// A line without its middle if it is long.
+#[cfg(feature = "toml")]
+fn shortened(line: &str) -> String {
+    let count = line.chars().count();
+    if count <= LONGEST_LINE {
+        return line.to_owned();
+    }
+    let half = LONGEST_LINE / 2;
+    let (head, tail) = (line.chars().take(half), line.chars().skip(count - half));
+    head.chain(" ... ".chars()).chain(tail).collect()
 }

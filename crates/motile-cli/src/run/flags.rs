@@ -1,5 +1,6 @@
 //! Output and checkpoints of a run, as flags of a command line.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -13,6 +14,9 @@ use super::summary::make_directory;
 
 /// Default number of steps between checkpoints.
 const EVERY: usize = 500;
+
+/// First line of scene files that runs write.
+const WRITTEN: &str = "# Written by a run of motile (--write-scene), which replaces this file without asking.";
 
 /// Files that runs leave in their directory.
 const RESULTS: [&str; 11] = [
@@ -81,6 +85,11 @@ impl CheckpointFlags {
         let flag = || format!("--checkpoint {}", path.display());
         let special = path.metadata().is_ok_and(|data| !data.is_file());
         ensure!(!special, "{}: there is something that is not a file, give another name", flag());
+        ensure!(
+            !is_foreign(path, &Checkpoint::MARK).with_context(flag)?,
+            "{}: a file that is no checkpoint has this name, give another",
+            flag()
+        );
         // Under a name that is nobody else's.
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let trial = path.with_file_name(format!(".{name}.{}.trial", std::process::id()));
@@ -165,13 +174,16 @@ impl OutputFlags {
         })
     }
 
-    /// Writes the scene file, if one is asked for.
+    /// Writes the scene file, if one is asked for. It begins with a line that tells that it may be written anew.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file that cannot be written, or that no run has written.
     pub fn write_scene(&self, setup: &Setup) -> Result<()> {
         let Some(path) = &self.write_scene else { return Ok(()) };
-        std::fs::write(path, setup.to_toml()?).with_context(|| format!("--write-scene {}", path.display()))
+        let flag = || format!("--write-scene {}", path.display());
+        let foreign = is_foreign(path, WRITTEN.as_bytes()).with_context(flag)?;
+        ensure!(!foreign, "{}: a file that no run has written has this name, give another", flag());
+        std::fs::write(path, format!("{WRITTEN}\n{}", setup.to_toml()?)).with_context(flag)
     }
 
     /// Directory of the results of the run `name`, created if needed.
@@ -187,6 +199,16 @@ impl OutputFlags {
     fn place(&self, name: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
+}
+
+/// True if there is a file that begins otherwise, which would be lost.
+fn is_foreign(path: &Path, beginning: &[u8]) -> std::io::Result<bool> {
+    if !path.exists() {
+        return Ok(false);
+    }
+    let mut first = Vec::with_capacity(beginning.len());
+    std::fs::File::open(path)?.take(beginning.len() as u64).read_to_end(&mut first)?;
+    Ok(!first.is_empty() && first != beginning)
 }
 
 fn steps(text: &str) -> Result<usize, String> {

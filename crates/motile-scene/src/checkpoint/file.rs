@@ -9,16 +9,19 @@ use std::path::{Path, PathBuf};
 
 use super::{Checkpoint, CheckpointError};
 
-const MARK: [u8; 8] = *b"motile\x00\x1a";
 /// Changes whenever older programs cannot read what is written, or the other way round.
 const VERSION: u32 = 5;
 const HEADER: usize = 24;
+const MARK_LENGTH: u64 = Checkpoint::MARK.len() as u64;
 
 fn part<const N: usize>(bytes: &[u8], start: usize) -> Option<[u8; N]> {
     bytes.get(start..start + N)?.try_into().ok()
 }
 
 impl Checkpoint {
+    /// First bytes of each file.
+    pub const MARK: [u8; 8] = *b"motile\x00\x1a";
+
     /// The bytes of a file.
     ///
     /// # Errors
@@ -26,7 +29,7 @@ impl Checkpoint {
     pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
         let contents = postcard::to_stdvec(self).map_err(|error| CheckpointError::contents(&error))?;
         let mut bytes = Vec::with_capacity(HEADER + contents.len());
-        bytes.extend_from_slice(&MARK);
+        bytes.extend_from_slice(&Self::MARK);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
         bytes.extend_from_slice(&(contents.len() as u64).to_le_bytes());
         bytes.extend_from_slice(&crc32fast::hash(&contents).to_le_bytes());
@@ -39,7 +42,7 @@ impl Checkpoint {
     /// # Errors
     /// Bytes that are not exactly those of a checkpoint.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        if !bytes.starts_with(&MARK) {
+        if !bytes.starts_with(&Self::MARK) {
             return Err(CheckpointError::foreign());
         }
         let found = bytes.len() as u64;
@@ -79,7 +82,7 @@ impl Checkpoint {
     /// on the disk. However the program ends, there is a complete checkpoint at `path` if there was one before.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file that cannot be written; a file at `path` that is no checkpoint, which would be lost.
     pub fn write(&self, path: &Path) -> Result<(), CheckpointError> {
         let bytes = self.to_bytes()?;
         let temporary = temporary(path);
@@ -91,6 +94,14 @@ impl Checkpoint {
         if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
             let source = Error::other("there is something there that is not a file");
             return Err(problem("write", path)(source));
+        }
+        if let Ok(found) = File::open(path) {
+            let mut first = Vec::with_capacity(HEADER);
+            found.take(MARK_LENGTH).read_to_end(&mut first).map_err(problem("write", path))?;
+            if !first.is_empty() && first != Self::MARK {
+                let source = Error::other("there is a file of this name that is no checkpoint: give another name");
+                return Err(problem("write", path)(source));
+            }
         }
         let written = File::create(&temporary).and_then(|mut file| {
             file.write_all(&bytes)?;

@@ -6,7 +6,10 @@ use motile_base::{Region, TubeShape};
 use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
-use super::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked};
+use super::{
+    GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked,
+    checked::short,
+};
 use crate::SetupError;
 
 /// Most cells of a grid in a direction, and in all.
@@ -17,6 +20,8 @@ const TOLERANCES: [f64; 2] = [1e-15, 1e-3];
 
 /// Largest width of a channel over its length by integrals: beyond it hyperbolic functions of their ratio overflow.
 const WIDEST: f64 = 100.0;
+/// Largest length of a channel over its width by integrals, whose work grows with this ratio.
+const LONGEST: f64 = 1000.0;
 
 impl Setup {
     /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What
@@ -43,6 +48,13 @@ impl Setup {
                 let remedy = "it is less than a hundredth of the width: give more";
                 let wide = self.method.kind() == MethodKind::Integral && width > WIDEST * length;
                 top.require(!wide, "region.channel.length", length, remedy)?;
+                let long = self.method.kind() == MethodKind::Integral && length > LONGEST * width;
+                let most = short(LONGEST * width);
+                let remedy = format!(
+                    "it is more than {LONGEST} widths, whereas flow in a channel decays within a few widths: give at \
+                     most {most}"
+                );
+                top.require(!long, "region.channel.length", length, &remedy)?;
                 top.finite("region.channel.drive.gradient", drive.gradient())?;
                 top.finite("region.channel.drive.flux", drive.flux().unwrap_or(0.0))?;
             }
@@ -258,8 +270,10 @@ impl Setup {
                 return Checked { place: "" }.refuse("region", &"plane", remedy);
             }
             if cells > most || product > in_all {
-                let remedy =
-                    format!("a length of {length} would take {cells:.0} cells, {product:.1e} in all: give more");
+                let remedy = format!(
+                    "a length of {} would take {cells:.1e} cells, {product:.1e} in all: give more",
+                    short(length)
+                );
                 return checked.refuse("spacing", &spacing, remedy);
             }
             if whole < 4.0 || (cells - whole).abs() > 1e-6 * whole {

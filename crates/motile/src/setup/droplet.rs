@@ -462,8 +462,8 @@ impl DropletShape {
             }
             Self::Modes { radius, cosines, sines } => {
                 checked.positive(&key("modes.radius"), *radius)?;
-                checked.all_finite(&key("modes.cosines"), cosines)?;
-                checked.all_finite(&key("modes.sines"), sines)
+                checked.amplitudes(&key("modes.cosines"), cosines)?;
+                checked.amplitudes(&key("modes.sines"), sines)
             }
             Self::Points(points) => check_points(points, checked, &key("points")),
         }

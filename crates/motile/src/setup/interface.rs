@@ -268,8 +268,8 @@ impl BodySetup for InterfaceSetup {
         match &self.shape {
             InterfaceShape::Flat => {}
             InterfaceShape::Waves { cosines, sines } => {
-                checked.all_finite("shape.waves.cosines", cosines)?;
-                checked.all_finite("shape.waves.sines", sines)?;
+                checked.amplitudes("shape.waves.cosines", cosines)?;
+                checked.amplitudes("shape.waves.sines", sines)?;
             }
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }

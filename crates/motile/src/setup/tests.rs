@@ -501,11 +501,26 @@ fn messages_name_the_entry_and_short_numbers() {
         ("solids[0] (lower wall): outlines cross or touch near (", of(crossing)),
         ("solids[0] (lower wall): the solid at (2.01", of(thin)),
         (
-            "region.box.lengths[0] = 1e308: give a number from 1e-100 to 1e100",
+            "region.box.lengths[0] = 1e308: give a number from 1e-50 to 1e50",
             Setup { region: Region::Box { lengths: [1e308, 1e308] }, ..Setup::default() },
         ),
         (
-            "region.channel.length = 1e-300: give a number from 1e-100",
+            "region.channel.length = 1e49: it is more than 1000 widths",
+            Setup { region: Region::Channel { length: 1e49, width: 3.0, drive: Drive::ZeroFlux }, ..Setup::default() },
+        ),
+        ("viscosity = 1e51: give a number from 1e-50 to 1e50", Setup { viscosity: 1e51, ..Setup::default() }),
+        (
+            "droplets[0].shape.modes.sines = 3000 amplitudes: no method resolves so many waves",
+            Setup {
+                droplets: vec![DropletSetup {
+                    shape: DropletShape::Modes { radius: 1.0, cosines: vec![0.0; 3], sines: vec![0.0; 3000] },
+                    ..DropletSetup::default()
+                }],
+                ..Setup::default()
+            },
+        ),
+        (
+            "region.channel.length = 1e-300: give a number from 1e-50",
             Setup {
                 region: Region::Channel { length: 1e-300, width: 3.0, drive: Drive::ZeroFlux },
                 ..Setup::default()
@@ -912,6 +927,23 @@ mod file {
         ] {
             let error = Setup::from_toml(text).unwrap_err().to_string();
             assert!(parts.iter().all(|part| error.contains(part)), "{text}: {error}");
+        }
+    }
+
+    /// The problem is told without a copy of a long line.
+    #[test]
+    fn long_lines_are_not_copied() {
+        let long = "x".repeat(20_000);
+        for (text, part) in [
+            (format!("region = \"plane\"\nfoo = \"{long}\""), "line 2, column 1"),
+            (format!("region = \"plane\" {long}"), "line 1, column 18"),
+            (format!("{long} = 1"), "unknown field"),
+            (format!("region = \"{long}\""), "unknown variant"),
+            (format!("method.integral = {{ nodes = 64, {} }}", "elements = 3, ".repeat(2000)), "duplicate key"),
+            (format!("viscosity = {}", "9".repeat(20_000)), "line 1, column"),
+        ] {
+            let error = Setup::from_toml(&text).unwrap_err().to_string();
+            assert!(error.contains(part) && error.len() < 1000, "{error}");
         }
     }
 

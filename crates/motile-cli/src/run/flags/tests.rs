@@ -25,6 +25,9 @@ fn a_run_in_two_parts_is_a_whole_one() {
     let error = again.resume(&mut make(), "a droplet", 0.2).unwrap_err();
     assert!(format!("{error:#}").contains("--time after"), "{error:#}");
     std::fs::write(&path, "nothing").unwrap();
+    let error = flags.resume(&mut make(), "a droplet", 0.5).unwrap_err();
+    assert!(format!("{error:#}").contains("a file that is no checkpoint has this name"), "{error:#}");
+    assert!(first.checkpoint("").write(&path).is_err() && std::fs::read(&path).unwrap() == b"nothing");
     let error = again.resume(&mut make(), "a droplet", 0.5).unwrap_err();
     assert!(format!("{error:#}").contains("not a checkpoint"), "{error:#}");
     std::fs::remove_dir_all(&directory).unwrap();
@@ -40,4 +43,20 @@ fn a_file_that_cannot_be_written_is_refused_before_the_first_step() {
         assert!(format!("{error:#}").contains("--checkpoint"), "{error:#}");
         assert_eq!(scene.steps(), 0);
     }
+}
+
+#[test]
+fn scene_files_of_others_are_kept() {
+    let path = std::env::temp_dir().join(format!("motile-scene-file-{}.toml", std::process::id()));
+    let flags = OutputFlags { write_scene: Some(path.clone()), ..OutputFlags::default() };
+    for viscosity in [100.0, 50.0] {
+        let setup = Setup { viscosity, ..Setup::default() };
+        flags.write_scene(&setup).unwrap();
+        assert_eq!(Setup::from_toml(&std::fs::read_to_string(&path).unwrap()).unwrap(), setup);
+    }
+    std::fs::write(&path, "# My scene.\n").unwrap();
+    let error = flags.write_scene(&Setup::default()).unwrap_err().to_string();
+    assert!(error.contains("a file that no run has written has this name"), "{error}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "# My scene.\n");
+    std::fs::remove_file(&path).unwrap();
 }
