@@ -20,7 +20,7 @@ use motile::active_interface::Motion;
 use motile::base::{Drive, Region};
 use motile::setup::{DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
 use motile_cli::run::{OutputFlags, SceneRun};
-use motile_examples::{DropletFlags, MethodFlags, activity, pair, positive};
+use motile_examples::{DropletFlags, MethodFlags, finite, pair, positive};
 use motile_output::Look;
 
 /// Body between the walls.
@@ -39,7 +39,7 @@ enum Between {
 #[command(after_help = "The default run takes 471 steps, 943 evaluations of the flow.")]
 struct Flags {
     /// Activity of the particles on the walls, negative: contractile
-    #[arg(long, default_value_t = -1.0, value_parser = activity, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = -1.0, value_parser = finite, allow_hyphen_values = true)]
     wall_activity: f64,
     /// Tension of the walls without particles
     #[arg(long, default_value_t = 10.0, value_parser = positive, allow_hyphen_values = true)]

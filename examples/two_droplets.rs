@@ -54,7 +54,7 @@ struct Flags {
     #[arg(long = "box", value_name = "X,Y", default_value = "12,8", value_parser = pair, allow_hyphen_values = true)]
     sides: [f64; 2],
     /// Activity of the second droplet; without it that of the first
-    #[arg(long, value_parser = motile_examples::activity, allow_hyphen_values = true)]
+    #[arg(long, value_parser = motile_examples::finite, allow_hyphen_values = true)]
     second_activity: Option<f64>,
     /// Viscosity of the second droplet; without it that of the first
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
@@ -157,7 +157,11 @@ fn meet(flags: &Flags) -> Result<()> {
             let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
             let [first, second] = [0, 1].map(|index| setup.droplets[index].activity());
             let caption = format!("activities {first} and {second}, viscosity outside {}", setup.viscosity);
-            Look { caption, concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
+            flags.output.look.apply(Look { caption, concentration, ..Look::default() }).write_picture(
+                &seen,
+                &[],
+                picture,
+            )?;
         }
         Ok(())
     })

@@ -11,7 +11,7 @@ use motile::setup::{Built, DropletSetup, ExcludedVolume, Setup, Start};
 use motile_cli::run::{OutputFlags, View, WatchedRun};
 
 use crate::MethodFlags;
-use crate::parse::{activity, finite, not_negative, one_of, pair, positive, seed};
+use crate::parse::{finite, not_negative, one_of, pair, positive, seed};
 
 /// Radius of a droplet, the unit of length.
 pub(crate) const RADIUS: f64 = 1.0;
@@ -36,7 +36,7 @@ const DRIVES: [(&str, &str, Drive); 2] = [
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DropletFlags {
     /// Activity zeta delta-mu of all droplets with particles, negative: contractile [default: -2]
-    #[arg(long, value_parser = activity, allow_hyphen_values = true)]
+    #[arg(long, value_parser = finite, allow_hyphen_values = true)]
     pub activity: Option<f64>,
     /// Strength A of the excluded volume tension [default: 10]
     #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]

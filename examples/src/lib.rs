@@ -26,7 +26,7 @@ pub use elastic_walls::{RelaxationFlags, TwitchingFlags, swim_between_walls};
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, RegionFlags, SceneFlags};
 pub use gel_flags::GelFlags;
 pub use method_flags::{MethodFlags, Preset};
-pub use parse::{activity, distribution, not_negative, pair, positive, scene_file};
+pub use parse::{distribution, finite, not_negative, pair, positive, scene_file};
 pub use passage::{Passage, Verdict};
 pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use track::{mean_speed, turning_rate};

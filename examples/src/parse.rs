@@ -59,7 +59,7 @@ fn whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub(crate) fn finite(text: &str) -> Result<f64, String> {
+pub fn finite(text: &str) -> Result<f64, String> {
     number(text, "must be a number from -1e6 to 1e6", |_| true)
 }
 
@@ -94,14 +94,6 @@ pub(crate) fn elements(text: &str) -> Result<usize, String> {
 /// The rule that `text` breaks.
 pub fn not_negative(text: &str) -> Result<f64, String> {
     number(text, "must be a number from 0 to 1e6", |v| v >= 0.0)
-}
-
-/// A contractile activity: a number from minus a million to zero.
-///
-/// # Errors
-/// The rule that `text` breaks.
-pub fn activity(text: &str) -> Result<f64, String> {
-    number(text, "must be a number from -1e6 to 0 (contractile activities are negative)", |v| v <= 0.0)
 }
 
 /// Two numbers of magnitude up to a million with a comma between them.

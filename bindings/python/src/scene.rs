@@ -15,7 +15,7 @@ use motile::scene::{
     Body, Every, Handle, Observer as _, SceneError, StepSize, System, Warnings, checkpoint::Checkpoint,
 };
 use motile::setup::{AnyFlow, Built, Setup as Description};
-use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot};
+use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot, SolidColour};
 
 use crate::error::{failed, of_setup, refused};
 use crate::tension::TabulatedTension;
@@ -35,6 +35,8 @@ struct State {
     /// Values of the droplets' meters, droplet after droplet, record after record.
     records: Vec<f64>,
     warnings: Warnings,
+    /// Tension laws that droplets were given since they were made.
+    laws: Vec<(usize, TabulatedTension)>,
 }
 
 /// Bodies in a fluid, with their state: what `Setup.build` makes.
@@ -70,7 +72,8 @@ impl Scene {
             let Built { mut scene, droplets, .. } = built.map_err(|error| of_setup(&error))?;
             let meters = droplets.iter().map(|&droplet| DropletMeter::of(scene.system_mut(), droplet));
             let meters = meters.collect::<Result<_, _>>().map_err(failed)?;
-            let state = State { scene, droplets, meters, records: Vec::new(), warnings: Warnings::default() };
+            let (records, warnings, laws) = (Vec::new(), Warnings::default(), Vec::new());
+            let state = State { scene, droplets, meters, records, warnings, laws };
             Ok(Self { state: Mutex::new(state), description: description.clone() })
         })
     }
@@ -91,6 +94,14 @@ impl Scene {
 }
 
 impl State {
+    fn set_tension(&mut self, index: usize, law: TabulatedTension) -> PyResult<()> {
+        let droplet = Scene::droplet(self, index)?;
+        self.scene.body_mut(droplet).map_err(failed)?.set_tension(law.clone());
+        self.laws.retain(|(other, _)| *other != index);
+        self.laws.push((index, law));
+        Ok(())
+    }
+
     fn advance(&mut self, until: f64, every: Option<f64>, step: Option<StepSize>, tick: &Py<PyAny>) -> PyResult<()> {
         let mut signal = None;
         let mut last = Instant::now();
@@ -254,10 +265,7 @@ impl Scene {
     /// a smooth function or measured.
     fn set_tension(&self, droplet: usize, concentrations: Vec<f64>, tensions: Vec<f64>, smooth: bool) -> PyResult<()> {
         let law = TabulatedTension::new(concentrations, tensions, smooth)?;
-        let mut state = self.lock()?;
-        let droplet = Self::droplet(&state, droplet)?;
-        state.scene.body_mut(droplet).map_err(failed)?.set_tension(law);
-        Ok(())
+        self.lock()?.set_tension(droplet, law)
     }
 
     /// Velocities (length per time), pressures (force per length) and velocity gradients (1/time) at points, an array
@@ -281,28 +289,27 @@ impl Scene {
         Ok((array_of(py, &velocities)?, PyArray1::from_vec(py, pressures), gradients))
     }
 
-    /// Picture of the present state as SVG, with the flow on a raster of that spacing (length).
-    #[pyo3(signature = (spacing=0.1, width=16.0, caption="", streamlines=true))]
-    fn svg(&self, py: Python<'_>, spacing: f64, width: f64, caption: &str, streamlines: bool) -> PyResult<String> {
-        let look = Look { width, caption: caption.to_owned(), streamlines, ..Look::default() };
+    /// Picture of the present state as SVG, with the flow on a raster of that spacing (length); keywords are those of
+    /// `look_of`.
+    #[pyo3(signature = (spacing=0.1, **look))]
+    fn svg(&self, py: Python<'_>, spacing: f64, look: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
+        let look = look_of(look)?;
         py.detach(|| {
             let seen = self.seen(spacing)?;
             look.svg(&seen, &[]).map_err(failed)
         })
     }
 
-    /// Writes a picture of the present state, as SVG where the name ends in `.svg` and as PNG otherwise.
-    #[pyo3(signature = (path, spacing=0.1, width=16.0, caption="", streamlines=true))]
+    /// Writes a picture of the present state, as SVG or PNG by the end of the name.
+    #[pyo3(signature = (path, spacing=0.1, **look))]
     fn write_picture(
         &self,
         py: Python<'_>,
         path: PathBuf,
         spacing: f64,
-        width: f64,
-        caption: &str,
-        streamlines: bool,
+        look: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
-        let look = Look { width, caption: caption.to_owned(), streamlines, ..Look::default() };
+        let look = look_of(look)?;
         py.detach(move || {
             let seen = self.seen(spacing)?;
             look.write_picture(&seen, &[], path).map_err(failed)
@@ -320,6 +327,22 @@ impl Scene {
         })
     }
 
+    /// Another scene in the same state, with the same records.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let copy = Self::new(py, &self.description)?;
+        {
+            let (state, mut other) = (self.lock()?, copy.lock()?);
+            for (index, law) in &state.laws {
+                other.set_tension(*index, law.clone())?;
+            }
+            other.scene.resume(&state.scene.checkpoint(self.description.fingerprint())).map_err(failed)?;
+            other.meters.clone_from(&state.meters);
+            other.records.clone_from(&state.records);
+            other.warnings.clone_from(&state.warnings);
+        }
+        Ok(copy)
+    }
+
     /// Saves the state to a file.
     fn save(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
         let path: PathBuf = path.extract()?;
@@ -335,6 +358,49 @@ impl Scene {
             let mut state = self.lock()?;
             state.scene.resume(&saved).map_err(|error: SceneError| failed(error))
         })
+    }
+}
+
+/// Settings of a picture by their names.
+fn look_of(given: Option<&Bound<'_, PyDict>>) -> PyResult<Look> {
+    let mut look = Look::default();
+    for (name, value) in given.into_iter().flatten() {
+        let name: String = name.extract()?;
+        match name.as_str() {
+            "caption" => look.caption = value.extract()?,
+            "panel" => look.panel = value.extract()?,
+            "width" => look.width = value.extract()?,
+            "font_size" => look.font_size = value.extract()?,
+            "resolution" => look.resolution = value.extract()?,
+            "pressure_range" => look.pressure_range = value.extract()?,
+            "concentration" => look.concentration = value.extract()?,
+            "length_unit" => look.length_unit = value.extract()?,
+            "streamlines" => look.streamlines = value.extract()?,
+            "streamline_spacing" => look.streamline_spacing = value.extract()?,
+            "scale_bar" => look.scale_bar = value.extract()?,
+            "colour_bars" => look.colour_bars = value.extract()?,
+            "solids" => look.solids = solid_colour(&value.extract::<String>()?)?,
+            _ => {
+                let text = format!("a picture has no setting {name}");
+                return Err(pyo3::exceptions::PyTypeError::new_err(text));
+            }
+        }
+    }
+    Ok(look)
+}
+
+/// Quantity that the colour of solids shows.
+fn solid_colour(name: &str) -> PyResult<SolidColour> {
+    match name {
+        "plain" => Ok(SolidColour::Plain),
+        "displacement" => Ok(SolidColour::Displacement),
+        "stress" => Ok(SolidColour::Stress),
+        "internal-stress" => Ok(SolidColour::InternalStress),
+        _ => {
+            let remedy = "give plain, displacement, stress or internal-stress";
+            let text = format!("solids cannot show {name}: {remedy}");
+            Err(refused(&text, Some("solids".into()), Some(name.into()), Some(remedy.into())))
+        }
     }
 }
 

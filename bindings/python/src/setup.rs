@@ -28,6 +28,13 @@ impl Setup {
         Ok(Self { description })
     }
 
+    /// Error about an entry that is to be changed in place.
+    fn keep(&self, py: Python<'_>, name: &str) -> PyResult<()> {
+        self.__getattr__(py, name)?;
+        let remedy = format!("make another by setup.replace({name}=...)");
+        Err(pyo3::exceptions::PyAttributeError::new_err(format!("a Setup does not change: {remedy}")))
+    }
+
     fn table(&self) -> PyResult<Table> {
         Table::try_from(&self.description).map_err(failed)
     }
@@ -135,6 +142,16 @@ impl Setup {
             return Ok(py.None().into_bound(py));
         }
         Err(pyo3::exceptions::PyAttributeError::new_err(format!("a Setup has no key {name}")))
+    }
+
+    /// Refused, with what to do instead: a Setup does not change.
+    fn __setattr__(&self, py: Python<'_>, name: &str, _value: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.keep(py, name)
+    }
+
+    /// Refused as well.
+    fn __delattr__(&self, py: Python<'_>, name: &str) -> PyResult<()> {
+        self.keep(py, name)
     }
 
     fn __dir__<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<String>> {

@@ -11,7 +11,7 @@ use crate::error::refused;
 /// throughout (Fritsch and Carlson, "Monotone piecewise cubic interpolation", 1980, with the harmonic means of Fritsch
 /// and Butland); those of a smooth function are of the polynomial through five points, so that the error is of the
 /// fourth order in their distance.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct TabulatedTension {
     concentrations: Vec<f64>,
     tensions: Vec<f64>,

@@ -1,5 +1,6 @@
 """Scenes: runs, interruptions, state and output."""
 
+import copy
 import json
 import multiprocessing
 import os
@@ -41,12 +42,33 @@ def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
     assert summary["speed"] == pytest.approx(track["speed"][-1], rel=1e-5)
 
 
+def test_a_copy_goes_on_by_itself() -> None:
+    scene = small().build()
+    scene.droplets[0].set_tension(lambda c: 10 - 3 * c)
+    scene.run(0.5, every=0.1)
+    for other in (copy.copy(scene), copy.deepcopy(scene)):
+        before = other.droplets[0].positions
+        assert np.array_equal(other.track["speed"], scene.track["speed"])
+        once = copy.copy(scene)
+        once.run(1)
+        assert np.array_equal(other.droplets[0].positions, before) and scene.time == 0.5
+        other.run(1)
+        assert np.array_equal(other.droplets[0].positions, once.droplets[0].positions)
+
+
+@pytest.mark.parametrize("every", [0.0, -1.0, 1e-300, float("nan")])
+@pytest.mark.parametrize("callback", [None, print])
+def test_reports_have_an_interval(every: float, callback: Callable[[object], None] | None) -> None:
+    with pytest.raises(motile.Error):
+        small().build().run(1, every=every, callback=callback)
+
+
 def test_a_run_in_parts_is_one_run(tmp_path: Path) -> None:
     whole, parts, other = (small().build() for _ in range(3))
     track = whole.run(2, every=0.5)
     seen = []
     parts.run(2, every=0.5, callback=lambda scene: seen.append(scene.droplets[0].observe()["speed"]))
-    assert np.array_equal(seen, track["speed"][1:])
+    assert np.array_equal(seen, track["speed"])
     assert np.array_equal(track["speed"], whole.track["speed"])
     assert track.time.tolist() == [0, 0.5, 1, 1.5, 2]
     assert parts.run(2.5, every=0.5).time.tolist() == [2, 2.5]

@@ -242,3 +242,14 @@ def test_remedies() -> None:
             motile.Setup().replace(places)
     with pytest.raises(TypeError):
         motile.droplet(None, particles={"concentration": 1})
+
+
+def test_a_setup_does_not_change() -> None:
+    base = motile.Setup()
+    with pytest.raises(AttributeError, match=r"replace\(viscosity="):
+        base.viscosity = 5
+    with pytest.raises(AttributeError, match="no key viscosty"):
+        base.viscosty = 5
+    with pytest.raises(AttributeError, match="replace"):
+        del base.viscosity
+    assert base.replace(viscosity=5.0).viscosity == 5

@@ -19,7 +19,7 @@ mod summary;
 mod watched_run;
 mod words;
 
-pub use flags::{CheckpointFlags, OutputFlags};
+pub use flags::{CheckpointFlags, LookFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
 pub use scene_run::SceneRun;
 pub use steady::Steadiness;

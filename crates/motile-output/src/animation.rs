@@ -109,6 +109,7 @@ impl Frames {
 
     /// Writes a GIF that repeats for ever.
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
+        OutputError::check_format(path, &["gif"])?;
         if self.frames.is_empty() {
             return Err(OutputError::Empty("an animation without frames"));
         }

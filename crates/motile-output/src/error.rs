@@ -1,6 +1,9 @@
 //! Errors of drawing and writing.
 
-use std::{io, path::PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use motile::active_interface::InterfaceError;
 use motile::analysis::AnalysisError;
@@ -18,6 +21,14 @@ pub enum OutputError {
         path: PathBuf,
         /// Error of the system.
         source: io::Error,
+    },
+    /// Picture whose name does not end in that of a format that can be written.
+    #[error("{} cannot be written: give a name that ends in .{}", path.display(), formats.join(" or ."))]
+    Format {
+        /// Path of the file.
+        path: PathBuf,
+        /// Endings of the formats.
+        formats: &'static [&'static str],
     },
     /// Image, panel or number of cells that is too small or too large.
     #[error("{what} of {given} cannot be drawn: give {least:?} to {most:?}")]
@@ -115,6 +126,13 @@ impl OutputError {
     /// Conversion of errors of writing to `path` into ones that name the path.
     pub(crate) fn writing<E: Into<io::Error>>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
         |source| Self::Write { path: path.into(), source: source.into() }
+    }
+
+    /// Refuses a name that does not end in one of some formats.
+    pub(crate) fn check_format(path: &Path, formats: &'static [&'static str]) -> Result<(), Self> {
+        let ending = path.extension().unwrap_or_default();
+        let known = formats.iter().any(|format| ending.eq_ignore_ascii_case(format));
+        if known { Ok(()) } else { Err(Self::Format { path: path.to_owned(), formats }) }
     }
 
     /// Refuses sizes outside of `least..=most`, and not a number.

@@ -10,6 +10,7 @@ use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::{
     OutputError, Raster, Snapshot, VtkFile, VtkSeries, interfaces::closed, snapshot::at_markers, solids::curves,
+    solids::others,
 };
 use motile::base::Vec2;
 
@@ -19,7 +20,7 @@ const RECORD: &str = "files for ParaView";
 /// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
 /// and, where there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`),
 /// gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies and membranes
-/// (`curves.pvd`).
+/// (`curves.pvd`), and the markers of bodies of your own that are no curves (`points.pvd`).
 ///
 /// | file | location | quantity (dimension) |
 /// |---|---|---|
@@ -39,6 +40,8 @@ const RECORD: &str = "files for ParaView";
 /// | inside | at the nodes | density (particles per area) |
 /// | curves | at the markers | velocity (length per time), force on the fluid (force) |
 /// | curves | in each body's line | number of the body, in the order of addition |
+/// | points | at the markers | velocity (length per time), force on the fluid (force) |
+/// | points | at the markers | number of the body, in the order of addition |
 ///
 /// Checkpoints hold the times of the files, so that a resumed run continues their numbers.
 ///
@@ -66,6 +69,7 @@ pub struct ParaView {
     curves: VtkSeries,
     inside: VtkSeries,
     surface: VtkSeries,
+    points: VtkSeries,
     begun: bool,
 }
 
@@ -78,8 +82,8 @@ impl ParaView {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
         let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
         let [gels, curves, inside] = [series("gels")?, series("curves")?, series("inside")?];
-        let surface = series("surface")?;
-        Ok(Self { raster, fields, interface, solids, gels, curves, inside, surface, begun: false })
+        let [surface, points] = [series("surface")?, series("points")?];
+        Ok(Self { raster, fields, interface, solids, gels, curves, inside, surface, points, begun: false })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), OutputError> {
@@ -93,6 +97,7 @@ impl ParaView {
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
         let present = [
             (&mut self.curves, curve_lines(system)?),
+            (&mut self.points, marker_points(system)?),
             (&mut self.surface, meshes::surfaces(system)),
             (&mut self.solids, meshes::solids(system)),
             (&mut self.inside, meshes::particles(system)),
@@ -145,14 +150,29 @@ fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, 
     Ok((!lines.is_empty()).then(|| file().cell_scalars("body", numbers)))
 }
 
+/// File of the markers of all bodies of other types; `None` if there are none.
+fn marker_points<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, OutputError> {
+    let (mut points, mut velocity, mut force): (Vec<Vec2>, Vec<Vec2>, Vec<Vec2>) = Default::default();
+    let mut numbers: Vec<f64> = Vec::new();
+    for (number, (handle, _)) in others(system).enumerate() {
+        let flow = system.flow_at(handle)?;
+        points.extend(flow.positions);
+        velocity.extend(flow.velocities);
+        force.extend(flow.forces);
+        numbers.resize(points.len(), number as f64);
+    }
+    let file = || VtkFile::points(&points).point_vectors("velocity", velocity).point_vectors("force", force);
+    Ok((!points.is_empty()).then(|| file().point_scalars("body", numbers)))
+}
+
 impl<H: Hydrodynamics> Observer<H> for ParaView {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let (time, files) = (system.time(), &mut system.record_mut(RECORD).numbers);
         if !std::mem::replace(&mut self.begun, true) {
             files.retain(|&earlier| time > 0.0 && earlier <= time);
             if !files.is_empty() {
-                let Self { fields, interface, solids, gels, curves, inside, surface, .. } = self;
-                let all = [fields, interface, solids, gels, curves, inside, surface];
+                let Self { fields, interface, solids, gels, curves, inside, surface, points, .. } = self;
+                let all = [fields, interface, solids, gels, curves, inside, surface, points];
                 all.into_iter().for_each(|series| series.after(files));
                 // The resumed state has its files, or was not due for any.
                 return Ok(());

@@ -4,6 +4,7 @@ pub(crate) mod contents;
 mod look;
 mod paint;
 mod sides;
+pub(crate) mod smooth;
 mod solid_shape;
 
 pub use look::{Look, Track};

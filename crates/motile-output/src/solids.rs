@@ -4,6 +4,7 @@ use std::any::Any;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::elastic_solids::{Deformation, Mat2, Solid, width_between};
+use motile::interior::{GelInDroplet, ParticlesInDroplet};
 use motile::scene::{
     Body, Handle, Hydrodynamics, System,
     gap::{Boundary, SolidGap},
@@ -71,6 +72,30 @@ pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
         let mut shape = rigid_shape(&Boundary::of(body, periods), None);
         if body.kind().holds_fluid() {
             shape.area.clear();
+            shape.holds_fluid = true;
+        }
+        shape
+    })
+}
+
+/// Bodies of a system of types that this crate does not know, whose markers are points in no order.
+pub(crate) fn others<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
+    system.all_bodies().filter(|(_, body)| {
+        let any: &dyn Any = *body;
+        let known = any.is::<Solid>() || any.is::<GelInDroplet>() || any.is::<ParticlesInDroplet>();
+        !known && !body.kind().is_curve() && body.marker_count() > 0
+    })
+}
+
+/// Shapes of these bodies: filled where they tell their surface, otherwise a dot at each marker.
+pub(crate) fn other_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
+    let periods = system.hydrodynamics().fluid_view().domain.periods;
+    others(system).map(move |(_, body)| {
+        let mut shape = rigid_shape(&Boundary::of(body, periods), None);
+        if shape.edges.is_empty() {
+            let mut markers = vec![Vec2::ZERO; body.marker_count()];
+            body.write_markers(&mut markers);
+            shape.edges = markers.into_iter().map(|marker| vec![marker; 2]).collect();
         }
         shape
     })

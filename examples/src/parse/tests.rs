@@ -48,9 +48,9 @@ fn ranges_of_counts() {
 
 #[test]
 fn signs_and_sizes() {
-    assert_eq!(activity("-2"), Ok(-2.0));
-    assert_eq!(activity("0"), Ok(0.0));
-    assert!(activity("0.5").is_err() && activity("-1e7").is_err());
+    assert_eq!(finite("-2"), Ok(-2.0));
+    assert_eq!(finite("0.5"), Ok(0.5));
+    assert!(finite("inf").is_err() && finite("-1e7").is_err());
     assert!(positive("0").is_err() && positive("1e7").is_err() && positive("NaN").is_err() && positive("x").is_err());
     assert!(not_negative("-1e-9").is_err() && not_negative("0").is_ok());
 }

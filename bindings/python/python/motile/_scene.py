@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 FilePath = str | os.PathLike[str]
 
+_MOST_REPORTS = 1e7
+
 
 class Track(Mapping[str, Array]):
     """Table of a run: `track["speed"]` is an array, an entry for each record.
@@ -208,8 +210,8 @@ class Scene:
         """Runs up to the time `until` and returns what was recorded on the way.
 
         All observables of all droplets are recorded at multiples of `every` (time), after every step if None.
-        `callback` is called with the scene at the same times (at the end alone if `every` is None) and may look at
-        everything; what it raises ends the run. `step` is a step size as in a setup (`{"fixed": 0.01}`), the setup's
+        `callback` is called with the scene at the same times (at the end alone if `every` is None), the start among
+        them, and may look at everything; what it raises ends the run. `step` is a step size as in a setup (`{"fixed": 0.01}`), the setup's
         by default. With `progress` there is a bar in the terminal or notebook. `checkpoint` is saved with each call of
         the callback and at the end.
         """
@@ -228,8 +230,14 @@ class Scene:
         return Track(self._scene.names, self._without_repeats(first))
 
     def _stops(self, until: float, every: float | None) -> Iterator[float]:
-        if every is not None and every > 0:
-            reached = int(np.floor(self.time / every + 1e-9))
+        if every is not None:
+            start = self.time
+            if not every > 0 or until - start > _MOST_REPORTS * every:
+                remedy = f"give a time above 0, at most {_MOST_REPORTS:.0e} of which make the run"
+                raise Error(f"every is {every}: {remedy}", key="every", value=str(every), remedy=remedy)
+            reached = int(np.floor(start / every + 1e-9))
+            if abs(start - reached * every) <= 1e-9 * every and start < until:
+                yield start
             while (stop := (reached + 1) * every) < until - 1e-9 * abs(until):
                 yield stop
                 reached += 1
@@ -270,15 +278,46 @@ class Scene:
         spacing: float = 0.1,
         width: float = 16.0,
         caption: str = "",
+        panel: str = "",
+        font_size: float = 8.0,
+        resolution: float = 75.0,
+        pressure_range: tuple[float, float] | None = None,
+        concentration: float | None = None,
+        length_unit: str | None = None,
         streamlines: bool = True,
+        streamline_spacing: float | None = None,
+        scale_bar: bool = True,
+        colour_bars: bool = True,
+        solids: str = "plain",
     ) -> str | None:
-        """Picture of the present state: text of an SVG file, or a file (SVG or PNG by its name) if a path is given.
+        """Picture of the present state: text of an SVG file, or a file if a path is given, whose name ends in .svg or
+        .png.
 
-        `spacing` is that of the samples of the flow (length), `width` the width on paper (cm).
+        `spacing` is the distance of the samples of the flow (length). On paper, `width` is in cm, `font_size` in pt,
+        and PNG files have `resolution` pixels per cm. `panel` is a label at the upper left, such as "a)".
+        `pressure_range` holds the lowest and highest pressure that colours show (force per length), `concentration`
+        the unit of concentrations, `length_unit` the text of the unit of length, `solids` what the colour of elastic
+        solids shows: "plain", "displacement", "stress" or "internal-stress".
         """
+        look: dict[str, Any] = {
+            "width": width,
+            "caption": caption,
+            "panel": panel,
+            "font_size": font_size,
+            "resolution": resolution,
+            "pressure_range": pressure_range,
+            "concentration": concentration,
+            "streamlines": streamlines,
+            "streamline_spacing": streamline_spacing,
+            "scale_bar": scale_bar,
+            "colour_bars": colour_bars,
+            "solids": solids,
+        }
+        if length_unit is not None:
+            look["length_unit"] = length_unit
         if path is None:
-            return self._scene.svg(spacing, width, caption, streamlines)
-        self._scene.write_picture(os.fspath(path), spacing, width, caption, streamlines)
+            return self._scene.svg(spacing, **look)
+        self._scene.write_picture(os.fspath(path), spacing, **look)
         return None
 
     def _repr_svg_(self) -> str:
@@ -287,6 +326,12 @@ class Scene:
     def write_paraview(self, folder: FilePath, spacing: float = 0.1) -> None:
         """Writes the flow on a raster of that spacing (length) and all bodies as files for ParaView."""
         self._scene.write_paraview(os.fspath(folder), spacing)
+
+    def __copy__(self) -> Scene:
+        return Scene(self._scene.copy())
+
+    def __deepcopy__(self, memo: object) -> Scene:
+        return Scene(self._scene.copy())
 
     def save(self, path: FilePath) -> None:
         """Saves the state to a file, in place of an earlier one once it is complete."""

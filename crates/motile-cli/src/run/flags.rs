@@ -1,5 +1,7 @@
 //! Output and checkpoints of a run, as flags of a command line.
 
+mod look;
+
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,6 +10,9 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use motile::scene::{Run, Scene, SceneError, checkpoint::Checkpoint};
 use motile::setup::{AnyFlow, Setup};
+use motile_output::Look;
+
+pub use look::LookFlags;
 
 use super::places::{Places, are_one};
 use super::summary::make_directory;
@@ -127,7 +132,7 @@ impl CheckpointFlags {
 }
 
 /// Output of a run: which files are written, and where.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct OutputFlags {
     /// Draw no pictures, plots and animations
     #[arg(long)]
@@ -148,6 +153,9 @@ pub struct OutputFlags {
     /// Checkpoints of the run
     #[command(flatten)]
     pub checkpoints: CheckpointFlags,
+    /// Settings of the pictures
+    #[command(flatten)]
+    pub look: LookFlags,
 }
 
 impl OutputFlags {
@@ -155,8 +163,9 @@ impl OutputFlags {
     /// reads. A checkpoint may replace the one that the run goes on from.
     ///
     /// # Errors
-    /// Two flags, or a flag and a result, that name the same file.
+    /// Two flags, or a flag and a result, that name the same file; sizes that no picture can have.
     pub fn check(&self, name: &str, scene: Option<&Path>) -> Result<()> {
+        self.look.apply(Look::default()).check()?;
         let (directory, mut places) = (self.place(name), Places::default());
         let CheckpointFlags { checkpoint, resume, .. } = &self.checkpoints;
         let saved = checkpoint.as_deref();

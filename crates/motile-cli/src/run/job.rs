@@ -8,7 +8,7 @@ use super::{flags::OutputFlags, summary::Summary, words::say};
 use anyhow::{Result, ensure};
 use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
 use motile::setup::{AnyFlow, Setup};
-use motile_output::RunProgress;
+use motile_output::{Look, RunProgress};
 
 /// Most steps of a run: more would take weeks.
 const MOST_STEPS: f64 = 1e9;
@@ -83,6 +83,12 @@ impl Job {
     #[must_use]
     pub fn draws(&self) -> bool {
         !self.output.no_pictures
+    }
+
+    /// Settings of pictures, with those that were asked for in their place.
+    #[must_use]
+    pub fn look(&self, look: Look) -> Look {
+        self.output.look.apply(look)
     }
 
     /// Times of the rows of tables: as many over the run as were asked for, else 1000.

@@ -150,6 +150,7 @@ impl SceneRun {
     pub fn finish(self, summary: &Summary, look: &Look) -> Result<()> {
         let Self { mut scene, job, region, spacing, droplets, files, .. } = self;
         let picture = job.directory.join("final.png");
+        let shown = job.look(look.clone());
         job.finish(summary, || {
             if files.is_none() {
                 return Ok(());
@@ -157,7 +158,7 @@ impl SceneRun {
             let centre = middle(&scene, droplets.first().map(|(_, handle, _)| *handle))?;
             let raster = view(region, &scene, centre, spacing)?;
             let seen = Snapshot::take(scene.system_mut(), raster)?;
-            Ok(look.write_picture(&seen, &[], picture)?)
+            Ok(shown.write_picture(&seen, &[], picture)?)
         })
     }
 }

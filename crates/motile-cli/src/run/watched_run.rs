@@ -98,12 +98,16 @@ impl WatchedRun {
         let gap = SolidGap::new(SOLID_OVERLAP * spacing);
         let mut pictures = None;
         if job.draws() {
-            let caption = caption(setup, &particles, &view.region);
-            let concentration = Some(particles.concentration);
+            let caption = caption(setup, &view.region);
+            // Another unit would be wrong for droplets of another mean concentration.
+            let means = setup.droplets.iter().filter_map(|droplet| droplet.particles);
+            let alike = means.clone().all(|other| other.concentration == particles.concentration);
+            let concentration = alike.then_some(particles.concentration);
             let internal = setup.solids.iter().any(|s| !s.relaxation.is_empty() || s.active_springs.is_some());
             let solids = if internal { SolidColour::InternalStress } else { SolidColour::Stress };
             let streamline_spacing = Some(STREAMLINES);
             let look = Look { caption, concentration, streamline_spacing, solids, ..Look::default() };
+            let look = output.look.apply(look);
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Animation::new(look, watched), vtk));
         }
@@ -228,16 +232,33 @@ impl WatchedRun {
     }
 }
 
-/// Title of pictures: the parameters of a scene with these particles on its first droplet.
-fn caption(setup: &Setup, particles: &Particles, region: &str) -> String {
-    let inside = setup.droplets[0].viscosity.map_or(String::new(), |inside| format!("{inside} in "));
-    let strength = match particles.excluded_volume {
-        ExcludedVolume::Step(strength) => format!("A = {strength},  "),
-        _ => String::new(),
+/// Title of pictures: the parameters of all droplets of a scene, and of their particles. Where droplets differ, it tells
+/// the least and the largest value.
+fn caption(setup: &Setup, region: &str) -> String {
+    let droplets = || setup.droplets.iter();
+    let particles = || droplets().filter_map(|droplet| droplet.particles);
+    let strength = |particles: Particles| match particles.excluded_volume {
+        ExcludedVolume::Step(strength) => Some(strength),
+        _ => None,
     };
-    let text = format!("ζΔμ = {},  {strength}η = {inside}{}", particles.activity, setup.viscosity);
-    let text = text.replace('-', "−");
-    if region.is_empty() { text } else { format!("{text},  {region}") }
+    let mut parts = vec![format!("ζΔμ = {}", range(particles().map(|particles| particles.activity)))];
+    if particles().all(|particles| strength(particles).is_some()) {
+        parts.push(format!("A = {}", range(particles().filter_map(strength))));
+    }
+    let inside = droplets()
+        .any(|droplet| droplet.viscosity.is_some())
+        .then(|| range(droplets().map(|droplet| droplet.viscosity.unwrap_or(setup.viscosity))) + " in ");
+    parts.push(format!("η = {}{}", inside.unwrap_or_default(), setup.viscosity));
+    if !region.is_empty() {
+        parts.push(region.to_owned());
+    }
+    parts.join(",  ").replace('-', "−")
+}
+
+/// One value that all have, or the least and the largest value.
+fn range(values: impl Iterator<Item = f64>) -> String {
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+    if low == high { format!("{low}") } else { format!("{low} to {high}") }
 }
 
 #[cfg(test)]

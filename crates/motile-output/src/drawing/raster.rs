@@ -64,12 +64,13 @@ impl Drawing {
         Ok(image)
     }
 
-    /// Writes the drawing to `path`: vectors where the name ends in `.svg`, else PNG with `scale` pixels for each of
-    /// its own.
+    /// Writes the drawing to `path`: vectors where the name ends in `.svg`, and PNG with `scale` pixels for each of its
+    /// own where it ends in `.png`.
     ///
     /// # Errors
-    /// [`OutputError::Write`], [`OutputError::Size`].
+    /// [`OutputError::Write`], [`OutputError::Size`], [`OutputError::Format`].
     pub(crate) fn write(&self, path: &Path, scale: f64) -> Result<(), OutputError> {
+        OutputError::check_format(path, &["svg", "png"])?;
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
             return fs::write(path, self.svg()).map_err(OutputError::writing(path));
         }

@@ -105,6 +105,20 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 
+    /// Points (PolyData, `.vtp`; length), each one cell.
+    #[must_use]
+    pub fn points(points: &[Vec2]) -> Self {
+        let count = points.len();
+        let piece = format!(
+            "NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+             NumberOfPolys=\"0\""
+        );
+        let numbers: Vec<i64> = (0..count as i64).collect();
+        let ends: Vec<i64> = numbers.iter().map(|number| number + 1).collect();
+        let geometry = format!("{}<Verts>\n{}</Verts>\n", positions(points), connectivity(&numbers, &ends));
+        Self { piece, geometry, ..Self::new("PolyData", "vtp", count, count) }
+    }
+
     /// Surfaces of revolution about the x axis (PolyData, `.vtp`; length) in three dimensions, in so many sectors: of
     /// triangles at both ends of each meridian, which are on the axis, and of quadrilaterals between. Values at points
     /// are given once at an end and for every sector between.

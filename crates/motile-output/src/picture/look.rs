@@ -160,15 +160,17 @@ impl Look {
         })
     }
 
-    /// Writes a picture of a state, as SVG where the name ends in `.svg` and as PNG otherwise. A single droplet is in
+    /// Writes a picture of a state, as SVG or PNG by the end of the name. A single droplet is in
     /// the middle of its periods; between walls the tracks up to the time of the state are drawn.
     ///
     /// # Errors
     /// [`OutputError::Size`]: a width outside of 1 to 100 cm, type outside of 1 to 72 pt, a resolution outside of 10 to
     /// 1000 pixels per cm, or a PNG file with a side of more than 16384 pixels; [`OutputError::Range`]: a range of the
     /// pressure that is empty or not finite; [`OutputError::Write`]; [`OutputError::Streamlines`];
-    /// [`OutputError::Count`]: a snapshot with other than one sample for each cell.
+    /// [`OutputError::Count`]: a snapshot with other than one sample for each cell; [`OutputError::Format`]: a name that
+    /// ends in neither `.svg` nor `.png`.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
+        OutputError::check_format(path.as_ref(), &["svg", "png"])?;
         self.picture(seen, tracks)?.write(path.as_ref(), 1.0)
     }
 
@@ -180,7 +182,11 @@ impl Look {
         Ok(self.picture(seen, tracks)?.svg())
     }
 
-    fn picture(&self, seen: &Snapshot, tracks: &[Track]) -> Result<Drawing, OutputError> {
+    /// Refuses sizes and ranges that no picture can have.
+    ///
+    /// # Errors
+    /// [`OutputError::Size`] and [`OutputError::Range`], as in [`Look::write_picture`].
+    pub fn check(&self) -> Result<(), OutputError> {
         OutputError::check_size("a picture with a width (cm)", self.width, 1.0, 100.0)?;
         OutputError::check_size("type of a size (pt)", self.font_size, 1.0, 72.0)?;
         OutputError::check_size("a picture with a resolution (pixels per cm)", self.resolution, 10.0, 1000.0)?;
@@ -189,6 +195,11 @@ impl Look {
         {
             return Err(OutputError::Range { low, high });
         }
+        Ok(())
+    }
+
+    fn picture(&self, seen: &Snapshot, tracks: &[Track]) -> Result<Drawing, OutputError> {
+        self.check()?;
         let still = Format {
             width: (self.width * self.resolution).round(),
             em: self.font_size / POINTS_PER_CM * self.resolution,

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::contents::{Legends, Picture};
 use super::sides::sides;
+use super::smooth::{between, smooth};
 use crate::{
     ColourScale, OutputError, Rgb, Samples,
     drawing::{
@@ -12,7 +13,6 @@ use crate::{
         font::text_width,
         ticks::{nice_step_below, number},
     },
-    interfaces::closed,
     streamlines,
 };
 use motile::base::Vec2;
@@ -193,9 +193,10 @@ impl Painter<'_> {
     /// Draws the pressure, with a sharp edge along interfaces of fluid, at which it jumps.
     fn pressure(&mut self) -> Result<(), OutputError> {
         let seen = self.picture.seen;
-        let membranes = seen.solids.iter().filter(|solid| solid.area.is_empty()).flat_map(|solid| &solid.edges);
-        let droplets = seen.droplets.iter().map(|droplet| &droplet.markers);
-        let curves: Vec<&[Vec2]> = droplets.chain(membranes).map(Vec::as_slice).collect();
+        let membranes = seen.solids.iter().filter(|solid| solid.holds_fluid).flat_map(|solid| solid.edges.clone());
+        let droplets = seen.droplets.iter().map(|droplet| smooth(&droplet.markers, Vec2::ZERO));
+        let lines: Vec<Vec<Vec2>> = droplets.chain(membranes).collect();
+        let curves: Vec<&[Vec2]> = lines.iter().map(Vec::as_slice).collect();
         let fields = sides(&seen.raster, seen.pressure(), &curves, seen.smear)?;
         self.shade(&fields.outside);
         let rings = curves.iter().flat_map(|curve| {
@@ -314,7 +315,7 @@ impl Painter<'_> {
         let picture = self.picture;
         let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
         for solid in &picture.seen.solids {
-            let shifts = self.images(&solid.area.iter().flatten());
+            let shifts = self.images(&solid.area.iter().chain(&solid.edges).flatten());
             let all = |lines: &[Vec<Vec2>]| -> Vec<Vec<Pixel>> {
                 let layout = &self.layout;
                 shifts.iter().flat_map(|&shift| lines.iter().map(move |line| layout.path(line, shift))).collect()
@@ -397,13 +398,17 @@ impl Painter<'_> {
         let (seen, legends) = (self.picture.seen, self.picture.legends);
         let droplets = seen.droplets.iter().map(|droplet| {
             (
-                closed(droplet.markers.clone()),
-                closed(droplet.concentration.clone()),
+                smooth(&droplet.markers, Vec2::ZERO),
+                between(&droplet.concentration),
                 self.layout.unit_of(&droplet.markers),
             )
         });
         let unit = self.layout.unit;
-        let others = seen.interfaces.iter().map(|line| (line.markers.clone(), line.concentration.clone(), unit));
+        let others = seen.interfaces.iter().filter_map(|line| {
+            let (last, markers) = line.markers.split_last()?;
+            let (_, concentration) = line.concentration.split_last()?;
+            Some((smooth(markers, last - markers.first()?), between(concentration), unit))
+        });
         let lines: Vec<(Vec<Vec2>, Vec<f64>, f64)> = droplets.chain(others).collect();
         for (markers, concentration, unit) in lines {
             let colours: Option<Vec<Rgb>> = legends

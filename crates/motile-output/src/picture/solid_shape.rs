@@ -35,6 +35,8 @@ pub struct SolidShape {
     pub internal_stress: Vec<f64>,
     /// Ends of the active springs that are on (length).
     pub bonds: Vec<Vec<Vec2>>,
+    /// True for a membrane with fluid inside, whose area is not filled.
+    pub holds_fluid: bool,
 }
 
 impl SolidShape {

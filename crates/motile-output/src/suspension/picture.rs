@@ -10,6 +10,7 @@ use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::animation::Frames;
 use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle};
+use crate::picture::smooth::{between, smooth};
 use crate::snapshot::at_markers;
 use crate::{ColourScale, OutputError, Rgb};
 
@@ -147,10 +148,9 @@ impl SuspensionPicture {
                     let at = *marker + shift;
                     [area.left + (at.x - self.corner.x) * unit, area.top + (top - at.y) * unit]
                 };
-                let mut ring: Vec<Pixel> = markers.iter().map(place).collect();
+                let ring: Vec<Pixel> = smooth(markers, Vec2::ZERO).iter().map(place).collect();
                 drawing.fill(std::slice::from_ref(&ring), fill, 1.0);
-                ring.extend(ring.first().copied());
-                let closed = || relative.iter().chain(relative.first()).copied();
+                let closed = || between(relative).into_iter();
                 drawing.stroke(&ring, &Pen::new(Rgb::INK, line));
                 match (colour, scale) {
                     (SuspensionColour::Concentration, Some(scale)) if !relative.is_empty() => {
@@ -189,10 +189,11 @@ impl SuspensionPicture {
         drawing
     }
 
-    /// Writes a picture so many pixels wide, as SVG where the name ends in `.svg` and as PNG otherwise.
+    /// Writes a picture so many pixels wide, as SVG or PNG by the end of the name.
     ///
     /// # Errors
-    /// [`OutputError::Size`]: a width outside of 100 to 8000 pixels; [`OutputError::Write`].
+    /// [`OutputError::Size`]: a width outside of 100 to 8000 pixels; [`OutputError::Format`]: a name that ends in
+    /// neither `.svg` nor `.png`; [`OutputError::Write`].
     pub fn write_picture(
         &self,
         colour: SuspensionColour,

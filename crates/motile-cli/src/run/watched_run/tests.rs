@@ -49,6 +49,16 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     std::fs::remove_dir_all(&directory).unwrap();
 }
 
+/// Captions tell the range of what differs between droplets.
+#[test]
+fn captions_are_of_all_droplets() {
+    let droplet = |activity, viscosity| DropletSetup { viscosity, ..DropletSetup::active(activity) };
+    let of = |droplets| caption(&Setup { droplets, ..Setup::default() }, "w = 3");
+    assert_eq!(of(vec![droplet(-2.0, None)]), "ζΔμ = −2,  A = 10,  η = 100,  w = 3");
+    let different = vec![droplet(-2.0, None), droplet(-5.0, Some(300.0)), DropletSetup::passive(3.0)];
+    assert_eq!(of(different), "ζΔμ = −5 to −2,  A = 10,  η = 100 to 300 in 100,  w = 3");
+}
+
 /// Pictures of unbounded fluid show a square of 12 around the droplet in cells of the spacing, files for ParaView in
 /// cells of twice that, since every sample without a grid costs as much.
 #[test]

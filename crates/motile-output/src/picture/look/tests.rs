@@ -92,6 +92,7 @@ fn values_that_are_not_numbers_do_no_harm() {
         stress: vec![f64::NAN],
         internal_stress: vec![f64::NAN],
         bonds: vec![vec![bad; 2]],
+        holds_fluid: false,
     }];
     let seen = Snapshot {
         time: 1.0,
