@@ -94,6 +94,12 @@ impl Body for Flagellum {
         Ok(())
     }
 
+    /// The length of the flagellum for places, and radians for the phase.
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(MARKERS as f64 * SPACING);
+        scales[2 * MARKERS] = 1.0;
+    }
+
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         let components = velocities.iter().flat_map(|velocity| [velocity.x, velocity.y]);
         rate.iter_mut().zip(components.chain([WAVE[2]])).for_each(|(to, value)| *to = value);

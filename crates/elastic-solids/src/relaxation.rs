@@ -162,6 +162,11 @@ impl Relaxation {
         &self.values
     }
 
+    /// Writes the sizes of the internal variables: of springs their lengths at rest (length), of triangles 1.
+    pub(crate) fn write_scales(&self, scales: &mut [f64]) {
+        scales.iter_mut().zip(&self.bars).for_each(|(scale, bar)| *scale = bar.part.length);
+    }
+
     /// Internal variables, to be overwritten.
     pub(crate) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values

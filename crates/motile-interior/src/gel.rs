@@ -174,6 +174,11 @@ impl Body for GelInDroplet {
         if error > 0.01 { vec![Warning { body, cause, excess: 100.0 * error, message }] } else { Vec::new() }
     }
 
+    /// Angles (radians).
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(1.0);
+    }
+
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = self.director.material.properties();
         properties.push(("the number of nodes".to_owned(), self.filling.nodes.len() as f64));

@@ -133,9 +133,12 @@ pub trait Body: Any + fmt::Debug + Send {
     }
 
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):
-    /// the radius of a droplet for positions, say. By default all are one.
+    /// the radius of a droplet for positions, say. Zero stands for the extent of the body's markers, their root mean
+    /// square distance from their mean (length), which is right for positions in any unit; for a body of one marker the
+    /// scene takes the width of its domain. By default all are zero. A body whose state holds anything else than
+    /// positions, such as angles or numbers of particles, has to write scales of its own.
     fn write_scales(&self, scales: &mut [f64]) {
-        scales.fill(1.0);
+        scales.fill(0.0);
     }
 
     /// Writes the state of the mirror image of the body in y = 0 to `image`, given a state of its own and the number

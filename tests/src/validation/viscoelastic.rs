@@ -100,6 +100,11 @@ impl Body for Shaker {
     fn rate(&mut self, _velocities: &[Vec2], rate: &mut [f64]) {
         rate[0] = self.rate;
     }
+
+    /// Radians.
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(1.0);
+    }
 }
 
 impl Layers {

@@ -1,5 +1,7 @@
 //! The solid as a body of a scene.
 
+use std::f64::consts::PI;
+
 use motile_base::{Vec2, same_length};
 use motile_scene::{
     Body, BodyError, FluidView, MarkerKind, StepCause, StepInfo, StepLimit, Viscous,
@@ -175,6 +177,18 @@ impl Body for Solid {
             SurfaceCurve { points: points.collect(), periods: outline.periods }
         });
         curves.collect()
+    }
+
+    /// For positions the radius of a disc of the same area, or the mean thickness of a periodic solid; for springs of
+    /// Maxwell elements their lengths.
+    fn write_scales(&self, scales: &mut [f64]) {
+        let (places, inner) = scales.split_at_mut(2 * self.free.len());
+        let area = self.mesh.area();
+        places.fill(self.mesh.period().map_or_else(|| (area / PI).sqrt(), |period| area / period));
+        inner.fill(1.0);
+        if let Some(relaxation) = &self.relaxation {
+            relaxation.write_scales(inner);
+        }
     }
 
     /// Size of the mesh at rest, and its energy under a given shear and stretch.

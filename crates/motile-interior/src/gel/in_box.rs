@@ -123,6 +123,11 @@ impl Body for GelInBox {
         self.director.step_limits(view.viscosity, limits);
     }
 
+    /// Angles (radians).
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(1.0);
+    }
+
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = self.director.material.properties();
         properties.push(("the number of nodes".to_owned(), self.nodes.len() as f64));

@@ -58,7 +58,19 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
     }
 
     fn write_scales(&self, mut scales: &mut [f64]) {
-        self.bodies.list.iter().for_each(|body| body.write_scales(part(&mut scales, body.as_ref())));
+        for (index, body) in self.bodies.list.iter().enumerate() {
+            let scales = part(&mut scales, body.as_ref());
+            body.write_scales(scales);
+            if scales.contains(&0.0) {
+                let size = self.extent(index);
+                scales.iter_mut().filter(|scale| **scale == 0.0).for_each(|scale| *scale = size);
+            }
+        }
+        if let [time, strain] = scales {
+            // The time in which the imposed flow deforms things, so that it is no longer in other units.
+            let rate = self.imposed().rate();
+            (*time, *strain) = (if rate > 0.0 { rate.recip() } else { 1.0 }, 1.0);
+        }
     }
 
     fn fastest_decay(&self) -> f64 {
@@ -69,6 +81,19 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
 }
 
 impl<H: Hydrodynamics> System<H> {
+    /// Size of a body by its markers, or where they are at one place, of what is around it (length).
+    fn extent(&self, body: usize) -> f64 {
+        let markers = &self.bodies.markers;
+        let own = markers.groups().get(body).and_then(|group| markers.positions().get(group.range.clone()));
+        let domain = self.hydrodynamics.fluid_view().domain;
+        let across = domain.walls.map(|[below, above]| above - below);
+        let widths = domain.periods.iter().copied().chain([across]).flatten();
+        let sizes =
+            [spread(own.unwrap_or_default()), widths.fold(f64::INFINITY, f64::min), spread(markers.positions())];
+        // Only a single point in unbounded fluid has nothing to be compared with.
+        sizes.into_iter().find(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
+    }
+
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
@@ -128,4 +153,11 @@ impl<H: Hydrodynamics> System<H> {
         }
         largest
     }
+}
+
+/// Root mean square distance of points from their mean (length); zero without points.
+fn spread(points: &[Vec2]) -> f64 {
+    let count = points.len().max(1) as f64;
+    let mean = points.iter().sum::<Vec2>() / count;
+    (points.iter().map(|point| (*point - mean).length_squared()).sum::<f64>() / count).sqrt()
 }
