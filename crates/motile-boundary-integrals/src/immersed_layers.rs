@@ -3,7 +3,7 @@
 mod contrast;
 mod curves;
 
-use motile_base::{Drive, Region, SolveReport, internal::all_points_finite, same_length};
+use motile_base::{Drive, Region, SolveReport, internal::all_points_finite, positive, same_length};
 use stokes_boundary_integrals::internal::gmres::Outcome;
 use stokes_boundary_integrals::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver, sample_flow, sample_pressure};
@@ -107,6 +107,17 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             work: FlowWork::default(),
             solver,
         })
+    }
+
+    /// Sets the perimeter (length) of the smallest interface, which [`Hydrodynamics::fluid_view`] assumes before the
+    /// first evaluation; 2 pi by default. The first bound on a time step rests on it.
+    ///
+    /// # Errors
+    /// Returns [`FlowError`] if the perimeter is not positive and finite.
+    pub fn with_reference_perimeter(mut self, perimeter: f64) -> Result<Self, FlowError> {
+        positive("the reference perimeter", perimeter)?;
+        self.interfaces.set_reference_perimeter(perimeter);
+        Ok(self)
     }
 
     /// The grid.

@@ -232,12 +232,18 @@ impl Setup {
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
         Ok(match &self.method {
             Method::Integral(method) => self.integrals(method)?,
-            Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => Box::new(ImmersedLayers::new(
-                self.streamfunction(if self.spreads() { 0.5 * spacing } else { *spacing })?,
-                *kernel,
-                *nodes,
-                self.tolerance.unwrap_or(LAYER_TOLERANCE),
-            )?),
+            Method::Layers(LayersMethod { nodes, spacing, kernel, .. }) => {
+                let flow = ImmersedLayers::new(
+                    self.streamfunction(if self.spreads() { 0.5 * spacing } else { *spacing })?,
+                    *kernel,
+                    *nodes,
+                    self.tolerance.unwrap_or(LAYER_TOLERANCE),
+                )?;
+                Box::new(match self.shortest_perimeter()? {
+                    Some(perimeter) => flow.with_reference_perimeter(perimeter)?,
+                    None => flow,
+                })
+            }
             Method::Grid(grid) => {
                 let solver = match grid.solver {
                     GridSolver::Streamfunction => self.streamfunction(grid.spacing)?,
@@ -308,14 +314,17 @@ impl Setup {
         }))
     }
 
-    /// Perimeter of the smallest droplet or shell (length).
+    /// Perimeter of the smallest droplet, shell or rigid body (length), and a period of interfaces along x.
     fn shortest_perimeter(&self) -> Result<Option<f64>, SetupError> {
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape).chain(self.shells.iter().map(|s| &s.shape));
+        let shapes = shapes.chain(self.rigid_bodies.iter().map(|body| &body.shape));
         let perimeters = shapes.map(|shape| match shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),
         });
-        Ok(perimeters.collect::<Result<Vec<f64>, SetupError>>()?.into_iter().reduce(f64::min))
+        let period = self.interfaces.first().map(|_| Ok(self.region.lengths()[0]));
+        let lengths = perimeters.chain(period).collect::<Result<Vec<f64>, SetupError>>()?;
+        Ok(lengths.into_iter().reduce(f64::min))
     }
 
     /// True if there is fluid of another viscosity than the exterior one.
