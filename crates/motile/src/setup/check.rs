@@ -7,8 +7,9 @@ use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
 use super::{
-    GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup, body::BodySetup, checked::Checked,
-    checked::short,
+    GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup,
+    body::BodySetup,
+    checked::{Checked, short},
 };
 use crate::SetupError;
 
@@ -17,6 +18,8 @@ const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
 
 /// Least and largest relative accuracy of layers.
 const TOLERANCES: [f64; 2] = [1e-15, 1e-3];
+/// Sum of the forces on bodies in the plane, over the sum of their sizes, up to which it is zero to round-off.
+const BALANCED: f64 = 1e-12;
 
 /// Largest width of a channel over its length by integrals: beyond it hyperbolic functions of their ratio overflow.
 const WIDEST: f64 = 100.0;
@@ -103,11 +106,35 @@ impl Setup {
             self.able(body)?;
             body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
         }
+        self.check_balance()?;
         self.check_suspensions()?;
         for (number, wall) in self.walls.iter().enumerate() {
             wall.check(&format!("walls[{number}]"), self)?;
         }
         self.check_correction()
+    }
+
+    /// Refuses forces in the plane that do not add up to zero: nothing holds a fluid that is pushed.
+    fn check_balance(&self) -> Result<(), SetupError> {
+        if self.region != Region::Plane {
+            return Ok(());
+        }
+        for axis in 0..2 {
+            let forces = || self.rigid_bodies.iter().map(|body| body.force[axis]);
+            let (sum, most) = (forces().sum::<f64>(), forces().map(f64::abs).sum::<f64>());
+            let pushed = forces().rposition(|force| force != 0.0);
+            if let Some(last) = pushed.filter(|_| sum.abs() > BALANCED * most) {
+                let remedy = format!(
+                    "in the plane nothing holds a fluid that is pushed, and the forces on all bodies add up to {}: \
+                     give {} here, or a box or a channel",
+                    short(sum),
+                    short(self.rigid_bodies[last].force[axis] - sum)
+                );
+                let (place, force) = (format!("rigid-bodies[{last}]"), self.rigid_bodies[last].force[axis]);
+                return Checked { place: &place }.refuse("force", &force, remedy);
+            }
+        }
+        Ok(())
     }
 
     /// Refuses a box that is too narrow for the sums over its images.
