@@ -118,7 +118,8 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
     };
     for &[start, end] in boundary.sides() {
         // The next side may continue the line at its end or at its start.
-        let follows = |end: Vec2, start: Vec2| (end - start).length_squared() < 1e-20;
+        let same = 1e-9 * start.distance(end);
+        let follows = |end: Vec2, start: Vec2| end.distance(start) <= same;
         match (line.first().copied(), line.last().copied()) {
             (_, Some(last)) if follows(last, start) => line.push(end),
             (Some(first), _) if follows(end, first) => line.insert(0, start),

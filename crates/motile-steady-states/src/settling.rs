@@ -299,6 +299,7 @@ fn is_mirror(profile: &Profile) -> bool {
     let other = profile.mirrored();
     let largest = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let places = |profile: &Profile| profile.positions.iter().chain(&profile.nuclei).copied().collect::<Vec<_>>();
-    places(profile).iter().zip(places(&other)).all(|(a, b)| a.distance(b) < 1e-6)
+    let size = profile.positions.iter().map(|place| place.distance(profile.positions[0])).fold(0.0, f64::max);
+    places(profile).iter().zip(places(&other)).all(|(a, b)| a.distance(b) < 5e-7 * size)
         && profile.density.iter().zip(&other.density).all(|(a, b)| (a - b).abs() <= 1e-6 * largest)
 }

@@ -451,7 +451,8 @@ impl SolidOutline {
                 if points.first().zip(points.last()).is_some_and(|(first, last)| last.x < first.x) {
                     points.reverse();
                 }
-                if points.len() > 1 && (points[points.len() - 1] - points[0]).distance(Vec2::new(period, 0.0)) < 1e-9 {
+                let shift = Vec2::new(period, 0.0);
+                if points.len() > 1 && (points[points.len() - 1] - points[0]).distance(shift) < 1e-9 * period {
                     points.pop();
                 }
                 Outline::polyline(&points, period)?

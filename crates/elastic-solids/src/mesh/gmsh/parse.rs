@@ -8,6 +8,9 @@ use motile_base::Vec2;
 use super::PhysicalGroup;
 use crate::SolidError;
 
+/// Distance of nodes from their plane up to which they lie in it, over the extent of the mesh (no dimension): round-off.
+const FLAT: f64 = 1e-9;
+
 /// Contents of a file, as far as they belong to the mesh.
 pub(super) struct Contents {
     pub(super) points: Vec<Vec2>,
@@ -200,6 +203,8 @@ impl File {
 
     fn read_nodes(&mut self, lines: &mut Lines<'_>) -> Result<(), SolidError> {
         let blocks: usize = lines.words("Nodes")?.next("the number of blocks")?;
+        // The node furthest from the height of the first: its distance (length), number, z, and line.
+        let mut furthest = (0.0, 0, 0.0, 0);
         for _ in 0..blocks {
             let mut words = lines.words("Nodes")?;
             words.next::<u8>("a dimension")?;
@@ -220,14 +225,21 @@ impl File {
                     return words.error(format!("node {tag} is not finite"));
                 }
                 let height = *self.height.get_or_insert(z);
-                if (z - height).abs() > 1e-9 * (1.0 + height.abs()) {
-                    return words.error(format!("node {tag} has z = {z} where others have {height}"));
+                if (z - height).abs() > furthest.0 {
+                    furthest = ((z - height).abs(), tag, z, words.line);
                 }
                 self.positions.push(Vec2::new(x, y));
                 if self.nodes.insert(tag, place).is_some() {
                     return words.error(format!("there are two nodes {tag}"));
                 }
             }
+        }
+        let far = Vec2::splat(f64::INFINITY);
+        let [low, high] = self.positions.iter().fold([far, -far], |[low, high], p| [low.min(*p), high.max(*p)]);
+        let (apart, tag, z, line) = furthest;
+        let height = self.height.unwrap_or_default();
+        if apart > FLAT * ((high - low).length() + height.abs()) {
+            return Err(SolidError::gmsh(line, format!("node {tag} has z = {z} where others have {height}")));
         }
         lines.end("Nodes")
     }

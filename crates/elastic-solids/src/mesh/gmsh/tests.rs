@@ -281,3 +281,19 @@ fn meshes_below_the_plane_are_read() {
     assert_eq!(text.matches("-7.25").count(), 5, "{text}");
     assert_eq!(GmshMesh::from_text(&text), GmshMesh::from_text(SQUARE));
 }
+
+/// A square of a nanometre in metres is as flat as one of a metre, and no flatter.
+#[test]
+fn meshes_of_any_size_are_flat() {
+    let scaled = |size: f64, z: f64| {
+        let text = SQUARE.replacen("\n10\n0 0 0\n", &format!("\n10\n0 0 {z:e}\n"), 1);
+        let text =
+            text.replacen("\n1 0 0 0.5\n1 1 0 0.75\n", &format!("\n{size:e} 0 0 0.5\n{size:e} {size:e} 0 0.75\n"), 1);
+        GmshMesh::from_text(&text.replacen("\n0 1 0\n9 9 0\n", &format!("\n0 {size:e} 0\n0 0 0\n"), 1))
+    };
+    for size in [1.0, 1e-9, 1e6] {
+        assert!(scaled(size, 1e-12 * size).is_ok(), "{size}: {:?}", scaled(size, 1e-12 * size).err());
+        let error = scaled(size, 1e-3 * size).unwrap_err().to_string();
+        assert!(error.contains("has z = "), "{error}");
+    }
+}
