@@ -226,7 +226,8 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
                     let shortened = dt < wanted;
                     let next = self.scene.control.next;
                     if self.scene.control.judge(dt, error) {
-                        if shortened {
+                        // Without a limit of stability all that is left until the next report is wanted.
+                        if shortened || (dt == remaining && dt < next) {
                             // Where a step has to end says nothing about the steps that follow.
                             self.scene.control.next = next.max(self.scene.control.next);
                         }

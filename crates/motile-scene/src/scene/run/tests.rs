@@ -87,6 +87,25 @@ fn exact_reports_leave_the_adaptive_steps_as_they_are() {
     assert!(reported.shortest > 0.3 * free.shortest, "{free:?} {reported:?}");
 }
 
+/// A hundred steps of 0.01 up to reports, between steps of a hundred times that length.
+#[test]
+fn a_step_shortened_for_a_report_does_not_shorten_the_next_one() {
+    let later = |reports: bool| {
+        let mut scene = empty();
+        let drift = |_: &[Vec2], _: &[Vec2], rates: &mut [Vec2]| rates.fill(Vec2::X);
+        scene.add(MarkerBody::new("drifting", vec![Vec2::ZERO], |_, _| {}).with_motion(drift));
+        let step = StepSize::Adaptive { tolerance: 1e-4 };
+        times(&mut scene, 10.0, step, &[]);
+        if reports {
+            assert_eq!(times(&mut scene, 11.0, step, &[Every::Time(0.01)])[0].len(), 101);
+        }
+        let (steps, time) = (scene.steps(), scene.time());
+        times(&mut scene, time + 100.0, step, &[]);
+        scene.steps() - steps
+    };
+    assert_eq!(later(true), later(false));
+}
+
 #[test]
 fn an_interval_far_below_the_step_is_refused() {
     for (interval, refused) in [(1e-9, true), (1e-300, true), (1e-3, false)] {
