@@ -59,3 +59,27 @@ fn displacements_are_those_of_the_triangles() {
     let moved = Solid::springs(disc, 1.0).unwrap().deformed(|s| s + Vec2::new(0.3, -0.4)).unwrap();
     assert!(solid_shape(&moved).displacement.iter().all(|length| (length - 0.5).abs() < 1e-12));
 }
+
+/// Of several solids the smallest Jacobian counts, wherever it is in the list, and all energies together.
+#[test]
+fn the_smallest_jacobian_is_that_of_all_solids() {
+    let disc = |x: f64, stretch: f64| {
+        let outline = motile::elastic_solids::Outline::circle(Vec2::new(x, 0.0), 0.5).unwrap();
+        let solid = Solid::springs(outline.mesh(0.25).unwrap(), 10.0).unwrap();
+        solid.deformed(|s| Vec2::new(x + stretch * (s.x - x), s.y)).unwrap()
+    };
+    for stretches in [[0.8, 1.1], [1.1, 0.8]] {
+        let mut scene = Scene::new(motile::scene::Substrate::new(1.0).unwrap());
+        let energies = stretches.iter().zip([-1.0, 1.0]).map(|(stretch, x)| {
+            let solid = disc(x, *stretch);
+            let energy = solid.elastic_energy().unwrap();
+            scene.add(solid);
+            energy
+        });
+        let energy: f64 = energies.sum();
+        let measured = SolidMeter::of(scene.system()).unwrap().measure(scene.system()).unwrap();
+        let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];
+        assert!((value("smallest_jacobian") - 0.8).abs() < 1e-12, "{measured:?}");
+        assert!(energy > 0.1 && (value("elastic_energy") / energy - 1.0).abs() < 1e-12, "{measured:?}");
+    }
+}

@@ -32,6 +32,13 @@ fn the_rows_are_those_of_the_droplet_asked_for() {
         assert!(text.starts_with("time,x,y,") && !text.contains("gap"));
         std::fs::remove_file(path(k)).unwrap();
     }
+    // Without walls heights are those from the first one.
+    for (rows, y) in rows.iter().zip([0.0, 0.5]) {
+        let (heights, track) = (rows.trajectory().unwrap(), rows.track());
+        let origin = track[0].1.y;
+        assert!((origin - y).abs() < 1e-6 && track.len() == heights.heights().len());
+        assert!(heights.heights().iter().zip(&track).all(|(height, (_, place))| *height == place.y - origin));
+    }
     for (rows, start) in rows.iter().zip(at_start) {
         let [x, y] = ["velocity_x", "velocity_y"].map(|name| rows.table().curve("time", name).unwrap()[0].1);
         assert_eq!(Vec2::new(x, y), start);

@@ -41,3 +41,36 @@ fn what_keeps_a_file_from_being_read_is_told() {
     assert!(told(ErrorKind::IsADirectory).starts_with("a/b is a directory"));
     assert!(told(ErrorKind::Other).starts_with("could not read the checkpoint a/b"));
 }
+
+/// Bodies that are the same but for the kind of their markers.
+#[test]
+fn markers_of_another_kind_are_those_of_another_scene() {
+    let kinds = [
+        MarkerKind::Points,
+        MarkerKind::Rigid,
+        MarkerKind::Interface { viscosity_inside: None },
+        MarkerKind::Interface { viscosity_inside: Some(2.0) },
+        MarkerKind::UnevenInterface { viscosity_inside: None },
+        MarkerKind::UnevenInterface { viscosity_inside: Some(2.0) },
+        MarkerKind::OpenInterface { viscosity_inside: None, advance: 4.0 },
+        MarkerKind::OpenInterface { viscosity_inside: Some(2.0), advance: 4.0 },
+    ];
+    let of = |kind| {
+        let mut scene = Scene::new(DragBox::new(4.0, 1.0, 0.25));
+        let places = (0..16).map(|k| Vec2::new(0.25 * f64::from(k), 0.0)).collect();
+        scene.add(crate::MarkerBody::new("body", places, |_, _| {}).with_kind(kind));
+        scene
+    };
+    for saved in kinds {
+        let checkpoint = of(saved).checkpoint("");
+        for here in kinds {
+            match of(here).compare(&checkpoint) {
+                Ok(()) => assert_eq!(here, saved),
+                Err(error) => {
+                    assert_ne!(here, saved, "{error}");
+                    assert!(error.to_string().contains("the markers of body are of another kind"), "{error}");
+                }
+            }
+        }
+    }
+}

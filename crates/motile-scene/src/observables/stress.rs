@@ -130,3 +130,6 @@ impl<H: Hydrodynamics> System<H> {
         Ok(Stress { stresslet: total, area: lx * ly, viscosity: view.viscosity, imposed: self.imposed() })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1125,3 +1125,85 @@ fn what_diffuses_is_refused_where_it_is_not_stepped() {
     let error = of(DropletSetup::active(-1.0)).unwrap_err().to_string();
     assert!(error.starts_with("integrator = runge-kutta"), "{error}");
 }
+
+/// Half as many markers again as there may be, by a spacing that is too fine.
+#[test]
+fn a_droplet_of_too_many_markers_is_refused() {
+    let of = |part: f64| {
+        let marker_spacing = Some(std::f64::consts::TAU / (part * IntegralMethod::MOST_ELEMENTS as f64));
+        let method = Method::Grid(GridMethod { marker_spacing, ..GridMethod::of_spacing(0.1) });
+        let setup = Setup { method, ..Setup::default() };
+        setup.marker_count(&Curve::circle(1.0).unwrap(), "the droplet").map_err(|error| error.to_string())
+    };
+    assert!(of(0.9).is_ok_and(|count| count as f64 >= 0.9 * IntegralMethod::MOST_ELEMENTS as f64));
+    let said = of(1.5).unwrap_err();
+    assert!(said.starts_with("method.grid.marker-spacing = ") && said.contains("the droplet would have"), "{said}");
+}
+
+/// Volume, and area of the surface, of a body of revolution by the polygon of its meridian and the mirror image of it.
+fn revolved(polygon: &[Vec2]) -> [f64; 2] {
+    let next = polygon.iter().cycle().skip(1);
+    let sides = polygon.iter().zip(next).map(|(a, b)| {
+        let volume = (a.y * a.y + a.y * b.y + b.y * b.y) * (a.x - b.x) / 3.0;
+        Vec2::new(volume * a.y.signum(), (a.y.abs() + b.y.abs()) * a.distance(*b))
+    });
+    let Vec2 { x, y } = 0.5 * std::f64::consts::PI * sides.sum::<Vec2>();
+    [x.abs(), y]
+}
+
+/// Squeezed spheres keep their volume; the particles are spread over the larger surface.
+#[test]
+fn squeezed_spheres_have_the_volume_of_the_sphere() {
+    let pi = std::f64::consts::PI;
+    for to in [Squeezed::Ellipse, Squeezed::Stadium] {
+        for (radius, half) in [(1.0, 0.8), (2.0, 1.1), (0.5, 0.49)] {
+            let (curve, ratio) = super::droplet::squeezed_sphere(radius, half, to).unwrap();
+            let polygon = curve.markers(4000).unwrap();
+            let height = polygon.iter().map(|place| place.y).fold(0.0, f64::max);
+            let [volume, area] = revolved(&polygon);
+            assert!((height / half - 1.0).abs() < 1e-4, "{to:?} {half}: {height}");
+            assert!((volume / (4.0 / 3.0 * pi * radius.powi(3)) - 1.0).abs() < 1e-4, "{to:?} {half}: {volume}");
+            assert!((ratio * area / (4.0 * pi * radius * radius) - 1.0).abs() < 1e-4, "{to:?} {half}: {area} {ratio}");
+        }
+    }
+}
+
+#[test]
+fn stripes_begin_where_they_should_and_repeat() {
+    let factors = vec![1.0, 2.0, 5.0];
+    let grading = Grading::Stripes { axis: Axis::X, width: 0.5, from: 0.25, factors };
+    for (x, factor) in
+        [(0.2, 5.0), (0.3, 1.0), (0.7, 1.0), (0.8, 2.0), (1.3, 5.0), (1.8, 1.0), (-0.2, 5.0), (-0.3, 2.0), (-1.2, 1.0)]
+    {
+        assert_eq!(grading.factor(Vec2::new(x, 7.0)), factor, "{x}");
+    }
+}
+
+/// Walls that slide at half the shear rate times the width drive the shear that a channel refuses.
+#[test]
+fn a_shear_in_a_channel_is_refused_with_the_walls_that_drive_it() {
+    let flow = FlowSetup { shear: 2.0, ..FlowSetup::default() };
+    let said = refused(&Setup { region: channel(3.0), flow, ..Setup::default() });
+    assert!(said.starts_with("flow.shear = 2") && said.contains("wall-velocity = [-3, 3]"), "{said}");
+    let wall_velocity = Some([-3.0, 3.0]);
+    let sliding = FlowSetup { wall_velocity, ..FlowSetup::default() }.imposed(&channel(3.0)).unwrap();
+    assert_eq!(sliding, FlowSetup { shear: 2.0, ..FlowSetup::default() }.imposed(&Region::Plane).unwrap());
+}
+
+/// A wall may be thicker than half of the channel: the fluid is all the same between it and the other side.
+#[test]
+fn elastic_walls_through_points_may_reach_beyond_the_middle() {
+    let flat = |y: f64| [-3.0, -1.5, 0.0, 1.5].map(|x| [x, y]).to_vec();
+    let base = elastic(3.0, plain());
+    for (outline, thickness) in [
+        (SolidOutline::WallAbovePoints(flat(-0.5)), 3.0),
+        (SolidOutline::WallAbovePoints(flat(0.5)), 2.0),
+        (SolidOutline::WallBelowPoints(flat(0.5)), 3.0),
+    ] {
+        let solids = vec![SolidSetup { outline, ..base.solids[0].clone() }];
+        let setup = Setup { droplets: Vec::new(), solids, ..base.clone() };
+        let Built { scene, solids, .. } = setup.build().unwrap();
+        let area = scene.body(solids[0]).unwrap().mesh().area();
+        assert!((area - 6.0 * thickness).abs() < 1e-9, "{area} {thickness}");
+    }
+}

@@ -78,6 +78,26 @@ fn forces_have_neither_resultant_nor_torque() {
     }
 }
 
+/// The moment of the forces on the fluid is the stress `zeta_b (p p - 1/2)` times the area: a contractile gel draws the
+/// fluid in along its director.
+#[test]
+fn a_contractile_gel_draws_the_fluid_in_along_its_director() {
+    let material = GelMaterial { frank: 0.0, activity: -5.0, ..PASSIVE };
+    let (mut director, nodes) = bent(material, Anchoring::Free);
+    let angle: f64 = 0.4;
+    director.read(&vec![angle; nodes.len()]).unwrap();
+    let mut forces = vec![Vec2::ZERO; nodes.len()];
+    director.write_forces(&nodes, &mut forces).unwrap();
+    let area: f64 = director.elements.masses.iter().sum();
+    let moment = |of: fn(&Vec2, &Vec2) -> f64| nodes.iter().zip(&forces).map(|(x, f)| of(x, f)).sum::<f64>() / area;
+    let found =
+        [moment(|x, f| x.x * f.x), moment(|x, f| x.y * f.x), moment(|x, f| x.x * f.y), moment(|x, f| x.y * f.y)];
+    let [along, off] = [0.5 * (2.0 * angle).cos(), 0.5 * (2.0 * angle).sin()].map(|part| -5.0 * part);
+    for (found, expected) in found.into_iter().zip([along, off, off, -along]) {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
+}
+
 #[test]
 fn a_gel_turns_and_moves_with_a_rigid_flow() {
     let (mut director, nodes) = bent(GelMaterial { frank: 0.0, ..PASSIVE }, Anchoring::Free);

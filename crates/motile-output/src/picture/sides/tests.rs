@@ -39,3 +39,24 @@ fn small_circles_keep_their_samples() {
     let fields = sides(&raster, values, &[&curve], 0.2).unwrap();
     assert_eq!([fields.inside.at(Vec2::splat(0.5)), fields.outside.at(Vec2::splat(0.56))], [2.0, 0.0]);
 }
+
+/// Samples within three quarters of a cell of an interface are not trusted, even where nothing is smeared: their values
+/// may be of the other side.
+#[test]
+fn samples_on_the_interface_are_not_trusted() {
+    let raster = Raster::new([-2.0, -2.0], [4.0, 4.0], [40, 40], [false; 2]).unwrap();
+    let curve: Vec<Vec2> = (0..400).map(|k| Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 400.0)).collect();
+    let value = |p: &Vec2| match p.length() - 1.0 {
+        gap if gap.abs() < 0.07 => 1e3,
+        gap if gap < 0.0 => 3.0,
+        _ => 1.0,
+    };
+    let values: Vec<f64> = raster.points().iter().map(value).collect();
+    assert!(values.iter().filter(|value| **value == 1e3).count() > 20);
+    let fields = sides(&raster, values, &[&curve], 0.0).unwrap();
+    for k in 0..200 {
+        let direction = Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 200.0);
+        assert!((fields.inside.at(0.95 * direction) - 3.0).abs() < 1e-9, "{direction}");
+        assert!((fields.outside.at(1.05 * direction) - 1.0).abs() < 1e-9, "{direction}");
+    }
+}

@@ -78,3 +78,6 @@ fn pair(bodies: &mut [Box<dyn Body>], [host, interior_body]: [usize; 2]) -> Opti
     let (before, from) = bodies.split_at_mut(interior_body);
     Some((before.get(host)?.as_ref(), from.first_mut()?.as_interior_body()?))
 }
+
+#[cfg(test)]
+mod tests;
