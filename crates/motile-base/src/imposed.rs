@@ -142,3 +142,6 @@ impl std::ops::Add for ImposedFlow {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

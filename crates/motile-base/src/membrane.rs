@@ -192,3 +192,6 @@ impl Membrane {
         self.curve.truncate(vectors, modes)
     }
 }
+
+#[cfg(test)]
+mod tests;

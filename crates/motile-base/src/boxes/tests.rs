@@ -71,3 +71,20 @@ fn pairs_looked_at_are_not_quadratic() {
     assert!(few[0] < 27.0 && many[0] < 27.0, "{few:?} {many:?}");
     assert!(few[1] < 34.0 && many[1] < 46.0, "{few:?} {many:?}");
 }
+
+/// Among all images in a few rows and columns, in boxes whose rows are displaced.
+#[test]
+fn the_nearest_image_is_the_nearest_of_all() {
+    for (tilt, lengths) in [(0.0, [2.0, 3.0]), (0.9, [2.0, 1.5]), (-0.7, [2.0, 1.1]), (1.0, [2.0, 2.0])] {
+        let periods = Periods { lengths: lengths.map(Some), tilt };
+        for k in 0..400 {
+            let difference =
+                Vec2::new((0.617 * f64::from(k)).rem_euclid(12.0) - 6.0, 4.0 * (0.37 * f64::from(k)).sin());
+            let found = nearest_image(difference, periods);
+            let steps = (-9..=9).flat_map(|i| (-9..=9).map(move |j| (f64::from(i), f64::from(j))));
+            let image = |(i, j): (f64, f64)| difference + Vec2::new(i * lengths[0] + j * tilt, j * lengths[1]);
+            let least = steps.map(image).map(|image| image.length()).fold(f64::INFINITY, f64::min);
+            assert!((found.length() - least).abs() < 1e-12, "{tilt} {difference}: {found} {least}");
+        }
+    }
+}

@@ -144,3 +144,20 @@ fn transforms_allocate_nothing() {
         assert_eq!(info.count_total, 0, "length {len}");
     }
 }
+
+/// What a transform leaves in its memory is no part of the next one.
+#[test]
+fn a_plan_forgets_what_it_has_transformed() {
+    for len in [5, 8, 63] {
+        let (mut used, mut first) = (NodeSineTransform::new(len).unwrap(), NodeSineTransform::new(len).unwrap());
+        for round in 0..4 {
+            let numbers: Vec<f64> = values(len).iter().map(|value| value * f64::from(1 + round)).collect();
+            let [mut again, mut alone] = [numbers.clone(), numbers];
+            used.transform(&mut again).unwrap();
+            if round == 3 {
+                first.transform(&mut alone).unwrap();
+                assert_eq!(again, alone, "{len}");
+            }
+        }
+    }
+}
