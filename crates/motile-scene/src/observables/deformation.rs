@@ -187,3 +187,6 @@ fn axis(z: Complex64) -> f64 {
         angle
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,3 +170,6 @@ fn other_property(one: &dyn Body, other: &dyn Body) -> Option<(String, [String; 
         (!same).then(|| (name.clone(), values.map(shown)))
     })
 }
+
+#[cfg(test)]
+mod tests;

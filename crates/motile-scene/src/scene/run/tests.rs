@@ -223,3 +223,32 @@ fn every_attempt_is_counted() {
     assert!(report.failures == 1 && report.rejections > 0, "{report:?}");
     assert_eq!(report.steps + report.rejections + report.failures, attempts, "{report:?}");
 }
+
+/// Steps of a part of the limit of stability are that part of it.
+#[test]
+fn steps_of_a_part_of_the_limit_are_that_part() {
+    for part in [0.25, 0.5, 1.0] {
+        let mut scene = empty();
+        scene.add(drawn().with_stiffness(100.0).unwrap());
+        let (limit, ..) = scene.stable_step().unwrap();
+        scene.run(20.5 * part * limit).step_size(StepSize::OfLimit(part)).go().unwrap();
+        let report = scene.step_report();
+        assert!((report.longest / (part * limit) - 1.0).abs() < 1e-12, "{part}: {report:?} {limit}");
+        assert_eq!(report.steps, 21);
+    }
+}
+
+/// Stages of all steps are counted, and the most of one.
+#[test]
+fn stages_are_counted_over_all_steps() {
+    let mut scene = empty().advanced_by(IntegratorKind::RungeKuttaChebyshev);
+    scene.add(drawn().with_stiffness(100.0).unwrap());
+    let mut stages = Vec::new();
+    for k in 1..=3 {
+        scene.run(0.02 * f64::from(k)).step_size(StepSize::Fixed(0.01)).go().unwrap();
+        let work = scene.integrator_work();
+        assert_eq!(scene.steps(), 2 * k as usize);
+        stages.push((work.stages, work.most_stages));
+    }
+    assert!(stages.iter().enumerate().all(|(k, &(all, most))| all == 2 * (k + 1) * most && most >= 2), "{stages:?}");
+}

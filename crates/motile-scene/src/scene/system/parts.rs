@@ -69,3 +69,6 @@ pub(super) fn markers(_: usize, body: &dyn Body) -> usize {
 pub(super) fn states(_: usize, body: &dyn Body) -> usize {
     body.state_len()
 }
+
+#[cfg(test)]
+mod tests;

@@ -308,3 +308,34 @@ fn the_least_gap_to_solids_is_kept_with_its_time() {
     let (found, time) = gap.smallest().unwrap();
     assert!((found - 0.3).abs() < 1e-12 && time == 0.05, "{found} {time}");
 }
+
+/// Bodies inside another one are given with their own viscosity and that of the fluid around them.
+#[test]
+fn bodies_inside_have_their_viscosities() {
+    let mut scene = scene();
+    let outer = scene.add(ring("outer", Vec2::ZERO, 1.0, Some(100.0), Vec2::ZERO));
+    scene.add(ring("inner", Vec2::new(0.3, 0.1), 0.3, Some(7.0), Vec2::ZERO));
+    scene.system_mut().evaluate().unwrap();
+    let enclosed = scene.system().flow_at(outer).unwrap().enclosed();
+    assert_eq!(enclosed.len(), 1);
+    assert_eq!(enclosed[0].viscosities, [7.0, 100.0]);
+    assert_eq!(enclosed[0].positions.len(), circle(Vec2::ZERO, 0.3).len());
+}
+
+/// Two interfaces across a box that both have their inside above would bound layers of two viscosities each.
+#[test]
+fn layers_of_two_viscosities_are_refused() {
+    let built = |inside: Option<f64>, turned: bool| {
+        let mut scene = scene();
+        for (name, y, over) in [("first", -0.8, false), ("second", 0.8, turned)] {
+            let line = (0..40).map(|k| Vec2::new(0.08 * f64::from(if over { 39 - k } else { k }) - 1.6, y)).collect();
+            let advance = if over { -3.2 } else { 3.2 };
+            let kind = MarkerKind::OpenInterface { viscosity_inside: inside, advance };
+            scene.add(MarkerBody::new(name, line, |_, _| {}).with_kind(kind));
+        }
+        scene.system_mut().evaluate().map(drop)
+    };
+    assert!(built(None, false).is_ok() && built(Some(10.0), false).is_ok() && built(Some(30.0), true).is_ok());
+    let error = built(Some(30.0), false).unwrap_err();
+    assert!(refused(&error, "the fluid between") && error.to_string().contains("30 and 10"), "{error}");
+}
