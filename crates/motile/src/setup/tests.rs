@@ -1,4 +1,4 @@
-use active_interface::{Motion, polygon_moments};
+use active_interface::{Curve, Motion, polygon_moments};
 use motile_base::{Drive, Vec2};
 use motile_scene::{Body, Handle, Scene, StepSize};
 
