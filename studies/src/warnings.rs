@@ -1,14 +1,16 @@
 //! Warnings of runs about their errors: scenes at default settings against resolved ones.
 //!
-//! `cargo run --release -p studies -- warnings` prints a table, which `--write` keeps as
-//! `docs/tables/warnings.csv`.
+//! `cargo run --release -p studies -- warnings` prints two tables, of scenes of one droplet and of the scene files of
+//! the examples and of the page. `--write` keeps them as `docs/tables/warnings.csv` and `docs/tables/warnings-2.csv`.
+
+use std::fs;
 
 use anyhow::{Context, Result};
 use clap::Args;
 use motile::active_interface::observables::Observables;
 use motile::base::{Drive, Region, Vec2};
 use motile::scene::{Every, Warnings};
-use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, Setup};
 use motile_examples::positive;
 use motile_tests::validation::Table;
 
@@ -23,6 +25,12 @@ pub(crate) struct Flags {
     /// Number of scenes, from the first on
     #[arg(long, default_value_t = SCENES.len())]
     scenes: usize,
+    /// Time to which the scene files are run
+    #[arg(long, default_value_t = 20.0, value_parser = positive)]
+    files_time: f64,
+    /// Only scene files whose path has this text in it
+    #[arg(long, default_value = "")]
+    only: String,
     #[command(flatten)]
     keep: tables::Keep,
 }
@@ -80,14 +88,26 @@ fn setup(&(channel, activity, [inside, outside], spacing): &Scene) -> Setup {
     }
 }
 
-/// The observables in the end, and the causes of the warnings on the way.
-fn end(setup: &Setup, time: f64) -> Result<(Observables, Vec<String>)> {
+/// The observables of all droplets in the end, and the causes of the warnings on the way.
+fn ends(setup: &Setup, time: f64) -> Result<(Vec<Observables>, Vec<String>)> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut warnings = Warnings::default();
     scene.run(time).observe(Every::Steps(1), &mut warnings).go()?;
-    let droplet = *droplets.first().context("no droplet")?;
-    let causes = warnings.worst().iter().map(|(_, warning)| warning.cause.to_string()).collect();
-    Ok((scene.observe(droplet)?, causes))
+    let mut causes: Vec<String> = Vec::new();
+    for (_, warning) in warnings.worst() {
+        let cause = warning.cause.to_string();
+        if !causes.contains(&cause) {
+            causes.push(cause);
+        }
+    }
+    let seen = droplets.iter().map(|&droplet| Ok(scene.observe(droplet)?)).collect::<Result<_>>()?;
+    Ok((seen, causes))
+}
+
+/// As [`ends`], of the first droplet.
+fn end(setup: &Setup, time: f64) -> Result<(Observables, Vec<String>)> {
+    let (seen, causes) = ends(setup, time)?;
+    Ok((seen.into_iter().next().context("no droplet")?, causes))
 }
 
 /// Errors of the observables relative to them; of the stresslet, which has two components, to its magnitude, or to a
@@ -138,5 +158,58 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let scene = [region, activity.to_string(), format!("{inside}/{outside}"), method];
         table.push(scene.into_iter().chain(results));
     }
-    flags.keep.tables("warnings", "warnings", &["studies/src/warnings.rs"], &[table])
+    let inputs = ["studies/src/warnings.rs", "examples/scenes", "bindings/web/presets"];
+    flags.keep.tables("warnings", "warnings", &inputs, &[table, files(flags)?])
+}
+
+/// The description with twice the resolution of the flow and of the interfaces.
+fn refined(setup: &Setup) -> Setup {
+    let method = match setup.method {
+        Method::Integral(IntegralMethod { nodes, elements }) => {
+            Method::Integral(IntegralMethod { nodes: 2 * nodes, elements: 2 * elements })
+        }
+        Method::Layers(LayersMethod { nodes, elements, spacing, kernel }) => {
+            Method::Layers(LayersMethod { nodes: 2 * nodes, elements: 2 * elements, spacing: spacing / 2.0, kernel })
+        }
+        Method::Grid(grid) => Method::Grid(GridMethod { spacing: grid.spacing / 2.0, ..grid }),
+        other => other,
+    };
+    Setup { method, ..setup.clone() }
+}
+
+/// Warnings of the scene files of the examples and of the page, beside their errors against runs of twice the
+/// resolution.
+fn files(flags: &Flags) -> Result<Table> {
+    let columns = ["scene", "until", "largest", "of", "warned of"];
+    let title = "Warnings of the scene files, and the largest difference of all observables of all droplets from a run \
+                 with twice the resolution";
+    let mut table = Table::new(title, &columns);
+    for folder in ["examples/scenes", "bindings/web/presets"] {
+        let entries = fs::read_dir(tables::root().join(folder))?.map(|entry| Ok(entry?.path()));
+        let mut paths = entries.collect::<Result<Vec<_>>>()?;
+        paths.retain(|path| path.to_string_lossy().contains(&flags.only));
+        paths.sort();
+        for path in paths {
+            let setup = Setup::from_toml(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())?;
+            let name = format!("{folder}/{}", tables::name(&path));
+            let [found, exact] = [&setup, &refined(&setup)].map(|setup| ends(setup, flags.files_time));
+            let results = match (found, exact) {
+                (Ok((found, causes)), Ok((exact, _))) => {
+                    let mut largest = ("", 0.0_f64);
+                    for (found, exact) in found.iter().zip(&exact) {
+                        for error in errors(found, exact)? {
+                            if error.1.abs() > largest.1.abs() {
+                                largest = error;
+                            }
+                        }
+                    }
+                    [format!("{:+.2} %", 100.0 * largest.1), largest.0.to_owned(), causes.join(", ")]
+                }
+                (Err(error), _) => [String::new(), String::new(), error.to_string()],
+                (_, Err(error)) => [format!("refined: {error}"), String::new(), String::new()],
+            };
+            table.push([name, flags.files_time.to_string()].into_iter().chain(results));
+        }
+    }
+    Ok(table)
 }

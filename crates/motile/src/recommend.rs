@@ -1,10 +1,11 @@
 //! Settings for an error that is asked for.
 
-use motile_base::Region;
+use active_interface::ExcludedVolume;
+use motile_base::{Drive, Region};
 use motile_scene::StepSize;
 
 use crate::SetupError;
-use crate::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup};
+use crate::setup::{DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Particles, Setup};
 
 /// Contents of a scene that set its errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,9 +105,10 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
 
 impl Setup {
     /// The largest relative error of the speed of a steady swimmer (no dimension) that was measured with settings that
-    /// are no finer than these, in the kind of scene that this is, as [`recommend`] knows them; `None` for settings
-    /// coarser than all that were measured, other kernels than the default, and scenes that nothing was measured for:
-    /// unbounded fluid, three dimensions, walls that are elastic or curved.
+    /// are no finer than these, in the kind of scene that this is, as [`recommend`] knows them. `None` for settings
+    /// coarser than all that were measured, for other kernels than the default, and for scenes that differ from those
+    /// that were measured in more than the place and heading of their droplet: another number of droplets, other
+    /// bodies, walls, flows or radii, unbounded fluid, three dimensions, or activities beyond those of [`recommend`].
     ///
     /// ```
     /// use motile::prelude::*;
@@ -115,20 +117,12 @@ impl Setup {
     /// let coarse = Method::Integral(IntegralMethod { nodes: 32, elements: 128 });
     /// assert_eq!(Setup { method: coarse, ..Setup::default() }.expected_error(), Some(0.0085));
     /// assert_eq!(Setup { region: Region::Plane, ..Setup::default() }.expected_error(), None);
+    /// let strong = Setup { droplets: vec![DropletSetup::active(-9.0)], ..Setup::default() };
+    /// assert_eq!(strong.expected_error(), None);
     /// ```
     #[must_use]
     pub fn expected_error(&self) -> Option<f64> {
-        if !(self.solids.is_empty() && self.walls.is_empty() && self.interfaces.is_empty()) {
-            return None;
-        }
-        let viscosities = self.droplets.iter().filter_map(|droplet| droplet.viscosity);
-        let differ = viscosities.chain([self.viscosity]).any(|viscosity| viscosity != self.viscosity);
-        let scene = match self.region {
-            Region::Box { .. } if differ => SceneKind::ViscosityContrast,
-            Region::Box { .. } => SceneKind::Box,
-            Region::Channel { .. } if !differ => SceneKind::Channel,
-            _ => return None,
-        };
+        let scene = self.measured_kind()?;
         let as_fine = |known: &Method| match (self.method, known) {
             (Method::Integral(here), Method::Integral(there)) => {
                 here.nodes >= there.nodes && here.elements >= there.elements
@@ -143,6 +137,50 @@ impl Setup {
         };
         let finest = measured(scene, self.method.kind()).into_iter().rev().find(|(_, known)| as_fine(known));
         finest.map(|(error, _)| error)
+    }
+
+    /// The kind of the scenes that were measured, if this is one of them.
+    fn measured_kind(&self) -> Option<SceneKind> {
+        let [droplet] = self.droplets.as_slice() else { return None };
+        let particles = droplet.particles.as_ref()?;
+        // All else is as in the scenes that were measured.
+        let plain = Particles {
+            activity: particles.activity,
+            excluded_volume: particles.excluded_volume,
+            ..Particles::default()
+        };
+        let round = DropletSetup {
+            name: droplet.name.clone(),
+            centre: droplet.centre,
+            angle: droplet.angle,
+            viscosity: droplet.viscosity,
+            particles: Some(plain),
+            ..DropletSetup::default()
+        };
+        let like = Setup {
+            region: self.region,
+            method: self.method,
+            viscosity: self.viscosity,
+            droplets: vec![round],
+            mirror_symmetric: self.mirror_symmetric,
+            ..Setup::default()
+        };
+        if *self != like || !matches!(particles.excluded_volume, ExcludedVolume::Step(step) if step <= 10.0) {
+            return None;
+        }
+        let ratio = droplet.viscosity.map_or(1.0, |inside| inside / self.viscosity);
+        let (kind, strongest) = match self.region {
+            Region::Box { lengths } if lengths.iter().all(|&length| length >= 6.0) => match ratio {
+                1.0 => (SceneKind::Box, -4.0),
+                1.0..=100.0 => (SceneKind::ViscosityContrast, -1.5),
+                _ => return None,
+            },
+            Region::Channel { width, drive: Drive::ZeroGradient, .. } if width >= 2.0 && ratio == 1.0 => {
+                (SceneKind::Channel, -2.0)
+            }
+            _ => return None,
+        };
+        (strongest..0.0).contains(&particles.activity).then_some(kind)
     }
 }
 
