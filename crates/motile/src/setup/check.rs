@@ -297,10 +297,9 @@ impl Setup {
                 return Checked { place: "" }.refuse("region", &"plane", remedy);
             }
             if cells > most || product > in_all {
-                let remedy = format!(
-                    "a length of {} would take {cells:.1e} cells, {product:.1e} in all: give more",
-                    short(length)
-                );
+                let count = if cells < 1e6 { format!("{cells:.0}") } else { format!("{cells:.1e}") };
+                let remedy =
+                    format!("a length of {} would take {count} cells, {product:.1e} in all: give more", short(length));
                 return checked.refuse("spacing", &spacing, remedy);
             }
             if whole < 4.0 || (cells - whole).abs() > 1e-6 * whole {
