@@ -12,6 +12,8 @@ use stokes_grid::{Grid, PeriodicStokes};
 
 const GEL: GelMaterial = GelMaterial { frank: 1.0, rotational_viscosity: 2.0, alignment: -0.6, activity: -8.0 };
 const VISCOSITY: f64 = 1.5;
+/// Zeros of J_0.
+const ZEROS: [f64; 2] = [2.404_825_557_695_773, 5.520_078_110_286_311];
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
@@ -50,8 +52,9 @@ fn waves_on_a_uniform_director_grow_as_they_should() {
         let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
         let exact = -GEL.frank * q * q * diffusion + GEL.activity * cos * coupling / (2.0 * VISCOSITY);
         let errors = [32, 64].map(|cells| (wave_rate(GEL, cells, angle, wave).unwrap() - exact).abs());
-        assert!(errors[1] < 0.005 * q * q * (1.0 + exact.abs()), "{errors:?} of {exact}");
-        assert!((errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
+        let bound = 1e-3 * q * q * (1.0 + exact.abs());
+        assert!(errors[0] < 4.0 * bound && errors[1] < bound, "{errors:?} of {exact}");
+        assert!((errors[0] / errors[1]).log2() > 1.5, "{errors:?}");
     }
 }
 
@@ -107,37 +110,38 @@ fn disc_rate(gel: GelMaterial, cells: usize, zero: f64, anchoring: Anchoring, ex
 
 #[test]
 fn asters_and_vortices_turn_as_they_should() {
-    let zeros = [2.404_825_557_695_773, 5.520_078_110_286_311];
     for (anchoring, sign, exterior, zeros) in [
-        (Anchoring::Homeotropic, 1.0, VISCOSITY, &zeros[..]),
-        (Anchoring::Planar, -1.0, VISCOSITY, &zeros),
-        (Anchoring::Homeotropic, 1.0, 10.0 * VISCOSITY, &zeros[..1]),
-        (Anchoring::Homeotropic, 1.0, 0.1 * VISCOSITY, &zeros[..1]),
+        (Anchoring::Homeotropic, 1.0, VISCOSITY, &ZEROS[..]),
+        (Anchoring::Planar, -1.0, VISCOSITY, &ZEROS),
+        (Anchoring::Homeotropic, 1.0, 10.0 * VISCOSITY, &ZEROS[..1]),
+        (Anchoring::Homeotropic, 1.0, 0.1 * VISCOSITY, &ZEROS[..1]),
     ] {
         for &zero in zeros {
             let coupling = 1.0 - sign * GEL.alignment;
             let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
             let exact = -GEL.frank * zero * zero * diffusion + sign * coupling * GEL.activity / (2.0 * VISCOSITY);
-            // The core, where the director turns within a cell, makes the order less than two.
+            // The core, where the director turns within a cell, makes the order less than two for most modes.
             let errors =
                 [40, 80].map(|cells| (disc_rate(GEL, cells, zero, anchoring, exterior).unwrap() - exact).abs());
-            assert!(errors[1] < 0.08 * exact.abs(), "{errors:?} of {exact}");
+            assert!(errors[1] < 0.06 * exact.abs(), "{errors:?} of {exact}");
             assert!(errors[1] < 0.5 * errors[0] || errors[1] < 0.01 * exact.abs(), "{errors:?} of {exact}");
         }
     }
 }
 
-/// The error around a core is told as it is found for the threshold of a vortex, which errs by more than that of an
-/// aster; where there is no defect nothing is told.
+/// The error around a core is told as it is found for the worst of the thresholds of asters and vortices; where there is
+/// no defect nothing is told.
 #[test]
 fn cores_of_defects_that_are_not_resolved_are_told() {
-    let (zero, coupling) = (2.404_825_557_695_773, 1.0 + GEL.alignment);
-    let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
-    let exact = -2.0 * VISCOSITY * GEL.frank * zero * zero * diffusion / coupling;
     for cells in [40, 80, 160] {
         let spacing = 4.0 / f64::from(cells);
-        let found = threshold(|gel| disc_rate(gel, cells as usize, zero, Anchoring::Planar, VISCOSITY)).unwrap();
-        let error = 100.0 * (found / exact - 1.0).abs();
+        let mut error = 0.0_f64;
+        for (anchoring, sign) in [(Anchoring::Homeotropic, 1.0), (Anchoring::Planar, -1.0)] {
+            for zero in ZEROS {
+                let found = threshold(|gel| disc_rate(gel, cells as usize, zero, anchoring, VISCOSITY)).unwrap();
+                error = error.max(100.0 * (found / exact_threshold(sign, zero) - 1.0).abs());
+            }
+        }
         let markers = (TAU / (0.5 * spacing)).round() as usize;
         let droplet = ActiveDroplet::passive(&Curve::circle(1.0).unwrap().markers(markers).unwrap(), 10.0).unwrap();
         let mut scene = Scene::new(ImmersedBoundary::new(solver(40, 4.0, VISCOSITY).unwrap(), AnyKernel::BSpline4));
@@ -149,9 +153,15 @@ fn cores_of_defects_that_are_not_resolved_are_told() {
         let uniform = DirectorStart::Uniform { angle: 0.3, noise: 0.0, seed: 1 };
         assert!(warnings(uniform).is_empty());
         let [core] = &warnings(DirectorStart::Aster)[..] else { panic!("{spacing}") };
-        println!("{spacing}: found {error:.1} %, {core}");
-        assert!((0.8..1.25).contains(&(core.excess / error)), "{spacing}: {error} {core}");
+        assert!((0.95..1.4).contains(&(core.excess / error)), "{spacing}: {error} {core}");
     }
+}
+
+/// The activity at which the mode J_0(zero r) around an aster (sign 1) or a vortex (-1) neither grows nor decays.
+fn exact_threshold(sign: f64, zero: f64) -> f64 {
+    let coupling = 1.0 - sign * GEL.alignment;
+    let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
+    sign * 2.0 * VISCOSITY * GEL.frank * zero * zero * diffusion / coupling
 }
 
 /// The activity at which a rate that is linear in it is zero.
@@ -175,15 +185,14 @@ fn activity_overcomes_the_elasticity_of_the_director_where_it_should() {
         });
         assert!(errors[1] < 5e-3 && (errors[0] / errors[1]).log2() > 1.9, "{degrees}: {errors:?} of {exact}");
     }
-    let zero = 2.404_825_557_695_773;
+    let zero = ZEROS[0];
     for (anchoring, sign) in [(Anchoring::Homeotropic, 1.0), (Anchoring::Planar, -1.0)] {
-        let coupling = 1.0 - sign * GEL.alignment;
-        let exact = sign * 2.0 * VISCOSITY * GEL.frank * zero * zero * diffusion(coupling) / coupling;
+        let exact = exact_threshold(sign, zero);
         let errors = [40, 80].map(|cells| {
             let found = threshold(|gel| disc_rate(gel, cells, zero, anchoring, VISCOSITY)).unwrap();
             (found / exact - 1.0).abs()
         });
         // Of an order less than two, by the core.
-        assert!(errors[1] < 0.12 && errors[1] < 0.6 * errors[0], "{anchoring:?}: {errors:?} of {exact}");
+        assert!(errors[1] < 0.03 && errors[1] < 0.6 * errors[0], "{anchoring:?}: {errors:?} of {exact}");
     }
 }

@@ -51,7 +51,7 @@ impl GelInBox {
         });
         let elements = Elements::new(triangles.collect(), nodes.len(), lengths.map(Some));
         let angles = nodes.iter().copied().map(angle).collect();
-        let mut director = Director::new(material.checked()?, elements, angles, None);
+        let mut director = Director::new(material.checked()?, elements, angles, None, 0);
         director.move_to(&nodes);
         Ok(Self { director, rest: vec![Vec2::ZERO; nodes.len()], nodes })
     }
@@ -86,7 +86,8 @@ impl Body for GelInBox {
         positions.copy_from_slice(&self.nodes);
     }
 
-    fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.director.grid = view.spacing.unwrap_or_default();
         Ok(self.director.write_forces(&self.nodes, forces)?)
     }
 

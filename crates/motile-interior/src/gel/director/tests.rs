@@ -22,7 +22,7 @@ fn bent(material: GelMaterial, anchoring: Anchoring) -> (Director, Vec<Vec2>) {
     let angles = nodes.iter().map(|node| 2.0 * node.x + (3.0 * node.y).sin()).collect();
     let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
     let anchored = anchoring.angle_from_tangent().map(|angle| (angle, 24));
-    let mut director = Director::new(material, elements, angles, anchored);
+    let mut director = Director::new(material, elements, angles, anchored, anchored.map_or(0, |(_, count)| count));
     director.move_to(&nodes);
     (director, nodes)
 }
@@ -115,7 +115,7 @@ fn rods_lie_down_in_a_shear_flow() {
     let resting = 0.5 * (1.0_f64 / 1.3).acos();
     let elements = Elements::new(vec![[0, 1, 2]], 3, [None; 2]);
     let material = GelMaterial { frank: 0.0, alignment: -1.3, ..PASSIVE };
-    let mut director = Director::new(material, elements, vec![resting, resting + 0.1, resting - 0.1], None);
+    let mut director = Director::new(material, elements, vec![resting, resting + 0.1, resting - 0.1], None, 0);
     let nodes = [Vec2::ZERO, Vec2::X, Vec2::Y];
     director.move_to(&nodes);
     director.write_forces(&nodes, &mut [Vec2::ZERO; 3]).unwrap();
@@ -134,7 +134,7 @@ fn defects_are_found_where_they_are() {
     let of = |charges: [f64; 2]| {
         let turn = |node: &Vec2| (0..2).map(|k| charges[k] * (*node - places[k]).to_angle()).sum::<f64>() + FRAC_PI_2;
         let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
-        let mut director = Director::new(PASSIVE, elements, nodes.iter().map(turn).collect(), None);
+        let mut director = Director::new(PASSIVE, elements, nodes.iter().map(turn).collect(), None, 0);
         director.move_to(&nodes);
         director.defects(&nodes)
     };
@@ -151,7 +151,7 @@ fn defects_are_found_where_they_are() {
 #[test]
 fn a_folded_mesh_is_an_error() {
     let elements = Elements::new(vec![[0, 1, 2]], 3, [None; 2]);
-    let mut director = Director::new(PASSIVE, elements, vec![0.0; 3], None);
+    let mut director = Director::new(PASSIVE, elements, vec![0.0; 3], None, 0);
     let nodes = [Vec2::ZERO, Vec2::Y, Vec2::X];
     director.move_to(&nodes);
     let error = director.write_forces(&nodes, &mut [Vec2::ZERO; 3]).unwrap_err();
