@@ -84,6 +84,7 @@ fn main() -> ExitCode {
 fn simulate(flags: &Flags) -> Result<()> {
     let setup = scene(flags)?;
     let spacing = flags.method.spacing(&setup);
+    let look = Look::of(&setup);
     let mut run = SceneRun::new(setup.build()?, &setup, flags.method.time, &flags.output, "active_walls", spacing)?;
     run.go()?;
 
@@ -97,7 +98,7 @@ fn simulate(flags: &Flags) -> Result<()> {
     }
     let concentration = Some(Particles::default().concentration);
     let caption = format!("wall activity {}, gap {}", flags.wall_activity, flags.gap).replace('-', "−");
-    run.finish(&summary, &Look { caption, concentration, ..Look::default() })
+    run.finish(&summary, &Look { caption, concentration, ..look })
 }
 
 /// The scene that the flags describe.

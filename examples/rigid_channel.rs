@@ -44,7 +44,7 @@ fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     let opposite = last.observables.centroid.x + 0.5 * flags.region.along.length;
     let flux = net_flux(run.scene.system_mut(), opposite)?;
     summary.put("net_flux", flux, "along the channel (R0^2 per time)");
-    summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
+    summary.put("retrograde_flow", last.flow.and_then(|flow| flow.retrograde()), "past the droplet, seen from it");
     summary.put("gap", last.gap, "to the walls, in the end (R0)");
     summary.put("minimum_gap", run.scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
     run.finish(&summary)

@@ -157,7 +157,7 @@ fn meet(flags: &Flags) -> Result<()> {
             let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
             let [first, second] = [0, 1].map(|index| setup.droplets[index].activity());
             let caption = format!("activities {first} and {second}, viscosity outside {}", setup.viscosity);
-            flags.output.look.apply(Look { caption, concentration, ..Look::default() }).write_picture(
+            flags.output.look.apply(Look { caption, concentration, ..Look::of(&setup) }).write_picture(
                 &seen,
                 &[],
                 picture,

@@ -15,7 +15,7 @@ use crate::parse::{finite, not_negative, one_of, pair, positive, seed};
 
 /// Radius of a droplet, the unit of length.
 pub(crate) const RADIUS: f64 = 1.0;
-/// Longest box or channel (R0).
+/// Longest box or channel (radii of the first droplet).
 const LONGEST: f64 = 1000.0;
 /// Relative amplitude of the random perturbation.
 const PERTURBATION: f64 = 0.05;
@@ -142,7 +142,8 @@ impl BoxFlags {
     /// A box that is unreasonably large; a place for a droplet where there is none, or where there are several.
     pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         if let Some(side) = self.side {
-            ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
+            let most = LONGEST * setup.length_scale();
+            ensure!(side <= most, "--box {side} is too large: give at most {most}");
             setup.region = Region::Box { lengths: [side, side] };
         }
         match (self.offset, setup.droplets.as_mut_slice()) {

@@ -24,7 +24,7 @@ const STARTS: [(&str, &str, DirectorStart); 4] = [
 /// An active polar gel that fills a droplet.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct GelFlags {
-    /// Frank constant K (force) [default: 10]
+    /// Frank constant K (force times length) [default: 10]
     #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
     pub frank: Option<f64>,
     /// Rotational viscosity gamma1 (stress times time) [default: 100]

@@ -8,7 +8,6 @@ use motile::scene::{StepSize, integrator::IntegratorKind};
 use motile::setup::{GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
-use crate::flags::RADIUS;
 use crate::parse::{elements, kernel, nodes, one_of, pair, positive, time_step};
 
 /// Settings that go together.
@@ -43,7 +42,7 @@ pub struct MethodFlags {
     /// How the flow is computed; without it as the scene says. No other flag but --preset changes it
     #[arg(long, value_parser = one_of(&METHODS))]
     pub method: Option<MethodKind>,
-    /// Grid spacing h (R0); without a grid, that of pictures [default: 0.05]
+    /// Grid spacing h (R0); without a grid, that of pictures [default: a twentieth of the droplet's radius]
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub spacing: Option<f64>,
     /// Time step, 'auto' (half of what is stable), 'adaptive' or 'adaptive:TOLERANCE'; without it the preset's
@@ -90,14 +89,21 @@ impl MethodFlags {
             Preset::Thesis => Setup::thesis(),
             Preset::Accurate => Setup::default(),
         });
+        // The droplets of a file may be of any size.
+        let radius = setup.length_scale();
+        let (grid, layers) = (GridMethod::default(), LayersMethod::default());
+        let grid = GridMethod { spacing: radius * grid.spacing, ..grid };
+        let layers = LayersMethod { spacing: radius * layers.spacing, ..layers };
         setup.method = match (self.kind(setup.method.kind()), setup.method) {
             (MethodKind::Integral, Method::Integral(base)) => Method::Integral(self.integral(base)?),
             (MethodKind::Integral, _) => Method::Integral(self.integral(IntegralMethod::default())?),
-            (MethodKind::Layers, Method::Layers(base)) => Method::Layers(self.layers(base)?),
-            (MethodKind::Layers, _) => Method::Layers(self.layers(LayersMethod::default())?),
-            (MethodKind::Grid, Method::Grid(base)) => Method::Grid(self.grid(base)?),
-            (MethodKind::Grid, _) if self.preset == Preset::Thesis => Method::Grid(self.grid(GridMethod::thesis())?),
-            (MethodKind::Grid, _) => Method::Grid(self.grid(GridMethod::default())?),
+            (MethodKind::Layers, Method::Layers(base)) => Method::Layers(self.layers(base, radius)?),
+            (MethodKind::Layers, _) => Method::Layers(self.layers(layers, radius)?),
+            (MethodKind::Grid, Method::Grid(base)) => Method::Grid(self.grid(base, radius)?),
+            (MethodKind::Grid, _) if self.preset == Preset::Thesis => {
+                Method::Grid(self.grid(GridMethod::thesis(), radius)?)
+            }
+            (MethodKind::Grid, _) => Method::Grid(self.grid(grid, radius)?),
             (kind, _) => bail!("--method {}: there are no flags for it, give a scene file", kind.name()),
         };
         setup.step = self.dt.unwrap_or(setup.step);
@@ -126,16 +132,20 @@ impl MethodFlags {
         self.method.unwrap_or(if self.preset == Preset::Thesis { MethodKind::Grid } else { base })
     }
 
-    fn grid(&self, base: GridMethod) -> Result<GridMethod> {
+    fn grid(&self, base: GridMethod, radius: f64) -> Result<GridMethod> {
         for (flag, value) in [("nodes", self.nodes), ("elements", self.elements)] {
             ensure!(value.is_none(), "--{flag} means nothing on a grid: leave it out or give --method integral");
         }
-        Ok(GridMethod { spacing: self.grid_spacing(base.spacing)?, kernel: self.kernel.unwrap_or(base.kernel), ..base })
+        Ok(GridMethod {
+            spacing: self.grid_spacing(base.spacing, radius)?,
+            kernel: self.kernel.unwrap_or(base.kernel),
+            ..base
+        })
     }
 
-    fn layers(&self, base: LayersMethod) -> Result<LayersMethod> {
+    fn layers(&self, base: LayersMethod, radius: f64) -> Result<LayersMethod> {
         let [nodes, elements] = self.resolution([base.nodes, base.elements], 0)?;
-        let spacing = self.grid_spacing(base.spacing)?;
+        let spacing = self.grid_spacing(base.spacing, radius)?;
         Ok(LayersMethod { nodes, elements, spacing, kernel: self.kernel.unwrap_or(base.kernel) })
     }
 
@@ -145,10 +155,12 @@ impl MethodFlags {
         Ok(IntegralMethod { nodes, elements })
     }
 
-    fn grid_spacing(&self, base: f64) -> Result<f64> {
+    /// The spacing of a grid for droplets of that radius (lengths), `base` where none is given.
+    fn grid_spacing(&self, base: f64, radius: f64) -> Result<f64> {
         let spacing = self.spacing.unwrap_or(base);
-        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * RADIUS);
-        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius 1: give at most 0.25");
+        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * radius);
+        let most = 0.25 * radius;
+        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius {radius}: give at most {most}");
         Ok(spacing)
     }
 
@@ -160,9 +172,9 @@ impl MethodFlags {
         Ok([nodes, elements])
     }
 
-    /// The spacing (R0) of the grid, or of pictures where there is none.
+    /// The spacing (length) of the grid, or of pictures where there is none, by default a twentieth of a radius.
     #[must_use]
     pub fn spacing(&self, setup: &Setup) -> f64 {
-        setup.method.spacing().or(self.spacing).unwrap_or(GridMethod::default().spacing)
+        setup.method.spacing().or(self.spacing).unwrap_or(GridMethod::default().spacing * setup.length_scale())
     }
 }

@@ -38,8 +38,8 @@ pub(crate) fn time_step(text: &str) -> Result<StepSize, String> {
     step.filter(|step| step.check().is_ok()).ok_or_else(|| rule.to_owned())
 }
 
-/// Largest magnitude of a number.
-const LARGEST: f64 = 1e6;
+/// Largest magnitude of a number, in any unit: that of the values of scene files.
+const LARGEST: f64 = 1e50;
 
 /// A number for which `valid` holds, or the rule it breaks.
 fn number(text: &str, rule: &str, valid: impl Fn(f64) -> bool) -> Result<f64, String> {
@@ -55,20 +55,20 @@ fn whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>
     number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
 }
 
-/// A number of magnitude up to a million.
+/// A number of magnitude up to 1e50.
 ///
 /// # Errors
 /// The rule that `text` breaks.
 pub fn finite(text: &str) -> Result<f64, String> {
-    number(text, "must be a number from -1e6 to 1e6", |_| true)
+    number(text, "must be a number from -1e50 to 1e50", |_| true)
 }
 
-/// A number above zero, up to a million.
+/// A number above zero, up to 1e50.
 ///
 /// # Errors
 /// The rule that `text` breaks.
 pub fn positive(text: &str) -> Result<f64, String> {
-    number(text, "must be a number above 0 and at most 1e6", |v| v > 0.0)
+    number(text, "must be a number above 0 and at most 1e50", |v| v > 0.0)
 }
 
 /// A number of nodes of boundary integrals.
@@ -88,15 +88,15 @@ pub(crate) fn elements(text: &str) -> Result<usize, String> {
     whole(text, IntegralMethod::NODES[0]..=IntegralMethod::MOST_ELEMENTS)
 }
 
-/// A number from zero to a million.
+/// A number from zero to 1e50.
 ///
 /// # Errors
 /// The rule that `text` breaks.
 pub fn not_negative(text: &str) -> Result<f64, String> {
-    number(text, "must be a number from 0 to 1e6", |v| v >= 0.0)
+    number(text, "must be a number from 0 to 1e50", |v| v >= 0.0)
 }
 
-/// Two numbers of magnitude up to a million with a comma between them.
+/// Two numbers of magnitude up to 1e50 with a comma between them.
 ///
 /// # Errors
 /// The rule that `text` breaks.

@@ -4,14 +4,15 @@
 const LATE: f64 = 0.5;
 
 /// Mean rate at which the direction of motion turns in the second half of a run (radians per time): the slope of the
-/// line nearest to it. Nothing of fewer than three of the points (time, heading in degrees).
+/// line nearest to it. Nothing of fewer than three points (time, heading in degrees); those without a heading, which are
+/// not numbers, do not count.
 #[must_use]
 pub fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
     let (end, _) = *headings.last()?;
     let mut heading = 0.0;
     let late: Vec<[f64; 2]> = headings
         .iter()
-        .filter(|(time, _)| *time >= LATE * end)
+        .filter(|(time, degrees)| *time >= LATE * end && degrees.is_finite())
         .map(|(time, degrees)| {
             let change = degrees - heading;
             heading += change - 360.0 * ((change + 180.0) / 360.0).floor();
@@ -49,6 +50,10 @@ mod tests {
         let rate = turning_rate(&headings).expect("a rate");
         assert!((rate - 85_f64.to_radians()).abs() < 1e-12, "{rate}");
         assert!(turning_rate(&headings[..2]).is_none());
+        let mut resting = headings.clone();
+        (30..35).for_each(|k| resting[k].1 = f64::NAN);
+        let rate = turning_rate(&resting).expect("a rate");
+        assert!((rate - 85_f64.to_radians()).abs() < 1e-12, "{rate}");
     }
 
     #[test]

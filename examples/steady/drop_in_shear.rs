@@ -166,12 +166,17 @@ fn deform(flags: &Flags) -> Result<()> {
     if flags.steady { steady(flags, &setup) } else { run(flags, &setup) }
 }
 
+/// Angle in degrees; not a number for a round drop.
+fn angle(radians: Option<f64>) -> f64 {
+    radians.map_or(f64::NAN, f64::to_degrees)
+}
+
 /// Puts the deformation and the stresslet into a summary.
 fn report(summary: &mut Summary, seen: &Deformation, [[xx, xy], _]: [[f64; 2]; 2]) {
     summary.put("deformation", seen.by_moments, "D = (L - B)/(L + B) by area moments");
-    summary.put("angle", seen.angle_of_moments.to_degrees(), "of the long axis by area moments (degrees)");
+    summary.put("angle", angle(seen.angle_of_moments), "of the long axis by area moments (degrees)");
     summary.put("deformation_by_extents", seen.by_extents, "D by the largest and smallest radius");
-    summary.put("angle_by_extents", seen.angle_of_extents.to_degrees(), "of the largest radius (degrees)");
+    summary.put("angle_by_extents", angle(seen.angle_of_extents), "of the largest radius (degrees)");
     summary.put("tip_speed", seen.tip_speed, "at the largest radius");
     summary.put("largest_speed", seen.largest_speed, "on the interface");
     summary.put("tip_curvature", seen.tip_curvature, "at the largest radius");
@@ -237,7 +242,7 @@ fn run(flags: &Flags, setup: &Setup) -> Result<()> {
             };
             let seen = Snapshot::take(scene.system_mut(), raster)?;
             let caption = format!("Ca = {},  viscosity ratio {}", flags.capillary_number(), flags.viscosity_ratio);
-            flags.output.look.apply(Look { caption, ..Look::default() }).write_picture(&seen, &[], picture)?;
+            flags.output.look.apply(Look { caption, ..Look::of(&setup) }).write_picture(&seen, &[], picture)?;
         }
         Ok(())
     })
@@ -252,9 +257,9 @@ fn look(system: &mut System<AnyFlow>, drop: Handle<ActiveDroplet>) -> Result<[f6
         seen.centroid.x,
         seen.centroid.y,
         seen.by_moments,
-        seen.angle_of_moments.to_degrees(),
+        angle(seen.angle_of_moments),
         seen.by_extents,
-        seen.angle_of_extents.to_degrees(),
+        angle(seen.angle_of_extents),
         seen.tip_speed,
         seen.largest_speed,
         seen.period.unwrap_or(f64::NAN),

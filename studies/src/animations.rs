@@ -87,7 +87,7 @@ fn film(name: &str, path: &Path) -> Result<[f64; 2]> {
         }
     };
     let concentration = setup.droplets.iter().find_map(|droplet| Some(droplet.particles.as_ref()?.concentration));
-    let look = Look { concentration, streamlines: false, colour_bars: false, scale_bar: false, ..Look::default() };
+    let look = Look { concentration, streamlines: false, colour_bars: false, scale_bar: false, ..Look::of(&setup) };
     let mut film = Animation::new(look, raster).of_width(WIDTH);
     scene.run(time).observe(Every::Time(time / FRAMES as f64), &mut film).go()?;
     film.write(&[], path)?;

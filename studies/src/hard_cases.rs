@@ -55,7 +55,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let outcome = trial.run(extent, &mut |system| {
             if !flags.no_pictures {
                 let caption = format!("{}: {}", trial.number, trial.name);
-                let look = Look { caption, concentration: Some(CONCENTRATION), ..Look::default() };
+                let look = Look {
+                    caption,
+                    concentration: Some(CONCENTRATION),
+                    length_unit: "R_{0}".into(),
+                    ..Look::default()
+                };
                 drawn = Raster::of(system, SPACING)
                     .and_then(|raster| Snapshot::take(system, raster))
                     .and_then(|seen| look.write_picture(&seen, &[], flags.out.join(&name)));

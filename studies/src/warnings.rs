@@ -123,10 +123,7 @@ fn errors(found: &Observables, exact: &Observables) -> Result<Vec<(&'static str,
         errors.push((name, (found - exact) / unit));
     }
     // In the axes of the region.
-    let [a, b] = [found, exact].map(|seen| {
-        let [xx, xy] = seen.moments.stresslet()[0];
-        Vec2::from_angle(2.0 * seen.heading()).rotate(Vec2::new(xx, xy))
-    });
+    let [a, b] = [found, exact].map(|seen| Vec2::from(seen.stresslet_in_laboratory[0]));
     errors.push(("stresslet", (a - b).length() / b.length().max(SMALLEST_STRESSLET)));
     Ok(errors)
 }

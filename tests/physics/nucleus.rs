@@ -271,8 +271,7 @@ fn moved(setup: &Setup) -> ([Vec2; 2], Vec2) {
         (None, None) => Vec2::ZERO,
     };
     // In the axes of the laboratory: the directions of motion differ.
-    let turn = Vec2::from_angle(2.0 * seen.heading());
-    ([seen.centroid, core], turn.rotate(seen.moments.stresslet()[0].into()))
+    ([seen.centroid, core], seen.stresslet_in_laboratory[0].into())
 }
 
 #[test]

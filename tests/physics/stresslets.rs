@@ -21,11 +21,7 @@ fn swum(region: Region, (activity, angle): (f64, f64), method: Method) -> (Obser
 
 /// Distance of two stresslets, which have two components each.
 fn distance(a: &Observables, b: &Observables) -> f64 {
-    let [a, b] = [a, b].map(|seen| {
-        let [xx, xy] = seen.moments.stresslet()[0];
-        let (sin, cos) = (2.0 * seen.heading()).sin_cos();
-        [cos * xx - sin * xy, sin * xx + cos * xy]
-    });
+    let [a, b] = [a, b].map(|seen| seen.stresslet_in_laboratory[0]);
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 

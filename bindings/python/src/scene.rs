@@ -22,8 +22,10 @@ use crate::tension::TabulatedTension;
 use crate::value::{described, from_python};
 use crate::work::{BETWEEN_LOOKS, unless_interrupted};
 
-/// Fluid shown around the bodies of a region without an end, in units of length: those of the droplets' usual radius.
+/// Fluid shown around the bodies of a region without an end (length scales of the scene).
 const MARGIN: f64 = 2.0;
+/// Default spacing of the flow in pictures (length scales of the scene).
+const SPACING: f64 = 0.1;
 
 type AnyScene = motile::scene::Scene<AnyFlow>;
 
@@ -44,6 +46,9 @@ struct State {
 pub(crate) struct Scene {
     state: Mutex<State>,
     description: Description,
+    /// Length scale of the scene, and the name of its unit of length in pictures.
+    scale: f64,
+    unit: &'static str,
 }
 
 fn array_of<'py>(py: Python<'py>, points: &[Vec2]) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -67,14 +72,18 @@ fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec2>> {
 impl Scene {
     pub(crate) fn new(py: Python<'_>, description: &Description) -> PyResult<Self> {
         let own = description.clone();
-        let built = unless_interrupted(py, None, move |_| own.build())?;
+        let made = unless_interrupted(py, None, move |_| {
+            let placed = own.placed()?;
+            Ok((placed.build()?, placed.length_scale(), placed.length_unit()))
+        })?;
         py.detach(|| {
-            let Built { mut scene, droplets, .. } = built.map_err(|error| of_setup(&error))?;
+            let (built, scale, unit) = made.map_err(|error| of_setup(&error))?;
+            let Built { mut scene, droplets, .. } = built;
             let meters = droplets.iter().map(|&droplet| DropletMeter::of(scene.system_mut(), droplet));
             let meters = meters.collect::<Result<_, _>>().map_err(failed)?;
             let (records, warnings, laws) = (Vec::new(), Warnings::default(), Vec::new());
             let state = State { scene, droplets, meters, records, warnings, laws };
-            Ok(Self { state: Mutex::new(state), description: description.clone() })
+            Ok(Self { state: Mutex::new(state), description: description.clone(), scale, unit })
         })
     }
 
@@ -268,8 +277,8 @@ impl Scene {
         self.lock()?.set_tension(droplet, law)
     }
 
-    /// Velocities (length per time), pressures (force per length) and velocity gradients (1/time) at points, an array
-    /// of shape (n, 2).
+    /// Velocities (length per time), pressures (stress) with the mean pressure gradient, and velocity gradients (1/time)
+    /// at points, an array of shape (n, 2).
     #[allow(clippy::type_complexity)]
     fn sample<'py>(
         &self,
@@ -279,7 +288,13 @@ impl Scene {
         let points = points_of(&points.try_readonly()?)?;
         let samples = py.detach(|| {
             let mut samples = vec![FlowSample::default(); points.len()];
-            self.lock()?.scene.system_mut().sample(&points, &mut samples).map_err(failed)?;
+            let mut state = self.lock()?;
+            let system = state.scene.system_mut();
+            system.sample(&points, &mut samples).map_err(failed)?;
+            let gradient = Vec2::from(system.report().mean_pressure_gradient);
+            for (sample, point) in samples.iter_mut().zip(&points) {
+                sample.pressure += gradient.dot(*point);
+            }
             Ok::<_, PyErr>(samples)
         })?;
         let velocities: Vec<Vec2> = samples.iter().map(|sample| sample.velocity).collect();
@@ -291,9 +306,9 @@ impl Scene {
 
     /// Picture of the present state as SVG, with the flow on a raster of that spacing (length); keywords are those of
     /// `look_of`.
-    #[pyo3(signature = (spacing=0.1, **look))]
-    fn svg(&self, py: Python<'_>, spacing: f64, look: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
-        let look = look_of(look)?;
+    #[pyo3(signature = (spacing=None, **look))]
+    fn svg(&self, py: Python<'_>, spacing: Option<f64>, look: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
+        let look = look_of(look, self.unit)?;
         py.detach(|| {
             let seen = self.seen(spacing)?;
             look.svg(&seen, &[]).map_err(failed)
@@ -301,15 +316,15 @@ impl Scene {
     }
 
     /// Writes a picture of the present state, as SVG or PNG by the end of the name.
-    #[pyo3(signature = (path, spacing=0.1, **look))]
+    #[pyo3(signature = (path, spacing=None, **look))]
     fn write_picture(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        spacing: f64,
+        spacing: Option<f64>,
         look: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
-        let look = look_of(look)?;
+        let look = look_of(look, self.unit)?;
         py.detach(move || {
             let seen = self.seen(spacing)?;
             look.write_picture(&seen, &[], path).map_err(failed)
@@ -317,8 +332,8 @@ impl Scene {
     }
 
     /// Writes the flow and the bodies of the present state into a folder, as files for ParaView.
-    #[pyo3(signature = (folder, spacing=0.1))]
-    fn write_paraview(&self, py: Python<'_>, folder: PathBuf, spacing: f64) -> PyResult<()> {
+    #[pyo3(signature = (folder, spacing=None))]
+    fn write_paraview(&self, py: Python<'_>, folder: PathBuf, spacing: Option<f64>) -> PyResult<()> {
         py.detach(|| {
             let mut state = self.lock()?;
             let raster = self.raster(&mut state, spacing)?;
@@ -361,9 +376,9 @@ impl Scene {
     }
 }
 
-/// Settings of a picture by their names.
-fn look_of(given: Option<&Bound<'_, PyDict>>) -> PyResult<Look> {
-    let mut look = Look::default();
+/// Settings of a picture by their names, with the name of the unit of length.
+fn look_of(given: Option<&Bound<'_, PyDict>>, unit: &str) -> PyResult<Look> {
+    let mut look = Look { length_unit: unit.to_owned(), ..Look::default() };
     for (name, value) in given.into_iter().flatten() {
         let name: String = name.extract()?;
         match name.as_str() {
@@ -405,23 +420,24 @@ fn solid_colour(name: &str) -> PyResult<SolidColour> {
 }
 
 impl Scene {
-    fn seen(&self, spacing: f64) -> PyResult<Snapshot> {
+    fn seen(&self, spacing: Option<f64>) -> PyResult<Snapshot> {
         let mut state = self.lock()?;
         let raster = self.raster(&mut state, spacing)?;
         Snapshot::take(state.scene.system_mut(), raster).map_err(failed)
     }
 
-    /// Raster over the region, or around the bodies where it has no end.
-    fn raster(&self, state: &mut State, spacing: f64) -> PyResult<Raster> {
-        let system = state.scene.system_mut();
+    /// Raster over the region, or around the bodies where it has no end, by default of a tenth of the length scale.
+    fn raster(&self, state: &mut State, spacing: Option<f64>) -> PyResult<Raster> {
+        let (system, margin) = (state.scene.system_mut(), MARGIN * self.scale);
+        let spacing = spacing.unwrap_or(SPACING * self.scale);
         let around = match self.description.region {
-            Region::Plane | Region::Space => Raster::around(system, MARGIN, spacing),
+            Region::Plane | Region::Space => Raster::around(system, margin, spacing),
             Region::Tube { radius, .. } if spacing > 0.0 => {
                 let places = system.markers().positions().iter().map(|place| place.x);
                 let [low, high] = places.fold([f64::INFINITY, -f64::INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-                let size = [high - low + 2.0 * MARGIN, 2.0 * radius];
+                let size = [high - low + 2.0 * margin, 2.0 * radius];
                 let cells = size.map(|side| (side / spacing).ceil().max(1.0) as usize);
-                Raster::new([low - MARGIN, -radius], size, cells, [false; 2])
+                Raster::new([low - margin, -radius], size, cells, [false; 2])
             }
             _ => Raster::of(system, spacing),
         };

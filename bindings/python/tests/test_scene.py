@@ -249,6 +249,32 @@ def test_a_tension_of_ones_own() -> None:
     assert known.run(1, every=1)["speed"][-1] == setup.build().run(1, every=0.5)["speed"][-1]
 
 
+def test_tables_of_laws_follow_the_concentration() -> None:
+    """In a small unit of length concentrations are far below one."""
+
+    def speed(length: float) -> float:
+        particles = {"concentration": 100 / length, "diffusion": 0.1 * length**2, "excluded_volume": "none"}
+        droplet = motile.droplet(-2 * length, particles=particles, shape={"round": {"radius": length}})
+        region = {"box": {"lengths": [6 * length, 6 * length]}}
+        setup = small(region=region, viscosity=100 / length, droplets=[droplet], step={"fixed": 0.02})
+        scene = setup.build()
+        c0 = 100 / length
+        scene.droplets[0].set_tension(lambda c: 10 + 400 * c / (c + c0))
+        return float(scene.run(0.5, every=0.5)["speed"][-1]) / length
+
+    assert speed(1e5) == pytest.approx(speed(1.0), rel=1e-9)
+
+
+def test_samples_have_the_mean_pressure_gradient() -> None:
+    region = {"channel": {"length": 6, "width": 6, "drive": {"gradient": -2.0}}}
+    drop = motile.droplet(None, centre=[0.3, 0.2], tension=10.0)
+    scene = small(region=region, viscosity=1.0, droplets=[drop]).build()
+    _, pressure = scene.sample([[0.3, 0.2], [2.9, 2.9], [-2.9, 2.9]])
+    # Next to the drop the flow past it adds to the pressure of its tension, less far away.
+    assert pressure[2] - pressure[1] == pytest.approx(2.0 * 5.8, rel=0.3)
+    assert pressure[0] > 8
+
+
 def test_laws_of_functions_are_of_fourth_order() -> None:
     start = {"excluded_volume": "none"}
     setup = small(droplets=[motile.droplet(-2, particles=start)], step={"fixed": 0.02})

@@ -1,20 +1,20 @@
 //! A scene that runs on the page, step by step.
 
 use motile::active_interface::ActiveDroplet;
-use motile::base::{Region, Vec2, boxes::nearest_image, polygon};
+use motile::base::{Region, Vec2, boxes::nearest_image, internal::decimals, polygon};
 use motile::scene::{Body, Handle, SceneError, Warnings};
 use motile::setup::{Built, Setup};
 use motile_output::{CsvTable, DropletMeter, Look, Raster, Snapshot};
 
 use crate::{Refusal, knob::Knob};
 
-/// Time between two rows of the table.
+/// Time between two rows of the table (time scales of the scene).
 const ROW: f64 = 0.1;
 /// Most numbers in the table: from there on every second row goes, and half as many follow.
 const MOST_NUMBERS: usize = 4_000_000;
-/// Time after which no run goes on.
+/// Time after which no run goes on (time scales of the scene).
 const FOREVER: f64 = 1e5;
-/// Fluid shown around the bodies of a region without an end (length).
+/// Fluid shown around the bodies of a region without an end (length scales of the scene).
 const MARGIN: f64 = 2.5;
 /// Number of cells of the flow along the longer side of the picture.
 const CELLS: f64 = 56.0;
@@ -48,13 +48,14 @@ impl Live {
     pub fn new(described: Setup) -> Result<Self, Refusal> {
         let placed = described.placed()?;
         let built = placed.build()?;
+        let interval = ROW * placed.time_scale();
         let mut live = Self {
             described,
             placed,
             built,
             meters: Vec::new(),
             rows: Vec::new(),
-            interval: ROW,
+            interval,
             reached: -1.0,
             warnings: Warnings::default(),
         };
@@ -96,7 +97,8 @@ impl Live {
     /// Those of a run; the scene is then in its last good state.
     pub fn step(&mut self, end: Option<f64>) -> Result<bool, Refusal> {
         let before = self.steps();
-        match self.built.scene.run(end.unwrap_or(FOREVER)).most_steps(1).go() {
+        let end = end.unwrap_or(FOREVER * self.placed.time_scale());
+        match self.built.scene.run(end).most_steps(1).go() {
             Ok(()) | Err(SceneError::TooManySteps { .. }) => {}
             Err(error) => return Err(error.into()),
         }
@@ -246,17 +248,17 @@ impl Live {
 
     /// Raster over the picture with so many cells along its longer side.
     fn raster(&mut self, cells: f64) -> Result<Raster, Refusal> {
-        let region = self.placed.region;
+        let (region, margin) = (self.placed.region, MARGIN * self.placed.length_scale());
         let system = self.built.scene.system_mut();
         Ok(match region {
             Region::Tube { radius, .. } => {
                 system.evaluate()?;
                 let places = system.markers().positions().iter().map(|place| place.x);
                 let [low, high] = places.fold([f64::INFINITY, -f64::INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-                let size = [high - low + 2.0 * MARGIN, 2.0 * radius];
+                let size = [high - low + 2.0 * margin, 2.0 * radius];
                 let spacing = size[0].max(size[1]) / cells;
                 let cells = size.map(|side| (side / spacing).ceil().max(1.0) as usize);
-                Raster::new([low - MARGIN, -radius], size, cells, [false; 2])?
+                Raster::new([low - margin, -radius], size, cells, [false; 2])?
             }
             Region::Box { lengths: [a, b] } | Region::Channel { length: a, width: b, .. } => {
                 Raster::of(system, a.max(b) / cells)?
@@ -264,8 +266,8 @@ impl Live {
             // The plane, space, and regions whose size the page does not know: what is around the bodies.
             _ => {
                 system.evaluate()?;
-                let spacing = MARGIN * 3.0 / cells;
-                Raster::around(system, MARGIN, spacing)?
+                let spacing = margin * 3.0 / cells;
+                Raster::around(system, margin, spacing)?
             }
         })
     }
@@ -295,7 +297,7 @@ impl Live {
     pub fn svg(&mut self) -> Result<String, Refusal> {
         let raster = self.raster(FINE_CELLS)?;
         let seen = Snapshot::take(self.built.scene.system_mut(), raster)?;
-        Ok(Look { caption: format!("t = {:.4}", self.time()), ..Look::default() }.svg(&seen, &[])?)
+        Ok(Look { caption: format!("t = {}", decimals(4, self.time())), ..Look::of(&self.placed) }.svg(&seen, &[])?)
     }
 
     /// Heights of the rigid walls, the periods and the corner of the region (length), as far as it has them.

@@ -2,7 +2,7 @@
 
 use motile_base::{
     InputError, Vec2,
-    internal::{refusal, told, told_apart},
+    internal::{place, refusal, told, told_apart},
 };
 
 /// An error of this crate; its message has the offending values and the remedy.
@@ -64,7 +64,7 @@ motile_base::debug_as_explanation!(InterfaceError);
 impl InterfaceError {
     /// A marker of an axisymmetric interface that has no mirror image.
     pub(crate) fn not_axisymmetric(marker: Vec2) -> Self {
-        let what = format!("the marker at ({:.4}, {:.4}) has no mirror image in the x axis", marker.x, marker.y);
+        let what = format!("the marker at {} has no mirror image in the x axis", place(marker.x, marker.y));
         Self::refused(what, "", AXISYMMETRIC)
     }
 
@@ -127,7 +127,7 @@ impl InterfaceError {
 
     /// An elastic interface that is compressed to nearly nothing, which the energy of its stretching does not prevent.
     pub(crate) fn crushed(stretch: f64, least: f64, Vec2 { x, y }: Vec2) -> Self {
-        let what = format!("the elastic interface is compressed to {stretch:.3} of its length near ({x:.4}, {y:.4})");
+        let what = format!("the elastic interface is compressed to {stretch:.3} of its length near {}", place(x, y));
         let value = format!("below {least} of the length at rest, its stretching energy no longer resists");
         Self::refused(what, value, "Use a larger modulus, or weaker activity of its particles")
     }

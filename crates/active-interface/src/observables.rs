@@ -14,12 +14,14 @@ mod profile;
 mod revolution;
 mod squirmer;
 
+use std::f64::consts::PI;
+
 use motile_base::{
-    Vec2,
+    ImposedFlow, Vec2,
     internal::{all_finite, all_points_finite, at_least},
     same_length,
 };
-use motile_scene::{BodyFlow, Enclosed, FluidView, Handle, Hydrodynamics, SceneError, System};
+use motile_scene::{BodyFlow, Enclosed, FluidView, Handle, Hydrodynamics, MomentEllipse, SceneError, System};
 
 use crate::curve::polygon::{edges, raw_perimeter};
 use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments};
@@ -49,6 +51,8 @@ pub struct InterfaceState<'a> {
     pub forces: &'a [Vec2],
     /// Velocities of the fluid at the markers (length per time), in the frame of the fluid far away or of the walls.
     pub velocities: &'a [Vec2],
+    /// The imposed flow, which is part of the velocities.
+    pub imposed: ImposedFlow,
     /// Particle numbers of the segments, segment k from marker k to the next; empty for an interface without particles.
     pub numbers: &'a [f64],
     /// Number of particles inside, and rate of binding less unbinding (1/time); `None` without exchange.
@@ -60,6 +64,8 @@ pub struct InterfaceState<'a> {
     /// True for a body of revolution in three dimensions, of which the markers are the meridian with its mirror image,
     /// and forces and numbers those of halves of rings.
     pub axisymmetric: bool,
+    /// True for a flow that is computed on a grid.
+    pub on_grid: bool,
 }
 
 impl<'a> InterfaceState<'a> {
@@ -70,11 +76,13 @@ impl<'a> InterfaceState<'a> {
             markers: droplet.markers(),
             forces: flow.forces,
             velocities: flow.velocities,
+            imposed: flow.imposed,
             numbers: droplet.particle_numbers(),
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
             enclosed: flow.enclosed(),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
             axisymmetric: droplet.is_axisymmetric(),
+            on_grid: view.spacing.is_some(),
         }
     }
 
@@ -90,8 +98,60 @@ impl<'a> InterfaceState<'a> {
 
 /// Number of recorded modes of shape and concentration.
 const MODES: usize = 6;
+/// Speed of a droplet at rest over the largest speed on its interface: what the default tolerance of iterations leaves.
+const REST: f64 = 1e-6;
+/// As [`REST`] on a grid, whose points a droplet between them is not symmetric to.
+const REST_ON_GRID: f64 = 1e-4;
+/// Speed of a droplet at rest over that of an interface with its forces: round-off.
+const ROUND_OFF: f64 = 1e-11;
 
-/// All observables of a droplet at one time, in axes along its motion where directions matter.
+impl InterfaceState<'_> {
+    /// Returns the speed up to which the droplet is at rest relative to the imposed flow (length per time), so that the
+    /// direction of its motion is round-off.
+    ///
+    /// This is a millionth of the largest speed on its interface, relative to the imposed flow at its centroid, on a
+    /// grid 1e-4 of it, or 1e-11 of the speed that its forces can cause, whichever is larger.
+    ///
+    /// # Errors
+    /// Returns an error if the markers enclose no area or are not finite.
+    pub fn rest_speed(&self) -> Result<f64, InterfaceError> {
+        let area = polygon_moments(self.markers)?;
+        let drift = self.imposed.velocity_at(area.centroid);
+        let fastest = self.velocities.iter().map(|velocity| (velocity - drift).length()).fold(0.0, f64::max);
+        let forces: f64 = self.forces.iter().map(|force| force.length()).sum();
+        // Forces are those per length in the plane.
+        let size = if self.axisymmetric { (area.area.abs() / PI).sqrt() } else { 1.0 };
+        let rest = if self.on_grid { REST_ON_GRID } else { REST };
+        Ok((rest * fastest).max(ROUND_OFF * forces / (size * (self.viscosities[0] + self.viscosities[1]))))
+    }
+
+    /// Returns the force moments about the origin of `frame`, which must be the centroid, in the axes of `frame`, of the
+    /// droplet with the bodies inside it. Velocities are those relative to the imposed flow at the centroid.
+    ///
+    /// # Errors
+    /// Returns an error if lists differ in length or a value is not finite.
+    pub fn moments(&self, convention: Convention, frame: &Frame) -> Result<ForceMoments, InterfaceError> {
+        let drift = self.imposed.velocity_at(frame.centre());
+        let velocities = self.relative_to(drift);
+        let Self { markers, forces, viscosities, .. } = *self;
+        let mut moments = force_moments(markers, forces, &velocities, viscosities, convention, frame)?;
+        for body in &self.enclosed {
+            moments.add_body(body, drift, convention, frame)?;
+        }
+        Ok(moments)
+    }
+
+    /// Velocities relative to a velocity (length per time).
+    fn relative_to(&self, drift: Vec2) -> Vec<Vec2> {
+        self.velocities.iter().map(|velocity| velocity - drift).collect()
+    }
+}
+
+/// All observables of a droplet at one time.
+///
+/// Its motion is measured relative to the imposed flow at its centroid. Shapes and stresslets in laboratory axes do not
+/// depend on the motion. Directions are those of the axes along the motion, or of x and y for a droplet at rest
+/// ([`InterfaceState::rest_speed`]).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Observables {
@@ -100,6 +160,10 @@ pub struct Observables {
     pub centroid: Vec2,
     /// Velocity of the centroid (length per time), from the flux of area.
     pub velocity: Vec2,
+    /// Velocity of the centroid relative to the imposed flow there (length per time).
+    pub relative_velocity: Vec2,
+    /// True if the droplet moves relative to the imposed flow, and not by round-off alone.
+    pub moves: bool,
     /// Area (length squared), in three dimensions the volume (length cubed).
     pub area: f64,
     /// Perimeter (length).
@@ -110,7 +174,9 @@ pub struct Observables {
     pub inside: Option<(f64, f64)>,
     /// Largest and smallest concentration (particles per length); `None` without particles.
     pub concentration_range: Option<[f64; 2]>,
-    /// Aspect ratio from area moments, along the motion over across it.
+    /// The ellipse with the moments of the area: deformation and inclination of the droplet, in laboratory axes.
+    pub shape: MomentEllipse,
+    /// Aspect ratio from area moments, along the motion over across it; along x over along y at rest.
     pub aspect_ratio_moments: f64,
     /// The fitted ellipse; `None` for shapes that are too far from one.
     pub ellipse: Option<EllipseFit>,
@@ -120,11 +186,13 @@ pub struct Observables {
     pub active_curvature: Option<f64>,
     /// Force moments in axes along the motion.
     pub moments: ForceMoments,
+    /// The stresslet of the moments in the axes x and y (force times length).
+    pub stresslet_in_laboratory: [[f64; 2]; 2],
     /// Convention of the force moments.
     pub convention: Convention,
     /// Squirmer coefficients in the frame of the droplet.
     pub squirmer: SquirmerFit,
-    /// Squirmer coefficients in the laboratory frame.
+    /// Squirmer coefficients in the laboratory frame, or in that of the imposed flow at the centroid.
     pub squirmer_laboratory: SquirmerFit,
     /// Modes of r(theta) (length) about the centroid, theta from the direction of motion.
     pub shape_modes: FourierModes,
@@ -132,27 +200,25 @@ pub struct Observables {
     pub concentration_modes: FourierModes,
 }
 
-/// All observables of a droplet, in axes along its velocity. A droplet at rest has no direction: its axes are x and y
-/// where the velocity is exactly zero, and along the round-off where it is not.
+/// All observables of a droplet, in axes along its velocity relative to the imposed flow. A droplet at rest
+/// ([`InterfaceState::rest_speed`]) has no direction, so its axes are x and y.
 ///
 /// # Errors
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, inside, ref enclosed, axisymmetric } =
-        *state;
+    let InterfaceState { markers, numbers, inside, axisymmetric, .. } = *state;
     at_least("markers", markers.len(), 8)?;
-    same_length("velocities", markers.len(), velocities.len())?;
-    all_points_finite("the velocities", velocities)?;
+    same_length("velocities", markers.len(), state.velocities.len())?;
+    all_points_finite("the velocities", state.velocities)?;
     let area = polygon_moments(markers)?;
+    let (drift, rest) = (state.imposed.velocity_at(area.centroid), state.rest_speed()?);
+    let velocities = &state.relative_to(drift)[..];
     let velocity = raw_centroid_velocity(markers, velocities, &area);
-    let frame = Frame::of_motion(area.centroid, velocity)?;
+    let frame = Frame::of_motion(area.centroid, velocity, rest)?;
 
     let polar = PolarMarkers::new(markers, &frame);
-    let mut moments = force_moments(markers, forces, velocities, viscosities, convention, &frame)?;
-    for body in enclosed {
-        moments.add_body(body, convention, &frame)?;
-    }
+    let moments = state.moments(convention, &frame)?;
     let surface = axisymmetric.then(|| revolution::surface(markers)).transpose()?;
     // In three dimensions the numbers that segments would have in the plane at the same concentrations.
     let in_plane: Option<Vec<f64>> = surface.as_ref().map(|surface| {
@@ -162,20 +228,24 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     let numbers = in_plane.as_deref().unwrap_or(numbers);
     let mut record = Observables {
         centroid: area.centroid,
-        velocity,
+        velocity: velocity + drift,
+        relative_velocity: velocity,
+        moves: velocity.length() > rest,
         area: area.area,
         perimeter: raw_perimeter(markers),
         particle_number: 0.0,
         inside,
         concentration_range: None,
+        shape: MomentEllipse::of(markers)?,
         aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
         ellipse: raw_ellipse(markers, &area, &frame).ok(),
         active_region: None,
         active_curvature: None,
+        stresslet_in_laboratory: moments.stresslet_in_laboratory(&frame),
         moments,
         convention,
-        squirmer: raw_squirmer(&polar, velocities, velocity, &frame),
-        squirmer_laboratory: raw_squirmer(&polar, velocities, Vec2::ZERO, &frame),
+        squirmer: raw_squirmer(&polar, velocities, velocity, &frame).beyond(rest),
+        squirmer_laboratory: raw_squirmer(&polar, velocities, Vec2::ZERO, &frame).beyond(rest),
         shape_modes: raw_shape_modes(&polar, MODES),
         concentration_modes: FourierModes { mean: 0.0, cosines: vec![0.0; MODES], sines: vec![0.0; MODES] },
     };
@@ -196,28 +266,38 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         record.active_curvature = record.active_region.and_then(|region| active_curvature(markers, &region).ok());
     }
     if let Some(surface) = &surface {
-        revolution::observe_in_space(state, surface, &mut record)?;
+        revolution::observe_in_space(state, surface, rest, &mut record)?;
     }
     Ok(record)
 }
 
 impl Observables {
-    /// Speed of the centroid (length per time).
+    /// Speed of the centroid relative to the imposed flow there (length per time).
     #[must_use]
     pub fn speed(&self) -> f64 {
-        self.velocity.length()
+        self.relative_velocity.length()
     }
 
-    /// Direction of motion (radians from x, from -pi to pi; 0 at rest).
+    /// Direction of motion relative to the imposed flow (radians from x, from -pi to pi); `None` at rest.
     #[must_use]
-    pub fn heading(&self) -> f64 {
-        self.velocity.y.atan2(self.velocity.x)
+    pub fn heading(&self) -> Option<f64> {
+        self.moves.then(|| self.relative_velocity.to_angle())
+    }
+
+    /// The axes about the centroid, the first one along the motion; x and y at rest.
+    #[must_use]
+    pub fn frame(&self) -> Frame {
+        Frame::along(self.centroid, self.moves.then_some(self.relative_velocity))
     }
 
     /// Names and values of all entries, in the order of the columns of a table. Values that do not exist, such as the
     /// active fraction of a uniform concentration, are `None`.
     ///
-    /// Units of length, time and force are those of the state. `s_ijk` and `n_ijk` are the symmetric and the mixed part
+    /// Units of length, time and force are those of the state. `velocity_x` and `velocity_y` are those of the whole
+    /// motion; `speed` and `heading_degrees` are those relative to the imposed flow at the centroid. `deformation` is
+    /// D = (L - B)/(L + B) of the ellipse with the moments of the area and `inclination_degrees` the angle of its long
+    /// axis from x. `stresslet_xx` and `stresslet_xy` are in axes along the motion, those of `_laboratory` along x and
+    /// y. `s_ijk` and `n_ijk` are the symmetric and the mixed part
     /// of the quadrupole `f_ijk`, `b1`, `b2`, `beta` the squirmer coefficients in the droplet's frame, `shape_mode_k`
     /// and `concentration_mode_k` the amplitudes of mode k over the mean.
     #[must_use]
@@ -226,18 +306,21 @@ impl Observables {
         let [maximum, minimum] = [0, 1].map(|i| self.concentration_range.map(|range| range[i]));
         let region = self.active_region;
         let known = Some;
+        let beta = |fit: &SquirmerFit| self.moves.then(|| fit.beta()).flatten();
         let mut entries = vec![
             ("x", known(self.centroid.x)),
             ("y", known(self.centroid.y)),
             ("velocity_x", known(self.velocity.x)),
             ("velocity_y", known(self.velocity.y)),
             ("speed", known(self.speed())),
-            ("heading_degrees", known(self.heading().to_degrees())),
+            ("heading_degrees", self.heading().map(f64::to_degrees)),
             ("area", known(self.area)),
             ("perimeter", known(self.perimeter)),
             ("particle_number", known(self.particle_number)),
             ("concentration_max", maximum),
             ("concentration_min", minimum),
+            ("deformation", known(self.shape.deformation())),
+            ("inclination_degrees", self.shape.angle.map(f64::to_degrees)),
             ("aspect_ratio_moments", known(self.aspect_ratio_moments)),
             ("aspect_ratio_ellipse", self.ellipse.map(|ellipse| ellipse.aspect_ratio())),
             ("active_length", region.map(|region| region.length)),
@@ -245,10 +328,10 @@ impl Observables {
             ("active_curvature", self.active_curvature),
             ("b1", known(self.squirmer.b1)),
             ("b2", known(self.squirmer.b2)),
-            ("beta", self.squirmer.beta()),
+            ("beta", beta(&self.squirmer)),
             ("b1_laboratory", known(self.squirmer_laboratory.b1)),
             ("b2_laboratory", known(self.squirmer_laboratory.b2)),
-            ("beta_laboratory", self.squirmer_laboratory.beta()),
+            ("beta_laboratory", beta(&self.squirmer_laboratory)),
         ];
         let moments = &self.moments;
         let mut list = |names: &[&'static str], values: &[f64]| {
@@ -257,6 +340,7 @@ impl Observables {
         list(&["force_x", "force_y"], &moments.force);
         list(&["f_xx", "f_xy", "f_yx", "f_yy"], moments.dipole.as_flattened());
         list(&["stresslet_xx", "stresslet_xy"], &stresslet[0]);
+        list(&["stresslet_xx_laboratory", "stresslet_xy_laboratory"], &self.stresslet_in_laboratory[0]);
         let [all, symmetric, mixed] = [moments.quadrupole, moments.symmetric_quadrupole(), moments.mixed_quadrupole()];
         for (quadrupole, name, [i, j, k]) in [
             (all, "f_xxx", [0, 0, 0]),

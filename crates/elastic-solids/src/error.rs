@@ -1,6 +1,10 @@
 //! Errors of solids, meshes and outlines.
 
-use motile_base::{InputError, Vec2, internal::refusal, positive, within};
+use motile_base::{
+    InputError, Vec2,
+    internal::{decimals, place, refusal},
+    positive, within,
+};
 
 use crate::material::Mat2;
 
@@ -27,9 +31,9 @@ pub enum SolidError {
     },
     /// A surface that has come to cross itself.
     #[error(
-        "the surface crosses itself near ({:.4}, {:.4}), where the sides that start at the points {first} and {second} \
+        "the surface crosses itself near {}, where the sides that start at the points {first} and {second} \
          meet: the model has no contact of a solid with itself. Use a stiffer material, add surface elasticity, which \
-         keeps the surface from creasing, or use a smaller time step", .place.x, .place.y
+         keeps the surface from creasing, or use a smaller time step", at(*place)
     )]
     SelfContact {
         /// First point.
@@ -85,7 +89,7 @@ impl SolidError {
 
     /// A triangle of a periodic mesh whose corners cannot be told from their images.
     pub(crate) fn triangle_too_wide(triangle: usize, width: f64, period: f64) -> Self {
-        let value = format!("it is {width:.4} wide, which is half the period {period} or more");
+        let value = format!("it is {} wide, which is half the period {period} or more", decimals(4, width));
         Self::refused(format!("triangle {triangle} is too wide"), value, "Use smaller triangles")
     }
 
@@ -141,7 +145,11 @@ impl SolidError {
     /// A rounded corner that does not fit on the side from `place`.
     pub(crate) fn rounding_too_large(radius: f64, place: Vec2, side: f64, maximum: f64) -> Self {
         let what = format!("a corner of radius {radius} does not fit on the side from {}", at(place));
-        Self::refused(what, format!("the side is {side:.4} long"), format!("Use a radius of at most {maximum:.4}"))
+        Self::refused(
+            what,
+            format!("the side is {} long", decimals(4, side)),
+            format!("Use a radius of at most {}", decimals(4, maximum)),
+        )
     }
 
     /// Periodic outlines of different periods.
@@ -172,14 +180,14 @@ impl SolidError {
     /// A hole that the mesh cannot resolve.
     pub(crate) fn hole_too_small(place: Vec2, width: f64, spacing: f64) -> Self {
         let what = format!("the hole at {} is too small for the mesh", at(place));
-        let value = format!("it is {width:.4} wide, less than the mesh spacing {spacing}");
+        let value = format!("it is {} wide, less than the mesh spacing {spacing}", decimals(4, width));
         Self::refused(what, value, "Leave it out, or use a smaller spacing")
     }
 
     /// A wall that the mesh cannot resolve.
     pub(crate) fn wall_too_thin(place: Vec2, thickness: f64, spacing: f64) -> Self {
         let what = format!("the solid at {} is too thin for the mesh", at(place));
-        let value = format!("it is {thickness:.4} thick, less than the mesh spacing {spacing}");
+        let value = format!("it is {} thick, less than the mesh spacing {spacing}", decimals(4, thickness));
         Self::refused(what, value, "Make it thicker, round its tip, or use a smaller spacing")
     }
 
@@ -205,8 +213,8 @@ impl SolidError {
 }
 
 /// Text of a place.
-fn at(place: Vec2) -> String {
-    format!("({:.4}, {:.4})", place.x, place.y)
+fn at(Vec2 { x, y }: Vec2) -> String {
+    place(x, y)
 }
 
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.

@@ -8,7 +8,7 @@ use motile_base::{Drive, FlowSample, SolveReport, Vec2, internal::all_points_fin
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, checkpoint::SavedState,
 };
-use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, sample_flow};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, level_at_walls, sample_flow};
 
 use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
 use crate::{Kernel, Transfer};
@@ -124,14 +124,15 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         &self.velocity
     }
 
-    /// The pressure at the cell centres for the last evaluation or sampling (force per length; periodic part, mean
-    /// zero). Makes a field.
+    /// The pressure at the cell centres for the last evaluation or sampling (force per length; the periodic part, with
+    /// mean zero in a box, and mean zero over both walls in a channel). Makes a field.
     ///
     /// # Errors
     /// Those of the solver.
     pub fn pressure_field(&mut self) -> Result<CentreField, StokesError> {
         let mut pressure = CentreField::zeros(*self.solver.grid());
         self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
+        level_at_walls(&mut pressure);
         Ok(pressure)
     }
 

@@ -13,7 +13,7 @@ pub enum Drive {
     /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (Cowley's channel).
     #[default]
     ZeroGradient,
-    /// A mean pressure gradient dp/dx (force per volume); a negative one drives fluid to positive x.
+    /// A mean pressure gradient dp/dx (stress per length); a negative one drives fluid to positive x.
     Gradient(f64),
     /// No net flux, as in a closed channel; the mean pressure gradient follows.
     ZeroFlux,
@@ -22,7 +22,7 @@ pub enum Drive {
 }
 
 impl Drive {
-    /// Mean pressure gradient dp/dx (force per volume) that is held fixed; zero where the flux is held instead.
+    /// Mean pressure gradient dp/dx (stress per length) that is held fixed; zero where the flux is held instead.
     #[must_use]
     pub fn gradient(self) -> f64 {
         if let Self::Gradient(gradient) = self { gradient } else { 0.0 }

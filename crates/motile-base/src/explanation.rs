@@ -40,6 +40,33 @@ pub fn told(value: f64) -> String {
     rounded(5, value)
 }
 
+/// Text of a number with so many decimals, or with a digit more than that where decimals would show fewer than two digits
+/// of it: a file may be in any unit.
+///
+/// ```
+/// use motile_base::internal::decimals;
+///
+/// assert_eq!([decimals(1, 60.0), decimals(4, -0.25), decimals(1, 0.0)], ["60.0", "-0.2500", "0.0"]);
+/// assert_eq!([decimals(1, 2.345e-4), decimals(4, 1.234_567e-6), decimals(3, 1e9)], ["2.3e-4", "1.2346e-6", "1e9"]);
+/// ```
+#[must_use]
+pub fn decimals(digits: usize, value: f64) -> String {
+    let shown = value == 0.0 || (10.0_f64.powi(1 - digits as i32)..1e7).contains(&value.abs());
+    if shown || digits == 1 && (0.1..1e7).contains(&value.abs()) {
+        format!("{value:.digits$}")
+    } else {
+        rounded(digits, value)
+    }
+}
+
+/// Text of a place, `(x, y)` (length).
+#[must_use]
+pub fn place(x: f64, y: f64) -> String {
+    // Round-off next to a coordinate is zero.
+    let near = |value: f64, other: f64| if value.abs() < 1e-9 * other.abs() { 0.0 } else { value };
+    format!("({}, {})", decimals(4, near(x, y)), decimals(4, near(y, x)))
+}
+
 /// Text of a number with so many digits after the first, without zeros at their end.
 fn rounded(digits: usize, value: f64) -> String {
     let Ok(short) = format!("{value:.digits$e}").parse::<f64>() else { return value.to_string() };

@@ -9,7 +9,11 @@ use crate::Vec2;
 pub struct FlowSample {
     /// Velocity (length per time).
     pub velocity: Vec2,
-    /// Pressure (force per length in 2D) without the mean pressure gradient of a channel.
+    /// Pressure (stress) without the mean pressure gradient [`SolveReport::mean_pressure_gradient`], to which you add
+    /// the gradient times the place.
+    ///
+    /// The constant that a pressure is only known up to is the same for every method: in a box the mean over the box is
+    /// zero, in a channel the mean over both of its straight walls, and in unbounded fluid the pressure far away.
     pub pressure: f64,
     /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
     pub gradient: [[f64; 2]; 2],
@@ -22,6 +26,6 @@ pub struct SolveReport {
     pub iterations: usize,
     /// Relative residual; 0 for a direct solver, which is exact to round-off.
     pub residual: f64,
-    /// Mean pressure gradient (force per volume), the uniform part of grad p; in a periodic box the mean force density.
+    /// Mean pressure gradient (stress per length), the uniform part of grad p; in a periodic box the mean force density.
     pub mean_pressure_gradient: [f64; 2],
 }

@@ -84,7 +84,7 @@ pub use vec2::Vec2;
 /// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::explanation::{explanation, refusal, told, told_apart};
+    pub use crate::explanation::{decimals, explanation, place, refusal, told, told_apart};
     pub use crate::input::{all_finite, all_points_finite, at_least};
     pub use crate::quadrature::gauss_legendre;
     pub use crate::sums::{dot, sum, widely};

@@ -2,7 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2, internal::told_apart, positive};
+use motile_base::{
+    Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2,
+    internal::{decimals, told_apart},
+    positive,
+};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Warning,
     checkpoint::SavedState, gap::Boundary,
@@ -123,10 +127,12 @@ impl BoundaryIntegral {
             return None;
         }
         let message = format!(
-            "they leave {narrowest:.3} (length) for an interface of radius {radius:.3}: a droplet that is squeezed \
-             through leaves gaps of about {:.3}, which {nodes} nodes do not resolve, so that it may cross the wall; \
+            "they leave {} (length) for an interface of radius {}: a droplet that is squeezed \
+             through leaves gaps of about {}, which {nodes} nodes do not resolve, so that it may cross the wall; \
              use {needed} nodes",
-            FILM_OF_SQUEEZED * radius
+            decimals(3, narrowest),
+            decimals(3, radius),
+            decimals(3, FILM_OF_SQUEEZED * radius)
         );
         let (body, cause) = ("rigid walls".to_owned(), "narrow place not resolved".into());
         Some(Warning { body, cause, excess: needed / nodes, message })

@@ -6,7 +6,7 @@ mod curves;
 use motile_base::{Drive, Region, SolveReport, internal::all_points_finite, positive, same_length};
 use stokes_boundary_integrals::internal::gmres::Outcome;
 use stokes_boundary_integrals::{InterfaceFlow, Settings, SingleLayer, Solution, Symmetry};
-use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver, sample_flow, sample_pressure};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver, level_at_walls, sample_flow, sample_pressure};
 
 use crate::{
     error::{of_grid, of_layers},
@@ -269,6 +269,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     fn pressure(&mut self) -> Result<CentreField, FlowError> {
         let mut pressure = CentreField::zeros(*self.grid());
         self.solver.pressure(&self.density, &self.velocity, &mut pressure).map_err(of_grid)?;
+        level_at_walls(&mut pressure);
         Ok(pressure)
     }
 }

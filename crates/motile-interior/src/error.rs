@@ -1,6 +1,9 @@
 //! Errors of fields inside droplets.
 
-use motile_base::{InputError, internal::refusal};
+use motile_base::{
+    InputError,
+    internal::{place, refusal},
+};
 use motile_scene::BodyError;
 
 /// Error of a field inside a droplet, with the offending values and the remedy.
@@ -12,8 +15,9 @@ pub enum InteriorError {
     Input(#[from] InputError),
     /// Mesh with a triangle of negative area.
     #[error(
-        "the mesh inside is folded at ({x:.4}, {y:.4}): the droplet is bent too far for a mesh that started as a disc. \
-         Use a larger tension or a weaker activity"
+        "the mesh inside is folded at {}: the droplet is bent too far for a mesh that started as a disc. \
+         Use a larger tension or a weaker activity",
+        place(*x, *y)
     )]
     Folded {
         /// x coordinate of a triangle of negative area (length).

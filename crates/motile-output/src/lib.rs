@@ -36,6 +36,7 @@
 //! libraries: Noto Sans is bundled (SIL Open Font License). Failures end in an [`OutputError`].
 
 mod animation;
+mod bodies;
 mod colour;
 mod drawing;
 mod droplets;
@@ -54,6 +55,7 @@ mod table;
 mod trajectory;
 
 pub use animation::Animation;
+pub use bodies::{BodiesCsv, FlowCsv};
 pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
 pub use droplets::DropletsCsv;

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{InterfaceState, centroid_velocity};
+use motile::base::internal::decimals;
 use motile::scene::{Hydrodynamics, Observer, System, Warnings};
 
 /// Smallest time between two updates of the bar, and between two lines where there is no terminal.
@@ -100,7 +101,7 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
         // The flow at the end of a step is that at the start of the next: this costs nothing.
         system.evaluate()?;
         for (time, warning) in self.warnings.look(system) {
-            self.progress.note(&format!("warning: at t = {time:.3}, {warning}"));
+            self.progress.note(&format!("warning: at t = {}, {warning}", decimals(3, *time)));
         }
         let first = system.bodies::<ActiveDroplet>().next().map(|(handle, _)| handle);
         let speed = first.map(|handle| {
@@ -113,8 +114,8 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
         let (time, end, steps, seconds) = (system.time(), self.end, system.steps(), self.progress.seconds());
         self.progress.update(time / end, || {
             let pace = steps as f64 / seconds.max(1e-9);
-            let speed = speed.map_or(String::new(), |speed| format!("speed {speed:.4}  "));
-            format!("t = {time:.2} of {end}  {speed}{pace:.0} steps/s")
+            let speed = speed.map_or(String::new(), |speed| format!("speed {}  ", decimals(4, speed)));
+            format!("t = {} of {end}  {speed}{pace:.0} steps/s", decimals(2, time))
         });
         Ok(())
     }

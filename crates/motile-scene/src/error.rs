@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motile_base::{
     InputError,
-    internal::{refusal, told, told_apart},
+    internal::{place, refusal, told, told_apart},
 };
 
 use crate::checkpoint::CheckpointError;
@@ -49,9 +49,9 @@ pub enum FlowError {
     },
     /// A marker lies beyond a wall.
     #[error(
-        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {} beyond the wall, more than {}: \
+        "marker {marker} of body {body} at {} is {} beyond the wall, more than {}: \
          move it, or use a smaller time step or a finer grid",
-        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
+        place(*x, *y), told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     BeyondWall {
         /// Number of the body.
@@ -161,8 +161,9 @@ pub enum BodyError {
     },
     /// An interface crosses itself.
     #[error(
-        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time \
-         step or activity, or a finer grid"
+        "the interface crosses itself at {}, between markers {first} and {second}: use a smaller time \
+         step or activity, or a finer grid",
+        place(*x, *y)
     )]
     SelfCrossing {
         /// x coordinate of the first marker (length).

@@ -46,5 +46,5 @@ pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,
     Substrate,
 };
-pub use observables::{Deformation, Stress};
+pub use observables::{Deformation, MomentEllipse, Stress};
 pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

@@ -1,11 +1,13 @@
 //! Observables of bodies of any kind: deformations and stresses.
 
 mod deformation;
+mod moment_ellipse;
 mod stress;
 
 use crate::{Body, Handle, Hydrodynamics, SceneError, System};
 
 pub use deformation::Deformation;
+pub use moment_ellipse::MomentEllipse;
 pub use stress::Stress;
 
 impl<H: Hydrodynamics> System<H> {

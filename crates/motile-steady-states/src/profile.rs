@@ -4,7 +4,11 @@ use std::f64::consts::TAU;
 
 use motile::base::Region;
 use motile::setup::{DropletShape, Setup};
-use motile_base::{PeriodicSeries, Vec2, same_length};
+use motile_base::{
+    PeriodicSeries, Vec2,
+    internal::{decimals, place},
+    same_length,
+};
 use num_complex::Complex64;
 
 use crate::SteadyError;
@@ -232,9 +236,10 @@ impl Profile {
         if !fits {
             return Err(SteadyError::unsupported(
                 format!(
-                    "the droplet does not fit: it reaches from y = {:.3} to {top:.3} and is {:.3} long",
-                    -bottom,
-                    left + right
+                    "the droplet does not fit: it reaches from y = {} to {} and is {} long",
+                    decimals(3, -bottom),
+                    decimals(3, top),
+                    decimals(3, left + right)
                 ),
                 "Use a larger region or a smaller droplet, or move the droplet",
             ));
@@ -246,7 +251,7 @@ impl Profile {
             let turn: f64 = arms().zip(arms().cycle().skip(1)).map(|(a, b)| a.angle_to(b)).sum();
             if turn.abs() < 0.5 * TAU || !arms().all(|arm| arm.length() > radius) {
                 return Err(SteadyError::unsupported(
-                    format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
+                    format!("the disc of radius {radius} at {} is not inside", place(centre.x, centre.y)),
                     "Use a smaller disc, or move it within the droplet",
                 ));
             }

@@ -253,10 +253,10 @@ pub(crate) fn eigenvector(
     matrix: &DMatrix<f64>,
     value: Complex64,
 ) -> Result<(Complex64, DVector<Complex64>), SteadyError> {
-    let n = matrix.nrows();
+    let (n, largest_rate) = (matrix.nrows(), matrix.amax());
     let matrix = complex(matrix);
     // Beside the eigenvalue by about its error, so that the matrix is regular.
-    let shift = value + Complex64::new(1e-9, 1e-9) * value.norm().max(1e-3);
+    let shift = value + Complex64::new(1e-9, 1e-9) * value.norm().max(1e-6 * largest_rate);
     let lu = (&matrix - DMatrix::identity(n, n) * shift).lu();
     let mut vector = DVector::from_fn(n, |k, _| Complex64::new(1.0, 0.3 * k as f64 / n as f64));
     for _ in 0..4 {

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
-use motile::active_interface::observables::{Convention, InterfaceState, Observables, observe};
+use motile::active_interface::observables::{Convention, Frame, InterfaceState, Observables, observe};
 use motile::base::FlowSample;
 use motile::base::Region;
 use motile::scene::Deformation;
@@ -48,11 +48,11 @@ pub struct SteadyState {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Measured {
-    /// Speed (length per time).
+    /// Speed relative to the imposed flow at the centroid (length per time).
     pub speed: f64,
     /// Stresslet S_uu along the direction u of motion (force times length), that of the flow far away: the traceless
     /// part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them (in three
-    /// dimensions force times length too). Zero at rest.
+    /// dimensions force times length too); along x at rest.
     pub stresslet: f64,
     /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
     /// [`Observables::aspect_ratio_moments`]; along x at rest.
@@ -277,8 +277,21 @@ impl SteadyState {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         let tangents = self.profile.tangents()?;
-        let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
         let model = &system.model;
+        let around = InterfaceState {
+            markers: &self.profile.positions,
+            forces: &model.forces,
+            velocities: &model.velocities,
+            imposed: model.imposed(),
+            numbers: &[],
+            viscosities: model.viscosities,
+            inside: None,
+            axisymmetric: model.is_axisymmetric(),
+            on_grid: false,
+            enclosed: Vec::new(),
+        };
+        let velocity = self.velocity() - model.imposed().velocity_at(self.profile.moments()?.centroid);
+        let heading = Frame::of_motion(Vec2::ZERO, velocity, around.rest_speed()?)?.direction();
         let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_axisymmetric() {
             let VolumeMoments { centroid, aspect_ratio, surface } = VolumeMoments::of(&self.profile)?;
             let centroid = Vec2::new(centroid, 0.0);
@@ -293,7 +306,7 @@ impl SteadyState {
             (moments.centroid, moments.aspect_ratio(heading), perimeter, cos * xx + sin * xy)
         };
         Ok(Measured {
-            speed: self.velocity().length(),
+            speed: velocity.length(),
             stresslet,
             aspect_ratio,
             concentration: if model.carries() {
@@ -424,10 +437,12 @@ impl SteadyState {
                 markers: &(0..fine).map(|k| at(&curve, k)).collect::<Vec<_>>(),
                 forces: &(0..fine).map(|k| at(&force, k) * scaled).collect::<Vec<_>>(),
                 velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
+                imposed: model.imposed(),
                 numbers: if model.carries() { &numbers } else { &[] },
                 viscosities: model.viscosities,
                 inside: model.inside(),
                 axisymmetric,
+                on_grid: false,
                 enclosed: model
                     .rigid_dipoles()
                     .map(|dipole| Enclosed { rigid_dipole: Some(dipole), ..Enclosed::default() })

@@ -77,7 +77,7 @@ fn steady_drops_in_shear() {
         let (seen, [[xx, xy], _]) = (state.deformation().unwrap(), state.particle_stress().unwrap());
         let found = [
             seen.by_moments,
-            seen.angle_of_moments.to_degrees(),
+            seen.angle_of_moments.unwrap().to_degrees(),
             seen.extents[0],
             seen.extents[1],
             seen.tip_speed,

@@ -2,7 +2,7 @@
 
 use active_interface::InterfaceError;
 use elastic_solids::SolidError;
-use motile_base::internal::{refusal, told_apart};
+use motile_base::internal::{place, refusal, told_apart};
 use motile_boundary_integrals::LayerError;
 use motile_interior::InteriorError;
 use motile_scene::FlowError;
@@ -66,8 +66,8 @@ pub enum SetupError {
     },
     /// Body that starts inside another one, or where another one is.
     #[error(
-        "{key} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move them apart or make one of them smaller",
-        told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
+        "{key} overlaps {other} by {} at {}, more than {}: move them apart or make one of them smaller",
+        told_apart([*depth, *allowed])[0], place(*x, *y), told_apart([*depth, *allowed])[1]
     )]
     Overlap {
         /// Key of the entry in the description, with its name if it has one.
@@ -84,7 +84,7 @@ pub enum SetupError {
         allowed: f64,
     },
     /// Droplet that starts in touch with another one, or with its own image.
-    #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a gap between them")]
+    #[error("{key} touches {other} at {}: leave a gap between them", place(*x, *y))]
     Touch {
         /// Key of the entry in the description, with its name if it has one.
         key: String,

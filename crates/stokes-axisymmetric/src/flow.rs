@@ -235,7 +235,7 @@ impl AxisymmetricFlow {
         }
     }
 
-    /// Drives fluid through the tube: a flux (volume per time), or a mean pressure gradient (force per volume) over a
+    /// Drives fluid through the tube: a flux (volume per time), or a mean pressure gradient (stress per length) over a
     /// length (length) of a straight one, as in a tube with these surfaces in every such length, of whose flow on one
     /// another only the pressure counts; the mean velocity of a flux Q is `Q/(pi R^2)`.
     ///
@@ -269,7 +269,7 @@ impl AxisymmetricFlow {
         self.flux
     }
 
-    /// Mean pressure gradient (force per volume) over the length that the drive of a straight tube is given for;
+    /// Mean pressure gradient (stress per length) over the length that the drive of a straight tube is given for;
     /// `None` where there is no straight tube.
     #[must_use]
     pub fn pressure_gradient(&self) -> Option<f64> {

@@ -1,6 +1,9 @@
 //! Refusals of surfaces and regions that are not axisymmetric, or that the solver cannot use.
 
-use motile_base::Vec2;
+use motile_base::{
+    Vec2,
+    internal::{decimals, place},
+};
 use stokes_boundary_integrals::LayerError;
 
 /// Surfaces with singular equations.
@@ -26,12 +29,16 @@ pub(crate) fn not_one_interface(found: usize) -> LayerError {
 pub(crate) fn short_tube(length: f64, least: f64) -> LayerError {
     let what = format!("the tube of length {length}, for which the pressure is prescribed, is too short");
     let value = "the surfaces in it and the next ones are less than a radius apart";
-    LayerError::refused(what, value, format!("Use a length of at least {least:.4}, or prescribe the flux instead"))
+    LayerError::refused(
+        what,
+        value,
+        format!("Use a length of at least {}, or prescribe the flux instead", decimals(4, least)),
+    )
 }
 
 /// A meridian that meets the axis between its poles, at this coordinate x.
 pub(crate) fn meets_axis(curve: usize, x: f64) -> LayerError {
-    let what = format!("curve {curve} meets the axis between its poles, at x = {x:.4}");
+    let what = format!("curve {curve} meets the axis between its poles, at x = {}", decimals(4, x));
     let remedy = "Keep the meridian off the axis. If this ended a run, a neck has pinched: the droplet would become \
                   two droplets, which the model does not describe";
     LayerError::refused(what, "", remedy)
@@ -45,7 +52,7 @@ pub(crate) fn odd_points(found: usize) -> LayerError {
 
 /// A curve whose point has no mirror image in the x axis.
 pub(crate) fn not_axisymmetric(curve: usize, point: usize, Vec2 { x, y }: Vec2) -> LayerError {
-    let value = format!("point {point} at ({x:.4}, {y:.4}) has no mirror image in the x axis");
+    let value = format!("point {point} at {} has no mirror image in the x axis", place(x, y));
     let remedy =
         "Use an even number of points, the first on the x axis, and let each be the mirror image of its partner";
     LayerError::refused(format!("curve {curve} is not axisymmetric"), value, remedy)

@@ -185,7 +185,11 @@ impl LayerError {
         } else {
             format!("wall {first} crosses or touches wall {second}")
         };
-        Self::refused(format!("{walls} near ({:.4}, {:.4})", place.x, place.y), "", "Leave fluid between the walls")
+        Self::refused(
+            format!("{walls} near {}", motile_base::internal::place(place.x, place.y)),
+            "",
+            "Leave fluid between the walls",
+        )
     }
 }
 

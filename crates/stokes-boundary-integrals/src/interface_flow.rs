@@ -38,7 +38,7 @@ pub struct Solution {
     pub iterations: usize,
     /// Norm of the residual over that of the right-hand side.
     pub residual: f64,
-    /// Mean pressure gradient along a channel (force per volume).
+    /// Mean pressure gradient along a channel (stress per length).
     pub pressure_gradient: f64,
 }
 

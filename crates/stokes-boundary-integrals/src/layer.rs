@@ -426,7 +426,7 @@ impl Layers {
         self.walls.as_ref().map_or(forcing, |walls| forcing + walls.driven_flow(&forcing, viscosity))
     }
 
-    /// Prescribes the mean pressure gradient along a channel (force per volume).
+    /// Prescribes the mean pressure gradient along a channel (stress per length).
     pub(crate) fn set_gradient(&mut self, gradient: f64) {
         if let Some(walls) = &mut self.walls {
             walls.drive = Drive::Gradient(gradient);
@@ -449,7 +449,7 @@ impl Layers {
         self.walls.as_ref().map_or(0.0, |walls| walls.dipole_moment(&self.curves, density))
     }
 
-    /// Mean pressure gradient along a channel (force per volume), zero elsewhere.
+    /// Mean pressure gradient along a channel (stress per length), zero elsewhere.
     pub(crate) fn pressure_gradient(&self, density: Density<'_>, viscosity: f64) -> f64 {
         self.walls
             .as_ref()

@@ -109,7 +109,7 @@ pub use motile_base::{
 };
 pub use periodic::PeriodicStokes;
 pub use projection::{ProjectionStokes, WallTreatment};
-pub use sampling::{sample_flow, sample_pressure};
+pub use sampling::{level_at_walls, sample_flow, sample_pressure};
 pub use solver::{StokesSolver, Work};
 pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;

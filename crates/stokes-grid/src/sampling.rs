@@ -75,6 +75,22 @@ pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
     Lattice { values: pressure.values(), grid, shift: [0.5; 2], parity: 1.0, walls }.bilinear(point).0
 }
 
+/// Shifts a pressure (force per length) in a channel so that its mean over both walls is zero, as in an evaluation
+/// without a grid; in a box nothing changes.
+///
+/// The mean over x of the pressure is the same at a wall and in the row of cells next to it, unless a force acts
+/// there.
+pub fn level_at_walls(pressure: &mut CentreField) {
+    if !pressure.grid().has_walls() {
+        return;
+    }
+    let row = pressure.grid().nx();
+    let values = pressure.values_mut();
+    let ends: f64 = values[..row].iter().chain(&values[values.len() - row..]).sum();
+    let level = ends / (2.0 * row as f64);
+    values.iter_mut().for_each(|value| *value -= level);
+}
+
 /// Fills `out` with the flow at `points` (length): velocity (length per time) and pressure (force per length), bilinear
 /// between grid points, and the gradient of this velocity (1/time).
 ///

@@ -22,8 +22,8 @@ fn pairs() {
 
 #[test]
 fn what_is_wrong_with_a_pair_is_told() {
-    assert_eq!(pair("1e8,0").unwrap_err(), "the first number must be a number from -1e6 to 1e6");
-    assert_eq!(pair("0,x").unwrap_err(), "the second number must be a number from -1e6 to 1e6");
+    assert_eq!(pair("1e51,0").unwrap_err(), "the first number must be a number from -1e50 to 1e50");
+    assert_eq!(pair("0,x").unwrap_err(), "the second number must be a number from -1e50 to 1e50");
     assert_eq!(pair("1e8").unwrap_err(), "must be two numbers with a comma between them");
 }
 
@@ -50,8 +50,14 @@ fn ranges_of_counts() {
 fn signs_and_sizes() {
     assert_eq!(finite("-2"), Ok(-2.0));
     assert_eq!(finite("0.5"), Ok(0.5));
-    assert!(finite("inf").is_err() && finite("-1e7").is_err());
-    assert!(positive("0").is_err() && positive("1e7").is_err() && positive("NaN").is_err() && positive("x").is_err());
+    assert!(finite("inf").is_err() && finite("-1e51").is_err() && finite("-1e7").is_ok());
+    assert!(
+        positive("0").is_err()
+            && positive("1e51").is_err()
+            && positive("1e7").is_ok()
+            && positive("NaN").is_err()
+            && positive("x").is_err()
+    );
     assert!(not_negative("-1e-9").is_err() && not_negative("0").is_ok());
 }
 
@@ -59,7 +65,7 @@ fn signs_and_sizes() {
 fn numbers_come_back() {
     // Mantissas that need all digits, over all magnitudes of both signs.
     for k in -3000..3000 {
-        let value = f64::from(k).signum() * (f64::from(k) * 4.6e-3).exp().min(1e6) * 0.999_999_7;
+        let value = f64::from(k).signum() * (f64::from(k) * 4.6e-3).exp() * 0.999_999_7;
         assert_eq!(finite(&value.to_string()), Ok(value));
         assert_eq!(positive(&value.to_string()).is_ok(), value > 0.0);
     }

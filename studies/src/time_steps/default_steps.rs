@@ -111,8 +111,9 @@ fn found(setup: &Setup, until: f64, measure: Measure) -> Result<Found> {
         let seen = scene.observe(droplets[0])?;
         if 2 * look >= LOOKS {
             heights.push(seen.centroid.y);
-            let heading = Vec2::from_angle(seen.heading());
-            turned += last.replace(heading).map_or(0.0, |before: Vec2| before.angle_to(heading));
+            if let Some(heading) = seen.heading().map(Vec2::from_angle) {
+                turned += last.replace(heading).map_or(0.0, |before: Vec2| before.angle_to(heading));
+            }
         }
     }
     let seen = scene.observe(droplets[0])?;

@@ -52,7 +52,8 @@ fn small(quick: bool) -> Result<Table, StudyError> {
         let k = PI * (1.0 + 2.0 * ratio) / (1.0 + ratio);
         let [shear, extension] = [SHEAR, EXTENSION].map(|flow| steady_drop(flow, ratio, capillary, 32));
         let (shear, extension) = (shear?, extension?);
-        let fall = (0.25 * PI - shear.deformation.angle_of_moments) / (0.5 * (1.0 + ratio) * capillary);
+        let fall =
+            (0.25 * PI - shear.deformation.angle_of_moments.unwrap_or(f64::NAN)) / (0.5 * (1.0 + ratio) * capillary);
         let errors = [
             shear.deformation.by_moments / capillary - 1.0,
             fall - 1.0,

@@ -66,7 +66,7 @@ pub fn course(setup: &Setup, every: f64, end: f64) -> Result<Course, StudyError>
     for time in (1..).map(|i| every * f64::from(i)).take_while(|&time| time < end + 0.5 * every) {
         scene.run(time).go()?;
         let seen = scene.observe(droplets[0])?;
-        course.headings.push(seen.heading());
+        course.headings.extend(seen.heading());
         course.speeds.push(seen.speed());
     }
     Ok(course)

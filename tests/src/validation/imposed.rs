@@ -116,8 +116,8 @@ impl Seen {
             ("period", seen.period.unwrap_or(f64::NAN)),
             ("SB_xx", stresslet[0][0]),
             ("SB_xy", stresslet[0][1]),
-            ("angle_mom_deg", seen.angle_of_moments),
-            ("angle_ext_deg", seen.angle_of_extents),
+            ("angle_mom_deg", seen.angle_of_moments.unwrap_or(f64::NAN)),
+            ("angle_ext_deg", seen.angle_of_extents.unwrap_or(f64::NAN)),
         ];
         if let Some(strains) = strains {
             let [[most, least], [tight, slack]] = [strains.stretches, strains.tensions];

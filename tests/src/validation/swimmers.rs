@@ -212,7 +212,7 @@ pub fn long_run(setup: &Setup, time: f64) -> Result<LongRun, StudyError> {
         area_change: largest(|seen| seen.area),
         particle_change: largest(|seen| seen.particle_number),
         perimeter_creep: last.perimeter / first.perimeter - 1.0,
-        headings: [first.heading(), last.heading()],
+        headings: [first, last].map(|seen| seen.heading().unwrap_or(f64::NAN)),
         half: t1 - t0,
         crossings: moves.sum(),
     })

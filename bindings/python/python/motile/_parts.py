@@ -16,7 +16,7 @@ def box(length: float, width: float | None = None) -> Part:
 def channel(length: float, width: float, **more: Any) -> Part:
     """Channel of period `length` along x between rigid walls that are `width` apart (length).
 
-    Its drive is a keyword: `drive="zero-gradient"` (the default), `"zero-flux"`, `{"gradient": g}` (force per volume)
+    Its drive is a keyword: `drive="zero-gradient"` (the default), `"zero-flux"`, `{"gradient": g}` (stress per length)
     or `{"flux": q}` (area per time).
     """
     return {"channel": {"length": length, "width": width, "drive": "zero-gradient", **more}}
@@ -53,7 +53,8 @@ def grid(**more: Any) -> Part:
 
 
 def droplet(activity: float | None = -2.0, *, particles: Mapping[str, Any] | None = None, **more: Any) -> Part:
-    """Droplet of an activity (force times length), negative for particles that contract; passive if None.
+    """Droplet of an activity (force times length; in three dimensions force times length squared), negative for
+    particles that contract; passive if None.
 
     `particles` has further entries of the particles (`concentration`, `diffusion`, `start`, ...), all other keywords
     are entries of the droplet (`centre`, `angle`, `viscosity`, `tension`, `shape`, ...).

@@ -128,12 +128,16 @@ class Droplet:
 
         Concentrations c are numbers per length, tensions gamma forces. A table is joined by monotone cubic polynomials
         and goes on straight beyond its ends. A function is tabulated at so many `points` from 0 to `up_to`, by default
-        8 times the largest concentration now, and joined by cubic polynomials: where it is smooth the error falls with
+        8 times the largest concentration now (if there are no particles on the interface yet, give it), and joined by cubic polynomials: where it is smooth the error falls with
         the fourth power of their distance.
         """
         if smooth := callable(law):
             if up_to is None:
-                up_to = 8.0 * float(np.max(self.concentration, initial=1.0))
+                largest = float(np.max(self.concentration, initial=0.0))
+                if self.concentration.size and not largest > 0:
+                    remedy = "give up_to, the largest concentration of the table"
+                    raise Error(f"there are no particles on the interface: {remedy}", key="up_to", remedy=remedy)
+                up_to = 8.0 * largest or 1.0
             c = np.linspace(0.0, up_to, points)
             gamma = _numbers(law(c), "tension")
             if gamma.shape not in ((), c.shape):
@@ -253,7 +257,11 @@ class Scene:
         return kept
 
     def sample(self, points: npt.ArrayLike) -> tuple[Array, Array]:
-        """Velocities (length per time, shape (..., 2)) and pressures (force per length) at points of shape (..., 2)."""
+        """Velocities (length per time, shape (..., 2)) and pressures (stress) at points of shape (..., 2).
+
+        Pressures include the mean pressure gradient along a channel, relative to x = 0. Apart from it, the mean of the
+        pressure is zero over a box, over both straight walls of a channel, and far away in unbounded fluid.
+        """
         velocity, pressure, _ = self._sample(points)
         return velocity, pressure
 
@@ -275,7 +283,7 @@ class Scene:
         self,
         path: FilePath | None = None,
         *,
-        spacing: float = 0.1,
+        spacing: float | None = None,
         width: float = 16.0,
         caption: str = "",
         panel: str = "",
@@ -293,10 +301,12 @@ class Scene:
         """Picture of the present state: text of an SVG file, or a file if a path is given, whose name ends in .svg or
         .png.
 
-        `spacing` is the distance of the samples of the flow (length). On paper, `width` is in cm, `font_size` in pt,
+        `spacing` is the distance of the samples of the flow (length), by default a tenth of the radius of the first
+        droplet. On paper, `width` is in cm, `font_size` in pt,
         and PNG files have `resolution` pixels per cm. `panel` is a label at the upper left, such as "a)".
         `pressure_range` holds the lowest and highest pressure that colours show (force per length), `concentration`
-        the unit of concentrations, `length_unit` the text of the unit of length, `solids` what the colour of elastic
+        the unit of concentrations, `length_unit` the text of the unit of length (by default R0 if the radius of the
+        first droplet is 1), `solids` what the colour of elastic
         solids shows: "plain", "displacement", "stress" or "internal-stress".
         """
         look: dict[str, Any] = {
@@ -323,8 +333,9 @@ class Scene:
     def _repr_svg_(self) -> str:
         return self._scene.svg()
 
-    def write_paraview(self, folder: FilePath, spacing: float = 0.1) -> None:
-        """Writes the flow on a raster of that spacing (length) and all bodies as files for ParaView."""
+    def write_paraview(self, folder: FilePath, spacing: float | None = None) -> None:
+        """Writes the flow on a raster of that spacing (length; by default a tenth of the radius of the first droplet) and
+        all bodies as files for ParaView."""
         self._scene.write_paraview(os.fspath(folder), spacing)
 
     def __copy__(self) -> Scene:

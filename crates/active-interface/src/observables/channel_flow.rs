@@ -46,7 +46,7 @@ pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64,
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct GapFlow {
-    /// Velocity of the droplet along the channel (length per time).
+    /// Velocity of the droplet along the channel (length per time); zero if it is at rest to round-off.
     pub velocity: f64,
     /// Flux through the gap below and the one above, in the frame of the walls (area per time).
     pub gaps: [f64; 2],
@@ -73,13 +73,14 @@ impl GapFlow {
     }
 
     /// Retrograde flow: flux of the fluid that passes the droplet backwards through both gaps, in the frame of the
-    /// droplet (area per time); negative for a droplet that the fluid overtakes.
+    /// droplet (area per time); negative for a droplet that the fluid overtakes, `None` for a droplet at rest.
     ///
     /// In a steady state it is `|V| w - Q` at every cross-section, w the width of the channel and Q the net flux in the
     /// droplet's direction.
     #[must_use]
-    pub fn retrograde(&self) -> f64 {
-        -self.velocity.signum() * self.relative_gaps().iter().sum::<f64>()
+    pub fn retrograde(&self) -> Option<f64> {
+        let relative: f64 = self.relative_gaps().iter().sum();
+        (self.velocity != 0.0).then(|| -self.velocity.signum() * relative)
     }
 }
 
@@ -102,8 +103,9 @@ pub fn gap_flow<H: Hydrodynamics>(
     let state = InterfaceState::of(system, droplet)?;
     let markers = state.markers;
     let moving = polygon_moments(markers).and_then(|area| {
-        let velocity = centroid_velocity(markers, state.velocities)?;
-        Ok((area.centroid.x, velocity.x))
+        let velocity = centroid_velocity(markers, state.velocities)?.x;
+        let moves = velocity.abs() > state.rest_speed()?;
+        Ok((area.centroid.x, if moves { velocity } else { 0.0 }))
     });
     let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));

@@ -23,22 +23,36 @@ impl Frame {
         Ok(Self { centre, direction: Vec2::new(cos, sin) })
     }
 
-    /// Frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time); at rest the
+    /// Frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time). A droplet
+    /// that moves no faster than `rest` (length per time; see [`InterfaceState::rest_speed`]) has no direction, so its
     /// axes are x and y.
     ///
     /// # Errors
-    /// Values that are not finite.
-    pub fn of_motion(centre: Vec2, velocity: Vec2) -> Result<Self, InterfaceError> {
+    /// Returns an error if a value is not finite.
+    ///
+    /// [`InterfaceState::rest_speed`]: super::InterfaceState::rest_speed
+    pub fn of_motion(centre: Vec2, velocity: Vec2, rest: f64) -> Result<Self, InterfaceError> {
         all_points_finite("the origin of the frame", &[centre])?;
         all_points_finite("the velocity of the frame", &[velocity])?;
-        let direction = velocity.try_normalize().unwrap_or(Vec2::X);
-        Ok(Self { centre, direction })
+        let moves = velocity.length() > finite("the speed of a droplet at rest", rest)?;
+        Ok(Self::along(centre, moves.then_some(velocity)))
+    }
+
+    /// Frame about `centre` (length) along a motion, or along x and y without one.
+    pub(super) fn along(centre: Vec2, motion: Option<Vec2>) -> Self {
+        Self { centre, direction: motion.and_then(Vec2::try_normalize).unwrap_or(Vec2::X) }
     }
 
     /// Origin (length).
     #[must_use]
     pub fn centre(&self) -> Vec2 {
         self.centre
+    }
+
+    /// First axis (no dimension, of length 1).
+    #[must_use]
+    pub fn direction(&self) -> Vec2 {
+        self.direction
     }
 
     /// Angle of the first axis to x (radians, from -pi to pi).

@@ -68,16 +68,33 @@ impl ForceMoments {
         [[along * (xx - yy), off], [off, across * (xx - yy)]]
     }
 
-    /// Adds the moments of a body inside.
+    /// The stresslet S_ij in the axes x and y (force times length), of moments in the axes of `frame`.
+    #[must_use]
+    pub fn stresslet_in_laboratory(&self, frame: &Frame) -> [[f64; 2]; 2] {
+        let stresslet = self.stresslet();
+        if self.in_space {
+            return stresslet;
+        }
+        let [[along, across], _] = stresslet;
+        // Products of the axes, exact for those along x and y.
+        let Vec2 { x, y } = frame.direction();
+        let (cos, sin) = (x * x - y * y, 2.0 * x * y);
+        let (xx, xy) = (cos * along - sin * across, sin * along + cos * across);
+        [[xx, xy], [xy, -xx]]
+    }
+
+    /// Adds the moments of a body inside, with velocities relative to `drift` (length per time).
     pub(super) fn add_body(
         &mut self,
         body: &Enclosed,
+        drift: Vec2,
         convention: Convention,
         frame: &Frame,
     ) -> Result<(), InputError> {
         let Enclosed { positions, forces, velocities, viscosities, rigid_dipole } = body;
         let factor = convention.factor(*viscosities)?;
-        self.add(positions, forces, velocities, factor, frame);
+        let velocities: Vec<Vec2> = velocities.iter().map(|velocity| velocity - drift).collect();
+        self.add(positions, forces, &velocities, factor, frame);
         if let Some(dipole) = rigid_dipole {
             self.quadrupole = None;
             let axes = [Vec2::X, Vec2::Y].map(|axis| frame.components(axis));

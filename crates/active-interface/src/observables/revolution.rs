@@ -2,6 +2,8 @@
 
 use motile_base::{InputError, Vec2};
 
+use motile_scene::MomentEllipse;
+
 use super::{ForceMoments, Frame, InterfaceState, Observables, SquirmerFit};
 use crate::InterfaceError;
 use crate::interface::geometry::{Geometry, Rings, outward};
@@ -31,6 +33,7 @@ pub(super) fn surface(markers: &[Vec2]) -> Result<Geometry, InputError> {
 pub(super) fn observe_in_space(
     state: &InterfaceState<'_>,
     surface: &Geometry,
+    rest: f64,
     record: &mut Observables,
 ) -> Result<(), InterfaceError> {
     let InterfaceState { markers, forces, velocities, numbers, viscosities, .. } = *state;
@@ -53,6 +56,9 @@ pub(super) fn observe_in_space(
         return Err(InterfaceError::crossed());
     }
     (record.centroid, record.velocity) = (pole + Vec2::new(centre, 0.0), Vec2::new(velocity, 0.0));
+    (record.relative_velocity, record.moves) = (record.velocity, velocity.abs() > rest);
+    let moments = [along, 0.0, across].map(|moment| moment / volume);
+    record.shape = MomentEllipse::of_moments(volume, record.centroid, moments, true);
     (record.area, record.perimeter) = (volume, surface.total_weight());
     record.aspect_ratio_moments = ratio.sqrt();
     record.particle_number = numbers.iter().sum();
@@ -65,8 +71,9 @@ pub(super) fn observe_in_space(
         moments.dipole[0][0] += weight * f.x * (x.x - centre) + 2.0 * factor * u.x * n.x;
         moments.dipole[1][1] += 0.5 * (weight * f.y * x.y + 2.0 * factor * u.y * n.y);
     }
+    record.stresslet_in_laboratory = moments.stresslet();
     record.moments = moments;
-    let frame = Frame::of_motion(record.centroid, record.velocity)?;
+    let frame = Frame::of_motion(record.centroid, record.velocity, rest)?;
     let fit = |drift: f64| {
         let mut fit = SquirmerFit::default();
         for (k, (x, u)) in markers.iter().zip(velocities).enumerate() {
@@ -80,6 +87,6 @@ pub(super) fn observe_in_space(
         }
         fit
     };
-    (record.squirmer, record.squirmer_laboratory) = (fit(velocity), fit(0.0));
+    (record.squirmer, record.squirmer_laboratory) = (fit(velocity).beyond(rest), fit(0.0).beyond(rest));
     Ok(())
 }

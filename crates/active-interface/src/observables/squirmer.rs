@@ -30,6 +30,11 @@ pub struct SquirmerFit {
 }
 
 impl SquirmerFit {
+    /// The fit with B1 = 0 if it is no faster than a droplet at rest (length per time).
+    pub(super) fn beyond(self, rest: f64) -> Self {
+        Self { b1: if self.b1.abs() > rest { self.b1 } else { 0.0 }, ..self }
+    }
+
     /// beta = B2 / |B1| (no dimension): positive for pullers, negative for pushers; `None` where B1 is zero.
     #[must_use]
     pub fn beta(&self) -> Option<f64> {

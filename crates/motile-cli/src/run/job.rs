@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::{flags::OutputFlags, summary::Summary, words::say};
 use anyhow::{Result, ensure};
+use motile::base::internal::decimals;
 use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
 use motile::setup::{AnyFlow, Setup};
 use motile_output::{Look, RunProgress};
@@ -127,8 +128,12 @@ impl Job {
         };
         progress.finish();
         self.seconds = seconds(scene.system());
-        self.warnings =
-            progress.warnings().worst().iter().map(|(time, text)| format!("t = {time:.3}: {text}")).collect();
+        self.warnings = progress
+            .warnings()
+            .worst()
+            .iter()
+            .map(|(time, text)| format!("t = {}: {text}", decimals(3, *time)))
+            .collect();
         output.checkpoints.save(scene, description, &self.outcome)
     }
 
@@ -166,7 +171,11 @@ impl Job {
             body => format!("{} of {body}", limiting.reason),
         });
         summary.put("dt_set_by", limiting, "for most steps");
-        summary.put("step_error", report.largest_error, "largest estimate of a step's, in parts of R0 and of c0");
+        summary.put(
+            "step_error",
+            report.largest_error,
+            "largest estimate of a step's, in parts of the radius and of c0",
+        );
         summary.put("steps_rejected", report.rejections, "for their error");
         summary.put("steps_failed", report.failures, "and retried");
         summary.put("stages", scene.integrator_work().stages, "of all steps");

@@ -30,17 +30,18 @@ pub struct Steadiness {
 }
 
 impl Steadiness {
-    /// Steadiness from points (time, speed) in the order of time, with the diffusion constant D of the particles (R0^2
-    /// per time).
+    /// Steadiness from points (time, speed) in the order of time, with the diffusion constant D of the particles (length
+    /// squared per time) and the radius R0 of the droplet (length).
     #[must_use]
-    pub fn of(points: &[(f64, f64)], diffusion: f64) -> Self {
+    pub fn of(points: &[(f64, f64)], diffusion: f64, radius: f64) -> Self {
         let nothing = Self { since: None, at_rest: false, final_speed: f64::NAN, deviation: f64::NAN };
         let (Some(&(start, _)), Some(&(end, _))) = (points.first(), points.last()) else { return nothing };
         let late = points.iter().filter(|(t, _)| *t >= end - LATE * (end - start));
         let (count, sum) = late.clone().fold((0.0, 0.0), |(n, sum), (_, v)| (n + 1.0, sum + v));
         let mean: f64 = sum / count;
-        let rest = REST * diffusion;
-        let long_enough = |t: &f64| end - t >= LATE * (end - start) && (end - t) * diffusion >= PATIENCE;
+        let rest = REST * diffusion / radius;
+        let long_enough =
+            |t: &f64| end - t >= LATE * (end - start) && (end - t) * diffusion >= PATIENCE * radius * radius;
         let since = |within: &dyn Fn(f64) -> bool| {
             let first = points.iter().rposition(|&(_, v)| !within(v)).map_or(0, |k| k + 1);
             points.get(first).map(|&(t, _)| t).filter(long_enough)

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
 use motile::analysis::trajectory::TrajectoryRecord;
-use motile::base::Vec2;
+use motile::base::{Vec2, internal::decimals};
 use motile::scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
 use motile::setup::{AnyFlow, Built, DropletSetup, ExcludedVolume, GridMethod, MethodKind, Numbers, Particles, Setup};
 
@@ -19,14 +19,14 @@ use motile_output::{
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;
-/// Time between the frames of the animation, and the smallest and largest number of frames.
-const FRAME_INTERVAL: f64 = 1.2;
+/// Time between the frames of the animation (R^2/D), and the smallest and largest number of frames.
+const FRAME_INTERVAL: f64 = 0.12;
 const FRAMES: [f64; 2] = [50.0, 150.0];
 /// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
 const COARSER: f64 = 2.0;
 /// Depth to which a droplet may enter an elastic solid before its run ends with an error (grid spacings).
 const SOLID_OVERLAP: f64 = 0.25;
-/// Distance of streamlines (R0).
+/// Distance of streamlines (length scales of the scene).
 const STREAMLINES: f64 = 0.24;
 
 /// Resolution and caption of the pictures of a run.
@@ -39,10 +39,11 @@ pub struct View {
 }
 
 impl View {
-    /// View with the spacing of a scene's grid, or 0.05 where it has none, and no text.
+    /// View with the spacing of a scene's grid, or a twentieth of its length scale where it has none, and no text.
     #[must_use]
     pub fn of(setup: &Setup) -> Self {
-        Self { spacing: setup.method.spacing().unwrap_or(GridMethod::default().spacing), region: String::new() }
+        let spacing = setup.method.spacing().unwrap_or(GridMethod::default().spacing * setup.length_scale());
+        Self { spacing, region: String::new() }
     }
 }
 
@@ -58,8 +59,8 @@ pub struct WatchedRun {
     /// Dimensionless numbers of the droplet.
     numbers: Option<Numbers>,
     method: MethodKind,
-    /// Area of the droplet at the start.
-    area: f64,
+    /// Radius of the droplet (length).
+    radius: f64,
     raster: Raster,
     start: ConcentrationProfile,
     recorder: TrajectoryCsv,
@@ -85,10 +86,10 @@ impl WatchedRun {
         };
         let (body, frame) = (scene.body(droplet)?, Frame::new(Vec2::new(x, y), angle)?);
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        let area = body.initial_area();
         let numbers = setup.numbers(&setup.droplets[0])?;
         let job = Job::new(&mut scene, described, end, output, name)?;
-        let raster = |spacing: f64| view_of(setup.region, &scene, Vec2::new(x, y), spacing);
+        let radius = setup.length_scale();
+        let raster = |spacing: f64| view_of(setup.region, &scene, Vec2::new(x, y), spacing, radius);
         let (method, spacing) = (setup.method.kind(), view.spacing);
         let watched = raster(if method != MethodKind::Integral { spacing } else { COARSER * spacing })?;
         let still = raster(spacing)?;
@@ -105,8 +106,8 @@ impl WatchedRun {
             let concentration = alike.then_some(particles.concentration);
             let internal = setup.solids.iter().any(|s| !s.relaxation.is_empty() || s.active_springs.is_some());
             let solids = if internal { SolidColour::InternalStress } else { SolidColour::Stress };
-            let streamline_spacing = Some(STREAMLINES);
-            let look = Look { caption, concentration, streamline_spacing, solids, ..Look::default() };
+            let streamline_spacing = Some(STREAMLINES * radius);
+            let look = Look { caption, concentration, streamline_spacing, solids, ..Look::of(setup) };
             let look = output.look.apply(look);
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Animation::new(look, watched), vtk));
@@ -119,7 +120,7 @@ impl WatchedRun {
             particles,
             numbers,
             method,
-            area,
+            radius,
             raster,
             start,
             recorder,
@@ -145,7 +146,8 @@ impl WatchedRun {
             observers.push((Every::Steps(1), end));
         }
         if let Some((_, film, vtk)) = &mut self.pictures {
-            let frames = (time / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
+            let interval = FRAME_INTERVAL * self.radius * self.radius / self.particles.diffusion;
+            let frames = (time / interval).clamp(FRAMES[0], FRAMES[1]);
             observers.push((Every::StepAfter(time / frames), film));
             observers.push((self.job.each(FILES), vtk));
         }
@@ -216,7 +218,7 @@ impl WatchedRun {
             };
             time_series(recorder.table())?.write(&directory, "time_series")?;
             let body = scene.body(droplet)?;
-            let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
+            let frame = last.observables.frame();
             let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
             concentration_plot(&start, &profile, scene.time(), particles.concentration)
                 .write(&directory, "concentration_profile")?;
@@ -225,7 +227,7 @@ impl WatchedRun {
             look.write_picture(&seen, &tracks, directory.join("final.png"))?;
             film.write(&tracks, directory.join("swim.gif"))?;
             if let Some(begins) = film.begins().filter(|begins| *begins > 0.0) {
-                say(format_args!("swim.gif begins at t = {begins:.4}, where the run was resumed"));
+                say(format_args!("swim.gif begins at t = {}, where the run was resumed", decimals(4, begins)));
             }
             Ok(())
         })

@@ -9,7 +9,7 @@ use crate::InteriorError;
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GelMaterial {
-    /// Frank constant K (force), the stiffness against splay and bend of the director.
+    /// Frank constant K (force times length), the stiffness against splay and bend of the director.
     pub frank: f64,
     /// Rotational viscosity gamma1 (stress times time), the resistance of the director to turning against the fluid.
     pub rotational_viscosity: f64,

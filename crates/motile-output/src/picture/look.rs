@@ -8,6 +8,7 @@ use super::solid_shape::SolidColour;
 use crate::colour::PressureColours;
 use crate::{ColourScale, OutputError, Snapshot, drawing::Drawing};
 use motile::base::Vec2;
+use motile::setup::Setup;
 
 /// Distance of streamlines over the smaller side of the picture, by default.
 const STREAMLINES: f64 = 0.05;
@@ -19,7 +20,7 @@ pub type Track = Vec<(f64, Vec2)>;
 
 /// Settings of pictures of scenes.
 ///
-/// A picture shows pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets coloured by
+/// A picture shows pressure in colour ([`motile::base::FlowSample::pressure`]), streamlines in the laboratory frame, the interfaces of all droplets coloured by
 /// their concentrations (black without particles), densities of particles that diffuse inside in place of the pressure,
 /// directors and defects of gels, solids and rigid walls, the time and a scale bar; between walls also the paths of the
 /// droplets. In periodic directions everything is drawn with its periodic images, so positions need not be wrapped.
@@ -69,8 +70,8 @@ pub struct Look {
     pub pressure_colours: PressureColours,
     /// Unit of the concentrations shown (particles per length); 1 if `None`, as by default.
     pub concentration: Option<f64>,
-    /// Unit of length in the labels of axes and scale bar, `R_{0}` by default; no unit if empty. It is a text alone:
-    /// positions are not converted.
+    /// Unit of length in the labels of axes and scale bar; no unit if empty, as by default, and `R_{0}` by [`Look::of`]
+    /// for a droplet of radius 1. It is a text alone: positions are not converted.
     pub length_unit: String,
     /// True, as by default, if streamlines are drawn.
     pub streamlines: bool,
@@ -95,7 +96,7 @@ impl Default for Look {
             pressure_range: None,
             pressure_colours: PressureColours::default(),
             concentration: None,
-            length_unit: "R_{0}".into(),
+            length_unit: String::new(),
             streamlines: true,
             streamline_spacing: None,
             scale_bar: true,
@@ -106,6 +107,13 @@ impl Default for Look {
 }
 
 impl Look {
+    /// Returns the default settings for pictures of a described scene, with its unit of length
+    /// ([`Setup::length_unit`]).
+    #[must_use]
+    pub fn of(setup: &Setup) -> Self {
+        Self { length_unit: setup.length_unit().into(), ..Self::default() }
+    }
+
     /// Colour scales that serve all of some states.
     pub(crate) fn legends(&self, all: &[Snapshot]) -> Legends {
         let pressures = all.iter().flat_map(|seen| seen.flow.iter().map(|sample| sample.pressure));

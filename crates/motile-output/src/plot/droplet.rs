@@ -1,12 +1,14 @@
 //! Plots of the observables of a droplet.
 
 use motile::active_interface::observables::ConcentrationProfile;
+use motile::base::internal::decimals;
 
 use crate::drawing::axes::AxisScale;
 use crate::plot::{contents::Plot, figure::Figure, series::Series};
 use crate::{CsvTable, OutputError};
 
-/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.
+/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap. Quantities are
+/// in the units of the scene.
 ///
 /// # Errors
 /// [`OutputError::Column`]: a table without these columns.
@@ -16,7 +18,7 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
     };
     let line = |label: &str, column: &str| Ok::<_, OutputError>(Series::line(label, table.curve("time", column)?));
     let figure = Figure::new(2)
-        .panel(plot("Speed", "|v| (R_{0} per time)").series(line("", "speed")?))
+        .panel(plot("Speed", "|v|").series(line("", "speed")?))
         .panel(
             plot("Shape", "aspect ratio a/b")
                 .series(line("area moments", "aspect_ratio_moments")?)
@@ -33,8 +35,8 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
         return Ok(figure);
     }
     Ok(figure
-        .panel(plot("Height of the centroid", "y (R_{0})").series(line("", "y")?).horizontal(0.0, ""))
-        .panel(plot("Gap to the walls", "gap (R_{0})").series(line("", "gap")?).horizontal(0.0, "")))
+        .panel(plot("Height of the centroid", "y").series(line("", "y")?).horizontal(0.0, ""))
+        .panel(plot("Gap to the walls", "gap").series(line("", "gap")?).horizontal(0.0, "")))
 }
 
 /// Figure of the concentration over `mean_concentration` (particles per length) along the interface, counter-clockwise
@@ -54,7 +56,7 @@ pub fn concentration_plot(
         .x_axis("arc length from the front, in perimeters (rear: 0.5)", AxisScale::Linear)
         .x_range(0.0, 1.0)
         .y_axis("c/c_{0}", AxisScale::Linear)
-        .series(line(&format!("t = {time:.1}"), end))
+        .series(line(&format!("t = {}", decimals(1, time)), end))
         .series(line("t = 0", start).dashed())
         .horizontal(1.0, "mean at the start");
     Figure::new(1).panel(plot)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
 use motile::analysis::suspension::Member;
-use motile::base::Vec2;
+use motile::base::{Vec2, internal::decimals};
 use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::animation::Frames;
@@ -173,7 +173,7 @@ impl SuspensionPicture {
         for x in [left, right] {
             drawing.stroke(&[[x, area.top], [x, area.bottom()]], &Pen::new(Rgb::GREY, 1.0));
         }
-        let text = format!("t = {:.1}   {} droplets", self.time, self.droplets.len());
+        let text = format!("t = {}   {} droplets", decimals(1, self.time), self.droplets.len());
         drawing.text([left, 2.1 * em], &text, &TextStyle::new(1.2 * em, Anchor::Start));
         match (colour, scale) {
             (SuspensionColour::Concentration, Some(scale)) => {

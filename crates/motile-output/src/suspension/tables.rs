@@ -36,19 +36,34 @@ const COLUMNS: [&str; 17] = [
     "contact_stress",
 ];
 /// Columns of the table of droplets.
-const MEMBERS: [&str; 8] = ["time", "droplet", "x", "y", "heading_x", "heading_y", "velocity_x", "velocity_y"];
+const MEMBERS: [&str; 12] = [
+    "time",
+    "droplet",
+    "x",
+    "y",
+    "heading_x",
+    "heading_y",
+    "velocity_x",
+    "velocity_y",
+    "deformation",
+    "inclination_degrees",
+    "stresslet_xx_laboratory",
+    "stresslet_xy_laboratory",
+];
 
 /// Observer of all droplets of a scene together, which writes `suspension.csv` and `members.csv`.
 ///
 /// The columns of `suspension.csv`, of which fields are empty where a quantity does not exist: `time`; `polar_order`
-/// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean (length per time);
+/// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean relative to the imposed flow (length per time);
 /// `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start; `contacts`,
 /// pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below the reach
 /// (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`, the largest
 /// pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a droplet
 /// since the start; `stress_xx`, `stress_xy`, `stress_yy` of the droplets in a box, over its area, and
 /// `contact_stress`, the pressure that a repulsion transmits between them (force per length). The columns of
-/// `members.csv`: `time`, `droplet`, centroid, heading and velocity of each droplet.
+/// `members.csv`: `time`, `droplet`, centroid, heading, velocity, deformation and inclination of the
+/// ellipse with its moments, and stresslet in the axes x and y of each droplet. A droplet whose particles are
+/// uniform has no heading.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -137,7 +152,9 @@ impl SuspensionCsv {
                 states.push(Vec::new());
             }
             if let Some(state) = states.last_mut() {
-                state.push(Vec2::new(row[columns], row[columns + 1]));
+                // Without a heading there are no numbers.
+                let [x, y] = [row[columns], row[columns + 1]];
+                state.push(if x.is_nan() { Vec2::ZERO } else { Vec2::new(x, y) });
             }
         }
         (times, states)
@@ -172,6 +189,8 @@ impl<H: Hydrodynamics> Observer<H> for SuspensionCsv {
         let count = members.len() as f64;
         let mean = |of: &dyn Fn(&Member) -> f64| members.iter().map(of).sum::<f64>() / count;
         let headings: Vec<Vec2> = members.iter().map(|member| member.heading).collect();
+        let headed = headings.iter().any(|heading| *heading != Vec2::ZERO);
+        let turned = |member: &Member, start: &[f64]| member.heading.dot(Vec2::new(start[2], start[3]));
         let start = system.record(START).map(|record| record.numbers.clone()).unwrap_or_default();
         let since = |of: &dyn Fn(&Member, &[f64]) -> f64| -> Vec<f64> {
             members.iter().zip(start.chunks_exact(6)).map(|(member, start)| of(member, start)).collect()
@@ -187,11 +206,11 @@ impl<H: Hydrodynamics> Observer<H> for SuspensionCsv {
         let pairs: Vec<[usize; 2]> = near.iter().filter_map(|([a, b], _)| Some([place(*a)?, place(*b)?])).collect();
         let mut row = vec![
             time,
-            polar_order(&headings),
-            nematic_order(&headings),
-            mean(&|member| member.velocity.length()),
+            if headed { polar_order(&headings) } else { f64::NAN },
+            if headed { nematic_order(&headings) } else { f64::NAN },
+            mean(&|member| member.relative_velocity.length()),
             mean_since(&|member, start| (member.centroid - Vec2::new(start[0], start[1])).length_squared()),
-            mean_since(&|member, start| member.heading.dot(Vec2::new(start[2], start[3]))),
+            if headed { mean_since(&turned) } else { f64::NAN },
             near.len() as f64,
             cluster_sizes(members.len(), &pairs).first().copied().unwrap_or_default() as f64,
             near.iter().map(|(_, gap)| *gap).reduce(f64::min).unwrap_or(f64::NAN),
@@ -207,12 +226,16 @@ impl<H: Hydrodynamics> Observer<H> for SuspensionCsv {
             row.extend([xx, xy, yy, contact]);
         }
         self.table.push_state(system, &row)?;
-        let rows: Vec<[f64; 8]> = members
+        let rows: Vec<[f64; 12]> = members
             .iter()
             .map(|member| {
-                let Member { droplet, centroid, heading, velocity, .. } = *member;
+                let Member { droplet, centroid, heading, velocity, shape, stresslet, .. } = *member;
                 let number = droplet.index() as f64;
-                [time, number, centroid.x, centroid.y, heading.x, heading.y, velocity.x, velocity.y]
+                let [along, up] = if heading == Vec2::ZERO { [f64::NAN; 2] } else { heading.to_array() };
+                let (deformation, [xx, xy]) = (shape.deformation(), stresslet[0]);
+                let angle = shape.angle.map_or(f64::NAN, f64::to_degrees);
+                let Vec2 { x, y } = centroid;
+                [time, number, x, y, along, up, velocity.x, velocity.y, deformation, angle, xx, xy]
             })
             .collect();
         Ok(self.members.push_rows(system, &rows)?)

@@ -1,7 +1,7 @@
 //! The flow at the markers of one body, and the forces of the bodies inside it.
 
 use motile_base::{
-    Vec2,
+    ImposedFlow, Vec2,
     boxes::{Periods, nearest_image},
 };
 
@@ -17,6 +17,8 @@ pub struct BodyFlow<'a> {
     pub forces: &'a [Vec2],
     /// Velocities of the fluid (length per time).
     pub velocities: &'a [Vec2],
+    /// The imposed flow, which is part of all velocities.
+    pub imposed: ImposedFlow,
     pub(crate) all: Everything<'a>,
     pub(crate) index: usize,
 }

@@ -10,6 +10,8 @@ use motile_base::{
 };
 use num_complex::Complex64;
 
+use super::{MomentEllipse, moment_ellipse::ROUND};
+
 /// Places of a curve for each marker that are looked at for its largest and smallest radius.
 const FINER: usize = 4;
 /// Most iterations for a place, and the step in the parameter below which it is found.
@@ -26,18 +28,22 @@ const FOUND: f64 = 1e-14;
 pub struct Deformation {
     /// D of the ellipse with the second moments of the area inside; no dimension.
     pub by_moments: f64,
-    /// Angle of the long axis of that ellipse from x (radians, from -pi/2 to pi/2).
-    pub angle_of_moments: f64,
+    /// Angle of the long axis of that ellipse from x (radians, from -pi/2 to pi/2); `None` for a shape that is round to
+    /// round-off.
+    pub angle_of_moments: Option<f64>,
     /// D of the largest and smallest distances of the curve from the centroid of its area; no dimension.
     pub by_extents: f64,
-    /// Angle of the largest distance from x (radians, from -pi/2 to pi/2).
-    pub angle_of_extents: f64,
+    /// Angle of the largest distance from x (radians, from -pi/2 to pi/2); `None` for a curve that is a circle to
+    /// round-off.
+    pub angle_of_extents: Option<f64>,
     /// Largest and smallest distance from the centroid (length).
     pub extents: [f64; 2],
     /// Area (length squared) and its centroid (length).
     pub area: f64,
     /// Centroid of the area (length).
     pub centroid: Vec2,
+    /// Velocity of the centroid, from the flux of area (length per time).
+    pub velocity: Vec2,
     /// Length of the curve (length).
     pub perimeter: f64,
     /// Curvature at the largest distance (1/length).
@@ -120,35 +126,13 @@ impl Deformation {
         let tangents = series.values().to_vec();
         let step = TAU / count as f64;
         let nodes = || markers.iter().zip(&tangents);
-
-        // The boundary integrals of polynomials of the fourth degree: about the first marker's side of the curve, not
-        // the origin, so that a droplet far from it loses no digits.
-        let origin = markers.iter().sum::<Vec2>() / count as f64;
-        let [mut area, mut first, mut second] = [[0.0; 3]; 3];
-        for (x, t) in nodes() {
-            let Vec2 { x, y } = *x - origin;
-            area[0] += 0.5 * (x * t.im - y * t.re) * step;
-            first[0] += 0.5 * x * x * t.im * step;
-            first[1] -= 0.5 * y * y * t.re * step;
-            second[0] += x * x * x * t.im * step / 3.0;
-            second[1] += 0.5 * x * x * y * t.im * step;
-            second[2] -= y * y * y * t.re * step / 3.0;
-        }
-        let area = area[0];
-        let middle = Vec2::new(first[0], first[1]) / area;
-        let (xx, xy, yy) = (
-            second[0] / area - middle.x * middle.x,
-            second[1] / area - middle.x * middle.y,
-            second[2] / area - middle.y * middle.y,
-        );
-        let (half, mean) = ((0.25 * (xx - yy).powi(2) + xy * xy).sqrt(), 0.5 * (xx + yy));
-        let [long, short] = [(mean + half).sqrt(), (mean - half).max(0.0).sqrt()];
-
-        let centroid = origin + middle;
+        let ellipse = MomentEllipse::with_tangents(markers, &tangents);
+        let MomentEllipse { area, centroid, angle, .. } = ellipse;
         let centre = Complex64::new(centroid.x, centroid.y);
         let [tip, waist] = [1.0, -1.0].map(|sign| curve.extreme(centre, sign, count));
         let [z, t, bend] = curve.at(tip);
         let extents = [(z - centre).norm(), (curve.at(waist)[0] - centre).norm()];
+        let elongated = extents[0] - extents[1] > ROUND * (extents[0] + extents[1] + centroid.length());
 
         // Velocity of the centroid from the flux of area.
         let flux: Vec2 = nodes().zip(velocities).map(|((x, t), v)| (*x - centroid) * (v.x * t.im - v.y * t.re)).sum();
@@ -159,13 +143,14 @@ impl Deformation {
         let turns = along.iter().all(|v| *v > 0.0) || along.iter().all(|v| *v < 0.0);
         let speed = Series::new(&mut series, &own)?;
         Ok(Self {
-            by_moments: (long - short) / (long + short),
-            angle_of_moments: 0.5 * (2.0 * xy).atan2(xx - yy),
+            by_moments: ellipse.deformation(),
+            angle_of_moments: angle,
             by_extents: (extents[0] - extents[1]) / (extents[0] + extents[1]),
-            angle_of_extents: axis(z - centre),
+            angle_of_extents: elongated.then(|| axis(z - centre)),
             extents,
             area,
             centroid,
+            velocity: drift,
             perimeter: tangents.iter().map(|t| t.norm()).sum::<f64>() * step,
             tip_curvature: (t.conj() * bend).im / t.norm().powi(3),
             tip_speed: speed.at(tip)[0].norm(),

@@ -148,13 +148,14 @@ impl DropletSetup {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Particles {
-    /// Activity zeta delta-mu (force times length), negative if contractile.
+    /// Activity zeta delta-mu (force times length; in three dimensions force times length squared), negative if
+    /// contractile. Forces are line tensions.
     pub activity: f64,
     /// Excluded volume Pi(c), which keeps the particles from collapsing to a point.
     pub excluded_volume: ExcludedVolume,
     /// Diffusion constant along the interface (length squared per time).
     pub diffusion: f64,
-    /// Mean concentration c0 at the start (1/length).
+    /// Mean concentration c0 at the start (1/length; in three dimensions 1/length squared).
     pub concentration: f64,
     /// Spread over the interface at the start.
     pub start: Start,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, Motion};
-use motile_base::polygon::contains;
+use motile_base::{internal::decimals, polygon::contains};
 use motile_interior::{Anchoring, DirectorStart, DiscMesh, GelInDroplet, GelMaterial};
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
@@ -105,7 +105,8 @@ pub(super) fn spacing_inside(
         None => Ok(usual.min(most)),
         Some(spacing) if spacing <= most => Ok(spacing),
         Some(spacing) => {
-            let remedy = format!("it is for a droplet of radius {radius:.3}: give {most:.3} or less");
+            let remedy =
+                format!("it is for a droplet of radius {}: give {} or less", decimals(3, radius), decimals(3, most));
             Checked { place: name }.refuse(key, &spacing, remedy)
         }
     }

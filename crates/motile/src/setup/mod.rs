@@ -17,6 +17,7 @@ mod numbers;
 mod particles_entry;
 mod places;
 mod rigid_body;
+mod scales;
 mod shell;
 mod solid;
 mod suspension;

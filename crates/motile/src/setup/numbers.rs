@@ -58,8 +58,11 @@ impl Setup {
 }
 
 impl DropletShape {
-    /// Radius of the circle of its area (length).
-    fn radius(&self) -> Result<f64, InterfaceError> {
+    /// Returns the radius of the circle of its area (length).
+    ///
+    /// # Errors
+    /// Returns an error if points are not those of a closed curve.
+    pub fn radius(&self) -> Result<f64, InterfaceError> {
         Ok(match self {
             Self::Round { radius } | Self::Squeezed { radius, .. } => *radius,
             Self::Ellipse { half_axes: [along, across] } => (along * across).sqrt(),

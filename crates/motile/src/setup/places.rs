@@ -1,6 +1,9 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
-use motile_base::{Region, TubeShape, Vec2, internal::told_apart};
+use motile_base::{
+    Region, TubeShape, Vec2,
+    internal::{decimals, told_apart},
+};
 use motile_scene::{
     Hydrodynamics,
     gap::{Overlap, Surfaces},
@@ -53,7 +56,8 @@ impl Setup {
         let holds = drive.flux().is_some() || least <= length;
         let remedy = format!(
             "bodies in neighbouring lengths, whose flows on one another are not counted, are a radius of the tube \
-             apart or more: give at least {least:.4}, or a flux in place of a pressure"
+             apart or more: give at least {}, or a flux in place of a pressure",
+            decimals(4, least)
         );
         Checked { place: "" }.require(holds, "region.tube.length", length, &remedy)
     }

@@ -1157,7 +1157,7 @@ fn squeezed_spheres_have_the_volume_of_the_sphere() {
     let pi = std::f64::consts::PI;
     for to in [Squeezed::Ellipse, Squeezed::Stadium] {
         for (radius, half) in [(1.0, 0.8), (2.0, 1.1), (0.5, 0.49)] {
-            let (curve, ratio) = super::droplet::squeezed_sphere(radius, half, to).unwrap();
+            let (curve, ratio) = droplet::squeezed_sphere(radius, half, to).unwrap();
             let polygon = curve.markers(4000).unwrap();
             let height = polygon.iter().map(|place| place.y).fold(0.0, f64::max);
             let [volume, area] = revolved(&polygon);

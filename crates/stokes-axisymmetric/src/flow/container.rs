@@ -100,7 +100,8 @@ impl Walls {
         grid.analyse(&r, &x, &mut pressure);
         let null: Vec<f64> = pressure.sin[1..=n].iter().chain(&pressure.cos[..n]).copied().collect();
         let square: f64 = null.iter().map(|value| value * value).sum();
-        let scale = matrix.amax() / square;
+        // Entries as large as those of the matrix, in any unit of length.
+        let scale = matrix.amax() / square.sqrt();
         for (j, point) in meridian.nodes.iter().enumerate() {
             let normal = scale * point.normal().normalize();
             for (k, value) in null.iter().enumerate() {

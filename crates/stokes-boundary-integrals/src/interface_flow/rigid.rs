@@ -40,7 +40,7 @@ pub(crate) struct RigidWalls {
     factors: DenseFactors,
     /// Forces on the fluid at the nodes (force) in the last response.
     pub(crate) forces: DVector<f64>,
-    /// Mean pressure gradient (force per volume) in the last response.
+    /// Mean pressure gradient (stress per length) in the last response.
     pub(crate) gradient: f64,
     /// Forces and mean pressure gradient in the last response with the forcing.
     driven: (DVector<f64>, f64),

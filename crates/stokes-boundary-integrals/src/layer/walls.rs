@@ -320,7 +320,7 @@ impl Walls {
         2.0 * self.half * imposed.velocity[0]
     }
 
-    /// Mean pressure gradient along x (force per volume).
+    /// Mean pressure gradient along x (stress per length).
     pub(crate) fn pressure_gradient(
         &self,
         curves: &[Curve],

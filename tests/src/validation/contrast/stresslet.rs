@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::observables::{Convention, observe};
-use motile::base::Vec2;
+use motile::base::{ImposedFlow, Vec2};
 use motile::scene::{Hydrodynamics, Markers};
 
 use super::{Exact, layers};
@@ -52,17 +52,16 @@ impl Exact {
                 markers,
                 forces,
                 velocities,
+                imposed: ImposedFlow::NONE,
                 numbers,
                 viscosities,
                 inside,
                 enclosed,
                 axisymmetric: false,
+                on_grid: false,
             };
             let seen = observe(&state, Convention::FarField)?;
-            let [[along, across], _] = seen.moments.stresslet();
-            // Back from the droplet's axes.
-            let (sin, cos) = (2.0 * seen.heading()).sin_cos();
-            Ok(relative([cos * along - sin * across, sin * along + cos * across], self.stresslet(index)))
+            Ok(relative(seen.stresslet_in_laboratory[0], self.stresslet(index)))
         });
         errors.collect()
     }

@@ -27,7 +27,9 @@ fn bad_input_is_refused() {
     assert!(centroid_velocity(&markers, &markers[..9]).is_err());
     assert!(centroid_velocity(&markers, &[Vec2::new(f64::NAN, 0.0); 10]).is_err());
     assert!(Frame::new(Vec2::ZERO, f64::INFINITY).is_err());
-    assert_eq!(Frame::of_motion(Vec2::ZERO, Vec2::ZERO).unwrap().heading(), 0.0);
+    assert_eq!(Frame::of_motion(Vec2::ZERO, Vec2::ZERO, 0.0).unwrap().heading(), 0.0);
+    assert_eq!(Frame::of_motion(Vec2::ZERO, Vec2::new(-1e-18, 1e-18), 1e-12).unwrap().heading(), 0.0);
+    assert!(Frame::of_motion(Vec2::ZERO, Vec2::X, f64::NAN).is_err());
 }
 
 proptest! {
@@ -38,7 +40,7 @@ proptest! {
         // A velocity along the half chords changes nothing.
         let velocities: Vec<Vec2> = half_chords(&markers).map(|d| velocity + d * slide).collect();
         prop_assert!((centroid_velocity(&markers, &velocities).unwrap() - velocity).length() < 1e-12);
-        let frame = Frame::of_motion(Vec2::new(1.0, 2.0), velocity).unwrap();
+        let frame = Frame::of_motion(Vec2::new(1.0, 2.0), velocity, 0.0).unwrap();
         prop_assert!((frame.components(velocity) - Vec2::new(velocity.length(), 0.0)).length() < 1e-13);
     }
 }

@@ -2,7 +2,11 @@ use super::*;
 
 fn run(end: f64, speed: impl Fn(f64) -> f64) -> Steadiness {
     let points: Vec<_> = (0..=600).map(|k| f64::from(k) / 600.0 * end).map(|t| (t, speed(t))).collect();
-    Steadiness::of(&points, 0.1)
+    // Of a droplet of another radius speeds are as much larger, at a diffusion constant larger by the square.
+    let scaled: Vec<_> = points.iter().map(|(t, speed)| (*t, 1e-4 * speed)).collect();
+    let (seen, small) = (Steadiness::of(&points, 0.1, 1.0), Steadiness::of(&scaled, 1e-9, 1e-4));
+    assert_eq!((seen.since, seen.at_rest), (small.since, small.at_rest));
+    seen
 }
 
 #[test]
@@ -19,7 +23,7 @@ fn what_has_not_settled_or_not_lasted_is_not_steady() {
     assert_eq!(run(60.0, |t| 0.1 + 0.01 * t.sin()).since, None);
     assert_eq!(run(15.0, |t| 0.1 * (1.0 - (-0.5 * t).exp())).since, None);
     assert_eq!(run(1.0, |_| 0.1).since, None);
-    assert_eq!(Steadiness::of(&[], 0.1).since, None);
+    assert_eq!(Steadiness::of(&[], 0.1, 1.0).since, None);
     assert_eq!(run(60.0, |_| f64::NAN).since, None);
 }
 

@@ -11,18 +11,29 @@ use motile_output::SolidMeter;
 
 /// Remarks on the values of a [`SolidMeter`].
 const SOLIDS: [&str; 8] = [
-    "in the end (R0)",
-    "in the end (R0)",
-    "between droplet and walls, in the end (R0)",
-    "of the walls, in any direction (R0)",
-    "across their surface (R0)",
-    "mean displacement of a wall along the channel (R0)",
+    "in the end (length)",
+    "in the end (length)",
+    "between droplet and walls, in the end (length)",
+    "of the walls, in any direction (length)",
+    "across their surface (length)",
+    "mean displacement of a wall along the channel (length)",
     "of the walls",
     "deformed over reference area of a triangle",
 ];
 
 /// Observables that depend on the convention.
-const CONVENTIONAL: [&str; 8] = ["stresslet_xx", "s_xxx", "s_xyy", "n_xyy", "n_yxy", "n_yyx", "f_yxy", "f_yyx"];
+const CONVENTIONAL: [&str; 10] = [
+    "stresslet_xx",
+    "stresslet_xx_laboratory",
+    "stresslet_xy_laboratory",
+    "s_xxx",
+    "s_xyy",
+    "n_xyy",
+    "n_yxy",
+    "n_yyx",
+    "f_yxy",
+    "f_yyx",
+];
 
 impl WatchedRun {
     /// Results that all scenes with a droplet have: its final state, the change since the start, the cost of the run.
@@ -45,7 +56,7 @@ impl WatchedRun {
                 summary.put(name, *value, about);
             }
             let least = self.gap.smallest().map(|(gap, _)| gap);
-            summary.put("minimum_gap", least, "between droplet and walls, over the run (R0)");
+            summary.put("minimum_gap", least, "between droplet and walls, over the run (length)");
         }
         Ok(summary)
     }
@@ -81,7 +92,7 @@ impl WatchedRun {
         let (count, sum) = late.fold((0.0, 0.0), |(count, sum), (_, value)| (count + 1.0, sum + value));
         summary.put("stresslet_xx_mean", sum / count, "over the second half");
         let furthest = table.curve("time", "x")?.iter().map(|(_, x)| *x).fold(f64::NAN, f64::max);
-        summary.put("furthest_x", furthest, "largest x of the centroid over the run (R0)");
+        summary.put("furthest_x", furthest, "largest x of the centroid over the run (length)");
         summary.put("pressure_gradient", self.last()?.pressure_gradient, "mean along the channel");
         if let Ok(evidence) = self.put_regime(&mut summary) {
             summary.put("period", evidence.period.map(|period| period.value), "");
@@ -94,32 +105,47 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not begun.
     pub fn put_regime(&self, summary: &mut Summary) -> Result<Evidence> {
-        let report = self.recorder.trajectory()?.regime(&RegimeCriteria::default())?;
+        // Swimmers are about as fast as their particles diffuse over a radius, in any unit.
+        let diffusion = self.particles.diffusion;
+        let criteria = if diffusion > 0.0 {
+            RegimeCriteria::scaled(self.radius, diffusion / self.radius)?
+        } else {
+            RegimeCriteria::default()
+        };
+        let report = self.recorder.trajectory()?.regime(&criteria)?;
         summary.put("regime", report.regime.to_string(), "across the channel");
-        summary.put("amplitude", report.evidence.amplitude, "largest distance from the centre line, in the end (R0)");
+        summary.put(
+            "amplitude",
+            report.evidence.amplitude,
+            "largest distance from the centre line, in the end (length)",
+        );
         Ok(report.evidence)
     }
 
     fn put_droplet(&self, summary: &mut Summary, last: &Observables) -> Result<()> {
         let value = |name: &str| last.get(name).unwrap_or(f64::NAN);
         for (name, about) in [
-            ("speed", "of the centroid (R0 per time)"),
+            ("speed", "of the centroid (length per time)"),
             ("heading_degrees", "direction of motion, from x"),
-            ("aspect_ratio_moments", "along over across the motion, from area moments"),
+            ("deformation", "D = (L - B)/(L + B) by area moments"),
+            ("inclination_degrees", "of the long axis by area moments, from x"),
+            ("aspect_ratio_moments", "along over across the motion, from area moments; at rest x over y"),
             ("aspect_ratio_ellipse", "the same of a fitted ellipse"),
             ("stresslet_xx", "axes along the motion; below 0 a puller"),
+            ("stresslet_xx_laboratory", "axes x and y"),
+            ("stresslet_xy_laboratory", "axes x and y"),
             ("beta", "B2/|B1| in the droplet's frame"),
-            ("b1", "squirmer coefficient (R0 per time)"),
-            ("b2", "squirmer coefficient (R0 per time)"),
+            ("b1", "squirmer coefficient (length per time)"),
+            ("b2", "squirmer coefficient (length per time)"),
             ("active_fraction", "of the perimeter"),
-            ("active_curvature", "signed, of the active region (1/R0)"),
+            ("active_curvature", "signed, of the active region (1/length)"),
         ] {
             summary.put(name, value(name), about);
         }
         for name in ["concentration_max", "concentration_min"] {
             summary.put(name, value(name) / self.particles.concentration, "in c0");
         }
-        summary.put("perimeter", last.perimeter, "(R0)");
+        summary.put("perimeter", last.perimeter, "(length)");
         let table = self.recorder.table();
         for (name, column, value) in [
             ("area_relative_change", "area", last.area),
@@ -130,7 +156,7 @@ impl WatchedRun {
             summary.put(name, value / start - 1.0, "since the start");
         }
         let speeds = table.curve("time", "speed")?;
-        let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
+        let steady = Steadiness::of(&speeds, self.particles.diffusion, self.radius);
         summary.put("steady", steady.json(), steady.criterion());
         Ok(())
     }

@@ -18,12 +18,13 @@ fn an_ellipse_has_its_half_axes_by_both_definitions() {
         for (found, expected) in [
             (seen.by_moments, expected),
             (seen.by_extents, expected),
-            (seen.angle_of_moments, angle),
-            (seen.angle_of_extents, angle),
+            (seen.angle_of_moments.unwrap(), angle),
+            (seen.angle_of_extents.unwrap(), angle),
             (seen.extents[0], long),
             (seen.extents[1], short),
             (seen.area, PI * long * short),
             (seen.centroid.distance(centre), 0.0),
+            (seen.velocity.distance(drift), 0.0),
             (seen.tip_curvature, long / (short * short)),
             (seen.tip_speed, rate * short),
             (seen.waist_speed, rate * long),
@@ -34,4 +35,21 @@ fn an_ellipse_has_its_half_axes_by_both_definitions() {
         }
     }
     assert!(Deformation::of(&[Vec2::ZERO; 7], &[Vec2::ZERO; 7]).is_err());
+}
+
+/// A circle in fluid at rest has no direction; a square is round by its moments, but has corners.
+#[test]
+fn a_round_curve_has_no_angle() {
+    let curve = |corners: f64| {
+        let at = |k: i32| {
+            let t = TAU * f64::from(k) / 64.0;
+            Vec2::new(3.0, 2.0) + (1.0 + corners * (4.0 * (t - 0.5)).cos()) * Vec2::from_angle(t)
+        };
+        Deformation::of(&(0..64).map(at).collect::<Vec<_>>(), &[Vec2::ZERO; 64]).unwrap()
+    };
+    let (circle, square) = (curve(0.0), curve(0.05));
+    assert_eq!([circle.angle_of_moments, circle.angle_of_extents], [None; 2]);
+    assert_eq!(square.angle_of_moments, None);
+    let turned = (square.angle_of_extents.unwrap() - 0.5).rem_euclid(0.5 * PI);
+    assert!(turned.min(0.5 * PI - turned) < 1e-9, "{square:?}");
 }

@@ -68,6 +68,7 @@ impl<H: Hydrodynamics> System<H> {
             positions: &markers.positions[range.clone()],
             forces: &markers.forces[range.clone()],
             velocities: &markers.velocities[range],
+            imposed: self.imposed(),
         })
     }
 
