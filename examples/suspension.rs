@@ -187,6 +187,7 @@ fn simulate(flags: &Flags) -> Result<()> {
     let evaluations = scene.system().work().evaluations;
     let mut summary = Summary::default();
     summary.put("droplets", setup.placed()?.droplets.len(), "");
+    summary.put("area_fraction", setup.filled()?, "of the droplets at the start");
     for (name, column, about) in [
         ("polar_order", "polar_order", "of their headings, in the end"),
         ("nematic_order", "nematic_order", "of their headings, in the end"),
@@ -282,10 +283,10 @@ fn scene(flags: &Flags) -> Result<Setup> {
     ensure!(suspension.count != Some(0), "--count 0: give a number above 0");
     let least = suspension.radius.map_or(1.0, |radius| radius.bounds()[0]);
     ensure!(least > 0.0, "--radius {least}: give radii above 0");
-    // The region has the size that the part of its area asks for.
+    // The region has the size at which the droplets fill that part of its area.
     let fraction = flags.area_fraction.unwrap_or(0.3);
     ensure!(fraction < 0.9, "--area-fraction {fraction}: no places are found for so many, give at most 0.6 or so");
-    let area = suspension.count.unwrap_or_default() as f64 * suspension.mean_area() / fraction;
+    let area = suspension.area() / fraction;
     setup.region = match flags.region.unwrap_or(Kind::Box) {
         Kind::Box => {
             ensure!(flags.width.is_none(), "--width is that of a channel: leave it out, or give --region channel");

@@ -59,6 +59,9 @@ pub struct DropletFlags {
     /// Seed of the random perturbation; each further droplet takes the next one [default: 1]
     #[arg(long, value_parser = seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
+    /// Squeeze round droplets that are wider than the walls leave them, at the start; without it they are refused
+    #[arg(long)]
+    pub squeezed: bool,
 }
 
 impl DropletFlags {
@@ -99,7 +102,8 @@ impl DropletFlags {
         );
         let (mut seeds, mut seeded) = (self.seed.into_iter().flat_map(|first| first..), false);
         for droplet in &mut droplets {
-            let DropletSetup { particles, viscosity, angle, .. } = &mut **droplet;
+            let DropletSetup { particles, viscosity, angle, squeezed, .. } = &mut **droplet;
+            *squeezed |= self.squeezed;
             *viscosity = self.viscosity_in.or(*viscosity).or(self.viscosity_out.map(|_| common));
             *angle = self.angle.map_or(*angle, f64::to_radians);
             let Some(particles) = particles else { continue };

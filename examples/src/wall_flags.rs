@@ -69,7 +69,7 @@ pub struct ElasticFlags {
     /// walls; without them, only the walls' material does
     #[arg(long, value_name = "STRETCHING,BENDING", value_parser = pair, allow_hyphen_values = true)]
     pub surface_elasticity: Option<[f64; 2]>,
-    /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
+    /// Width of the channel (R0); one narrower than the droplet needs --squeezed
     #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
     /// The period

@@ -13,13 +13,14 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 use motile::base::Vec2;
+use motile::setup::Setup;
 use motile_cli::run::{Summary, make_directory, say};
 use motile_output::plot::{AxisScale, Figure, Marker, Plot, Series};
 use motile_output::{CsvTable, Progress};
 use motile_steady_examples::SteadyFlags;
 use motile_steady_states::{
-    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyError,
-    SteadyState, Symmetry,
+    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, Stability,
+    SteadyError, SteadyState, Symmetry,
 };
 
 /// A branch of steady states over a parameter, with its stability and special points.
@@ -62,11 +63,20 @@ fn parameter(text: &str) -> Result<Parameter, String> {
     found.map(|(_, parameter)| *parameter).ok_or_else(|| format!("must be one of {}", names()))
 }
 
+/// Stability in tables: 1 for stable states, -1 for unstable ones, 0 if it is undecided.
+fn number(stability: Stability) -> f64 {
+    match stability {
+        Stability::Stable => 1.0,
+        Stability::Unstable => -1.0,
+        Stability::Undecided => 0.0,
+    }
+}
+
 /// Kind of the end of a branch among special points.
 const END: f64 = 3.0;
 
 /// Columns of every table, before the observables that are asked for.
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 17] = [
     "branch",
     "value",
     "speed",
@@ -82,6 +92,8 @@ const COLUMNS: [&str; 15] = [
     "frequency",
     "antisymmetric",
     "tail",
+    "growth_rate_error",
+    "stability",
 ];
 
 fn main() -> ExitCode {
@@ -94,6 +106,7 @@ fn draw(flags: &Flags) -> Result<()> {
     ensure!(step > 0.0 && step <= 0.5, "--step {step} is not a part of the range: give one between 0 and 0.5");
     let setup = parameter.with(&flags.scene.setup()?, from)?;
     make_directory(out)?;
+    keep_scene(flags, &setup)?;
     let mut diagram = Diagram::new(flags)?;
     let settings = Continuation { largest_step: step, ..Continuation::new(parameter, from, to) };
     // A diagram that was broken off on its first branch begins anew, which takes no longer.
@@ -128,6 +141,28 @@ fn draw(flags: &Flags) -> Result<()> {
         }
     }
     diagram.finish()
+}
+
+/// Writes the scene at the first value of the parameter, with the version of the program, or compares it with that of
+/// the diagram to go on with.
+fn keep_scene(flags: &Flags, setup: &Setup) -> Result<()> {
+    let path = flags.out.join("scene.toml");
+    let head = format!("# Of a diagram of motile {} over {}\n", motile::VERSION, flags.parameter.name());
+    if flags.resume && path.exists() {
+        let text = std::fs::read_to_string(&path)?;
+        let place = path.display();
+        ensure!(text.starts_with(&head), "{place} is of another version or parameter: leave --resume out");
+        if let Some(entry) = setup.difference(&Setup::from_toml(&text)?) {
+            anyhow::bail!("{place} is of another scene: {entry}. Give the flags of the diagram, or leave --resume out");
+        }
+        return Ok(());
+    }
+    ensure!(
+        !flags.resume || !flags.out.join("branches.csv").exists(),
+        "{} has no scene: an older version made it. Leave --resume out",
+        flags.out.display()
+    );
+    Ok(std::fs::write(&path, format!("{head}{}", setup.to_toml()?))?)
 }
 
 /// Files of a diagram.
@@ -205,6 +240,8 @@ impl<'a> Diagram<'a> {
             value(|mode| mode.value.im),
             value(|mode| f64::from(u8::from(mode.symmetry == Symmetry::Antisymmetric))),
             point.state.tail(),
+            point.spectrum.error,
+            number(point.spectrum.stability()),
         ];
         if !observable.is_empty() {
             let all = point.state.observables()?;
@@ -256,7 +293,7 @@ impl<'a> Diagram<'a> {
     }
 
     /// The last point that was written, and whether the parameter grew there.
-    fn last(&mut self, setup: &motile::setup::Setup) -> Result<(SteadyState, bool)> {
+    fn last(&mut self, setup: &Setup) -> Result<(SteadyState, bool)> {
         let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"])?;
         let parts = table.rows().split_at_checked(2 + setup.rigid_bodies.len());
         let Some(([place, velocity, nuclei @ ..], nodes)) = parts else {
@@ -283,17 +320,20 @@ impl<'a> Diagram<'a> {
             let mut plot = Plot::new("").x_axis(parameter.name(), AxisScale::Linear).y_axis(label, AxisScale::Linear);
             let y = column(name);
             for branch in 0..=self.branch {
-                for stable in [true, false] {
+                for stability in [Stability::Stable, Stability::Unstable, Stability::Undecided] {
                     let shown =
-                        |row: &Vec<f64>| row[0] as usize == branch && (row[column("unstable_modes")] == 0.0) == stable;
+                        |row: &Vec<f64>| row[0] as usize == branch && row[column("stability")] == number(stability);
+                    if stability == Stability::Undecided && !rows.iter().any(shown) {
+                        continue;
+                    }
                     // Points of the other kind interrupt the line.
                     let points = rows.iter().filter(|row| row[0] as usize == branch);
                     let points = points.map(|row| (row[1], if shown(row) { row[y] } else { f64::NAN }));
-                    let line = Series::line(if stable { "stable" } else { "unstable" }, points);
-                    plot = plot.series(if stable {
-                        line.marker(Marker::Disc)
-                    } else {
-                        line.dashed().marker(Marker::Circle)
+                    let line = Series::line(stability.name(), points);
+                    plot = plot.series(match stability {
+                        Stability::Stable => line.marker(Marker::Disc),
+                        Stability::Unstable => line.dashed().marker(Marker::Circle),
+                        Stability::Undecided => line.dashed().marker(Marker::Diamond),
                     });
                 }
             }

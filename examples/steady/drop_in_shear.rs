@@ -194,8 +194,10 @@ fn steady(flags: &Flags, setup: &Setup) -> Result<()> {
     let mut summary = Summary::default();
     report(&mut summary, &state.deformation()?, state.particle_stress()?);
     summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid");
-    summary.put("stable", spectrum.unstable() == 0, "no disturbance grows");
+    summary.put("stability", spectrum.stability().name(), "by the error of growth rates");
+    summary.put("stable", spectrum.stability().decided(), "no disturbance grows; not defined if that is undecided");
     summary.put("leading_growth_rate", spectrum.leading().map(|mode| mode.value.re), "of the slowest disturbance");
+    summary.put("growth_rate_error", spectrum.error, "of growth rates; undecided: give more nodes");
     summary.put("residual", state.residual(), "largest rate of change left");
     summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
     let directory = flags.output.directory("drop_in_shear")?;

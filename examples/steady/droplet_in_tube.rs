@@ -19,7 +19,7 @@ use motile::base::{Drive, Region, TubeShape};
 use motile::setup::{DropletShape, MethodKind, Setup};
 use motile_cli::run::{Summary, say};
 use motile_examples::{MethodFlags, Passage, RegionFlags, SceneFlags, positive};
-use motile_steady_states::{Measured, SteadyState};
+use motile_steady_states::{Measured, Stability, SteadyState};
 
 /// Shapes of tubes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -72,6 +72,10 @@ struct TubeFlags {
     /// Radius of the droplets (R0)
     #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
     radius: f64,
+    /// Squeeze droplets that are wider than their tube to spheroids of their volume, at the start; without it they are
+    /// refused
+    #[arg(long)]
+    squeezed: bool,
     /// Place of the first droplet on the axis (R0) [default: 0; before a constriction two radii]
     #[arg(long, allow_hyphen_values = true)]
     start: Option<f64>,
@@ -145,6 +149,7 @@ impl TubeFlags {
         let first = self.start.unwrap_or_else(|| self.passage().map_or(0.0, |end| -end - 2.0 * self.radius));
         let mut droplet = setup.droplets[0].clone();
         droplet.shape = DropletShape::Round { radius: self.radius };
+        droplet.squeezed = self.squeezed;
         setup.droplets = (0..self.droplets)
             .map(|number| {
                 let mut droplet = droplet.clone();
@@ -203,16 +208,19 @@ fn find(scene: &SceneFlags<TubeFlags>, setup: &Setup) -> Result<()> {
     summary.put("c_max", concentration[0], "largest concentration (c0)");
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
     summary.put("surface", perimeter, "area (R0^2)");
-    let mut stable = true;
-    for order in 0..3 {
-        let spectrum = if order == 0 { state.spectrum()? } else { state.spectrum_around(order)? };
+    let spectra = [state.spectrum()?, state.spectrum_around(1)?, state.spectrum_around(2)?];
+    // Only some have rigid motions, by which errors are estimated.
+    let error = spectra.iter().map(|spectrum| spectrum.error).fold(0.0, f64::max);
+    for (order, spectrum) in spectra.iter().enumerate() {
         let leading = spectrum.leading().map(|mode| mode.value);
         let key = format!("leading_growth_rate_{order}");
         summary.put(&key, leading.map(|value| value.re), "of disturbances that vary so often around the axis (1/time)");
         summary.put(&format!("leading_frequency_{order}"), leading.map(|value| value.im), "of that disturbance");
-        stable &= spectrum.unstable() == 0;
     }
-    summary.put("stable", stable, "no disturbance of these orders grows");
+    let verdict = Stability::of_parts(spectra.iter().map(|spectrum| spectrum.stability_within(error)));
+    summary.put("stability", verdict.name(), "by the error of growth rates");
+    summary.put("stable", verdict.decided(), "no disturbance grows; not defined if that is undecided");
+    summary.put("growth_rate_error", error, "of growth rates (1/time); undecided: give more nodes");
     summary.put("residual", state.residual(), "largest rate of change left (1/time)");
     summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
     let directory = scene.output.directory("droplet_in_tube")?;

@@ -57,7 +57,8 @@ fn solve(flags: &Flags) -> Result<()> {
     summary.put("aspect_ratio", aspect_ratio, "from area moments, along the motion over across");
     summary.put("c_max", concentration[0], "largest concentration (c0)");
     summary.put("c_min", concentration[1], "smallest concentration (c0)");
-    summary.put("stable", spectrum.unstable() == 0, "no disturbance grows");
+    summary.put("stability", spectrum.stability().name(), "by the error of growth rates");
+    summary.put("stable", spectrum.stability().decided(), "no disturbance grows; not defined if that is undecided");
     summary.put("leading_growth_rate", leading.map(|mode| mode.value.re), "of the leading mode (1/T)");
     summary.put("leading_frequency", leading.map(|mode| mode.value.im), "of the leading mode (radians/T)");
     summary.put("leading_symmetry", leading.map(|mode| mode.symmetry.name()), "at the x axis");
@@ -65,6 +66,7 @@ fn solve(flags: &Flags) -> Result<()> {
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
     summary.put("iterations", state.iterations(), "of Newton's method");
     summary.put("condition", state.condition(), "number of the linear equations");
+    summary.put("growth_rate_error", spectrum.error, "of growth rates (1/T); undecided: give more nodes");
     summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/T)");
     summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
     summary.put("seconds", seconds, "on one core");

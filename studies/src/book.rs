@@ -188,6 +188,11 @@ fn make(numbers: &[String], common: &Common) -> Result<()> {
     let mut made = BTreeMap::new();
     let mut failures = Vec::new();
     for number in numbers {
+        if let Some(reason) = without_quick(number, &making)? {
+            ensure!(numbers.len() > 1, "figure {number} has no quick version, because {reason}: leave --quick out");
+            say(format_args!("\nFigure {number}: left out, because {reason}"));
+            continue;
+        }
         // One that fails does not keep the others from being made.
         if let Err(failure) = one(number, &making, &mut made, common.write) {
             let which = if numbers.len() > 1 { format!("figure {number}: ") } else { String::new() };
@@ -199,6 +204,19 @@ fn make(numbers: &[String], common: &Common) -> Result<()> {
     }
     ensure!(failures.is_empty(), "{}", failures.join("\n"));
     Ok(())
+}
+
+/// Reason for which a figure has no quick version, if one is wanted.
+fn without_quick(number: &str, making: &Making) -> Result<Option<String>> {
+    if !making.quick {
+        return Ok(None);
+    }
+    for name in read(number)?.data {
+        if Source::read(&name)?.is_bisection() {
+            return Ok(Some(format!("short runs show no boundary of the data {name}")));
+        }
+    }
+    Ok(None)
 }
 
 fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: bool) -> Result<()> {
@@ -240,6 +258,18 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         data: own().map(|data| data.about.clone()).collect(),
         checks,
     };
+    if making.quick {
+        // A figure without its numbers is none.
+        let empty: Vec<&str> =
+            kept.checks.iter().filter(|check| check.is_empty()).map(|check| check.name.as_str()).collect();
+        ensure!(
+            empty.is_empty(),
+            "the quick runs leave {} of {} numbers empty ({}): leave --quick out",
+            empty.len(),
+            kept.checks.len(),
+            empty.join("; ")
+        );
+    }
     if making.quick && kept.runs > 0 {
         say(format_args!("Fewer and shorter runs than the ranges are for: they decide nothing."));
     } else {

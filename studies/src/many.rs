@@ -78,13 +78,16 @@ fn methods(nuclei: bool) -> (Method, Vec<(String, Method)>) {
     // Solids on the grid leave no mobility correction.
     let made = |spacing| if nuclei { GridMethod::uncorrected(spacing) } else { GridMethod::of_spacing(spacing) };
     let grid = |spacing: f64| (format!("grid, h = {spacing}"), Method::Grid(made(spacing)));
-    let integral = |nodes: usize| Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
+    let integral = |nodes, elements| Method::Integral(IntegralMethod { nodes, elements });
     if nuclei {
         let named = |spacing: f64| (format!("layers, h = {spacing}"), layers(spacing));
         (layers(0.03), vec![named(0.1), named(0.06), grid(0.1), grid(0.06), grid(0.03)])
     } else {
-        let named = |nodes: usize| (format!("integrals, {nodes} nodes"), integral(nodes));
-        (integral(96), vec![named(24), named(48), grid(0.1), grid(0.06)])
+        // Those of `motile::recommend`.
+        let named = |nodes, elements| (format!("integrals, {nodes} nodes"), integral(nodes, elements));
+        let integrals = [named(24, 96), named(48, 192), named(64, 192), named(96, 384)];
+        let methods = integrals.into_iter().chain([0.1, 0.075, 0.05].map(grid)).collect();
+        (integral(128, 512), methods)
     }
 }
 

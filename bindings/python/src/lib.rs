@@ -11,10 +11,18 @@ mod work;
 /// Compiled part of motile.
 #[pyo3::pymodule]
 mod _motile {
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use super::scene::Scene;
     #[pymodule_export]
     use super::setup::Setup;
     #[pymodule_export]
     use super::steady::{SteadyState, branch, steady};
+
+    /// Adds the version of the program and of its numbers.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("VERSION", motile::VERSION)
+    }
 }

@@ -83,9 +83,15 @@ impl SteadyState {
         Ok((PyArray1::from_vec(py, values), spectrum.modes.iter().map(|mode| mode.symmetry.name()).collect()))
     }
 
-    /// True if no small disturbance grows.
-    fn is_stable(&self, py: Python<'_>) -> PyResult<bool> {
-        Ok(self.of_disturbances(py)?.unstable() == 0)
+    /// True if no small disturbance grows, False if one does, None if that is undecided because the largest growth rate
+    /// is zero within its error.
+    fn is_stable(&self, py: Python<'_>) -> PyResult<Option<bool>> {
+        Ok(self.of_disturbances(py)?.stability().decided())
+    }
+
+    /// Error estimate of the growth rates of small disturbances (1/time).
+    fn growth_rate_error(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.of_disturbances(py)?.error)
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -140,10 +146,12 @@ pub(crate) fn branch<'py>(
     let growth =
         |point: &motile_steady_states::BranchPoint| point.spectrum.leading().map_or(f64::NAN, |mode| mode.value.re);
     let unstable = found.points.iter().map(|point| point.spectrum.unstable() as i64).collect();
+    let errors = found.points.iter().map(|point| point.spectrum.error).collect();
     let special: Vec<(&str, f64)> = found.special.iter().map(|point| (point.kind.name(), point.value)).collect();
     dict.set_item("values", PyArray1::from_vec(py, found.points.iter().map(|point| point.value).collect()))?;
     dict.set_item("speeds", PyArray1::from_vec(py, speeds.map_err(|error: SteadyError| of_steady(&error))?))?;
     dict.set_item("growth_rates", PyArray1::from_vec(py, found.points.iter().map(growth).collect()))?;
+    dict.set_item("growth_rate_errors", PyArray1::from_vec(py, errors))?;
     dict.set_item("unstable", PyArray1::<i64>::from_vec(py, unstable))?;
     dict.set_item("special", special)?;
     dict.set_item("end", found.end.to_string())?;

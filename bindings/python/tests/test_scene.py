@@ -76,8 +76,8 @@ def test_a_run_in_parts_is_one_run(tmp_path: Path) -> None:
     other.load(tmp_path / "state")
     assert np.array_equal(other.run(3, every=1)["speed"], whole.run(3, every=1)["speed"])
     assert np.array_equal(other.droplets[0].positions, whole.droplets[0].positions)
-    with pytest.raises(motile.Error):
-        motile.Setup(viscosity=3).build().load(tmp_path / "state")
+    with pytest.raises(motile.Error, match="viscosity is 100.0 in it and 3.0 here"):
+        small(viscosity=3).build().load(tmp_path / "state")
     with pytest.raises(motile.Error, match="missing"):
         other.load(tmp_path / "missing")
 
@@ -423,6 +423,14 @@ def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
     # Another end is another sweep, and so is another scene.
     motile.sweep(small(), {"viscosity": [100]}, 0.25, 0.25, folder=tmp_path)
     assert len(list(tmp_path.glob("*.npz"))) == 5
+    # What another version of motile has kept is run again.
+    kept = next(iter(stamps))
+    with np.load(kept) as known:
+        entries = dict(known)
+    np.savez(kept, **{**entries, "version": "0.0.9+1", "values": 2 * entries["values"]})
+    with pytest.warns(UserWarning, match="was kept by motile 0.0.9"):
+        renewed = motile.sweep(small(), changes, 0.5, 0.25, folder=tmp_path)
+    assert renewed.to_pandas().equals(done.to_pandas())
     bad = motile.sweep(small(step={"fixed": 5.0}), {"viscosity": [100]}, 20)
     assert bad[0].error and "step" in bad[0].error
     for until, every in [(float("nan"), None), (-1, None), (1, 0), (1, float("inf"))]:

@@ -1,6 +1,7 @@
 //! Closed curves from which the markers of an interface are made, and the polygon through the markers.
 
 mod equidistant;
+mod near_polygon;
 pub(crate) mod periodic;
 pub(crate) mod polygon;
 mod spline;
@@ -19,8 +20,9 @@ use motile_base::{
 use crate::InterfaceError;
 use equidistant::equidistant;
 pub(crate) use motile_base::polygon::first_crossing;
+use near_polygon::NearPolygon;
 pub(crate) use periodic::check_period;
-pub use periodic::{line_through, wave};
+pub use periodic::{line_distance_from_polygon, line_through, wave};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 use polygon::{edges, raw_area, raw_perimeter};
 use spline::PeriodicSpline;
@@ -75,7 +77,7 @@ enum Shape {
         sines: Vec<f64>,
     },
     Parametric(Function<Vec2>),
-    Spline(PeriodicSpline),
+    Spline(NearPolygon),
     Polygon {
         points: Vec<Vec2>,
         ends: Vec<f64>,
@@ -103,7 +105,7 @@ impl Shape {
                 Vec2::new(c, s) * (radius * fourier_factor(cosines, sines, TAU * t))
             }
             Self::Parametric(f) => f(TAU * t),
-            Self::Spline(spline) => spline.point(t),
+            Self::Spline(curve) => curve.spline.point(t),
             Self::Polygon { points, ends } => {
                 let u = t * ends[ends.len() - 1];
                 let k = ends[..ends.len() - 1].partition_point(|&end| end <= u);
@@ -122,7 +124,7 @@ impl Shape {
                 Some(PI * radius * radius * (1.0 + 0.5 * squares))
             }
             Self::Parametric(_) => None,
-            Self::Spline(spline) => Some(spline.area()),
+            Self::Spline(curve) => Some(curve.spline.area()),
             Self::Polygon { points, .. } => Some(raw_area(points)),
         }
     }
@@ -183,14 +185,30 @@ impl Curve {
         Self::build(Shape::Parametric(Function::new(point)))
     }
 
-    /// The smooth closed curve (a cubic spline) through these points; the last is joined to the first and must not
-    /// repeat it.
+    /// The smooth closed curve through these points; the last is joined to the first and must not repeat it.
+    ///
+    /// It is a cubic spline that stays near the polygon through the points ([`Curve::distance_from_polygon`]): its
+    /// distance from a side is at most 0.15 of the shortest of the side and its two neighbours. If the points are
+    /// uneven or have sharp corners, the curve follows the sides there.
     ///
     /// # Errors
-    /// Fewer than three points, points that are not finite or coincide, a crossing, no area.
+    /// Fewer than three points, points that are not finite or coincide, a crossing (by the numbers of the points), no
+    /// area.
     pub fn through_points(points: &[Vec2]) -> Result<Self, InterfaceError> {
         check_list(points, 3)?;
-        Self::build(Shape::Spline(PeriodicSpline::new(points, Vec2::ZERO)?))
+        let crossing = |spline: &PeriodicSpline| {
+            let samples: Vec<Vec2> = parameters().step_by(4).map(|t| spline.point(t)).collect();
+            let found = first_crossing(&samples)?;
+            Ok(found.map(|(first, second)| [first, second].map(|k| k as f64 / samples.len() as f64)))
+        };
+        Self::build(Shape::Spline(NearPolygon::new(points, Vec2::ZERO, crossing)?))
+    }
+
+    /// Largest distance of the curve from the polygon through the points that it was made from (length); `None` for
+    /// curves that are no [`Curve::through_points`].
+    #[must_use]
+    pub fn distance_from_polygon(&self) -> Option<f64> {
+        if let Shape::Spline(curve) = &self.shape { Some(curve.distance) } else { None }
     }
 
     /// The polygon with these corners; the last is joined to the first and must not repeat it.
@@ -229,7 +247,7 @@ impl Curve {
     }
 
     fn build(shape: Shape) -> Result<Self, InterfaceError> {
-        let samples: Vec<Vec2> = (0..SAMPLES).map(|i| shape.point(i as f64 / SAMPLES as f64)).collect();
+        let samples: Vec<Vec2> = parameters().map(|t| shape.point(t)).collect();
         all_points_finite("the points of the curve", &samples)?;
         let perimeter = match &shape {
             Shape::Polygon { ends, .. } => ends[ends.len() - 1],
@@ -239,9 +257,12 @@ impl Curve {
         if area.abs() < 1e-6 * perimeter * perimeter {
             return Err(InterfaceError::no_area(area, perimeter));
         }
-        let simple_by_form = matches!(shape, Shape::Ellipse(..) | Shape::Fourier { .. });
-        if !simple_by_form && let Some((first, second)) = first_crossing(&every(&samples, 4))? {
-            return Err(InterfaceError::SelfCrossing { first, second });
+        // Ellipses and modes are simple by their form; points have been checked, and their curve as well.
+        if let Shape::Parametric(_) = shape
+            && let Some((first, second)) = first_crossing(&every(&samples, 4))?
+        {
+            let of = |sample: usize| TAU * (4 * sample) as f64 / SAMPLES as f64;
+            return Err(InterfaceError::crossing_parameters(of(first), of(second)));
         }
         Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::ZERO, area: area.abs(), perimeter })
     }
@@ -283,9 +304,10 @@ impl Curve {
 
     /// `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
     ///
-    /// Chords between neighbours are equal, to 1e-12 of their length. The polygon through the markers is scaled
-    /// about its centroid so that its area is that of the curve; the markers then lie outside the curve by about
-    /// (spacing)^2 times its curvature / 12.
+    /// Chords between neighbours are equal, to 1e-12 of their length; around corners that are sharper than their
+    /// distance, where there need be no equal chords, arc lengths are. The polygon through the markers is scaled about
+    /// its centroid so that its area is that of the curve; the markers then lie outside the curve by about (spacing)^2
+    /// times its curvature / 12.
     ///
     /// # Errors
     /// Fewer than eight or more than a million markers; so few that the polygon crosses itself; a curve whose chords
@@ -309,7 +331,7 @@ impl Curve {
             *marker = moments.centroid + (*marker - moments.centroid) * factor;
         }
         match first_crossing(&markers)? {
-            Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),
+            Some((first, _)) => Err(InterfaceError::crossing_markers(markers[first], count)),
             None => Ok(markers),
         }
     }
@@ -357,9 +379,14 @@ fn check_list(points: &[Vec2], minimum: usize) -> Result<(), InterfaceError> {
         return Err(InterfaceError::coincident_points(index));
     }
     match first_crossing(points)? {
-        Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),
+        Some((first, second)) => Err(InterfaceError::crossing_points(first, second)),
         None => Ok(()),
     }
+}
+
+/// Fractions of the parameter at which curves are sampled.
+fn parameters() -> impl Iterator<Item = f64> {
+    (0..SAMPLES).map(|i| i as f64 / SAMPLES as f64)
 }
 
 fn every(points: &[Vec2], stride: usize) -> Vec<Vec2> {

@@ -13,15 +13,12 @@ pub enum InterfaceError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A curve that crosses or touches itself.
-    #[error(
-        "the curve crosses itself between the segments that start at points {first} and {second}: move or reorder its \
-         points"
-    )]
+    #[error("the curve crosses itself {place}: {remedy}")]
     SelfCrossing {
-        /// A segment by its first point.
-        first: usize,
-        /// The other segment.
-        second: usize,
+        /// Where, as it reads after "crosses itself".
+        place: String,
+        /// Remedy.
+        remedy: &'static str,
     },
     /// An iteration that did not converge.
     #[error(
@@ -130,6 +127,31 @@ impl InterfaceError {
         let what = format!("the elastic interface is compressed to {stretch:.3} of its length near {}", place(x, y));
         let value = format!("below {least} of the length at rest, its stretching energy no longer resists");
         Self::refused(what, value, "Use a larger modulus, or weaker activity of its particles")
+    }
+
+    /// A curve through points, two segments of which cross, by their first points.
+    pub(crate) fn crossing_points(first: usize, second: usize) -> Self {
+        let place = format!("between the segments that start at points {first} and {second}");
+        Self::SelfCrossing { place, remedy: "move or reorder its points" }
+    }
+
+    /// A curve of a function that crosses itself at two parameters.
+    pub(crate) fn crossing_parameters(first: f64, second: f64) -> Self {
+        let place = format!("near the parameters {first:.4} and {second:.4}");
+        Self::SelfCrossing { place, remedy: "use a function whose values are different between 0 and 2 pi" }
+    }
+
+    /// Markers on a simple curve that are too few, so that the polygon through them crosses itself.
+    pub(crate) fn crossing_markers(place: Vec2, count: usize) -> Self {
+        let place = format!("near ({:.4}, {:.4}), as the polygon of {count} markers on it", place.x, place.y);
+        Self::SelfCrossing { place, remedy: "use more markers, or a curve with wider necks" }
+    }
+
+    /// A smooth curve through points that leaves their polygon, however many points it goes through on a side.
+    pub(crate) fn strays(point: usize) -> Self {
+        let what = format!("the smooth curve through the points leaves the polygon through them next to point {point}");
+        let value = "the distances between its neighbours are too different";
+        Self::refused(what, value, "Leave points out that nearly coincide, or give more points there")
     }
 
     /// Points whose distances are too uneven.

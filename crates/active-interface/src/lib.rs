@@ -81,7 +81,10 @@ mod tridiagonal;
 mod units;
 
 pub use concentration::{Flux, InitialConcentration, Repair};
-pub use curve::{AreaMoments, Curve, line_through, polygon_area, polygon_moments, polygon_perimeter, wave};
+pub use curve::{
+    AreaMoments, Curve, line_distance_from_polygon, line_through, polygon_area, polygon_moments, polygon_perimeter,
+    wave,
+};
 pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;
 pub use exchange::Exchange;

@@ -58,6 +58,11 @@ impl SurfaceElasticity {
         Ok(Self { stretching, bending, sides, hinges })
     }
 
+    /// Moduli of stretching (force) and bending (force times length squared).
+    pub(crate) fn moduli(&self) -> [f64; 2] {
+        [self.stretching, self.bending]
+    }
+
     /// Adds the forces of the surface (force) on the points of the mesh.
     pub(crate) fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) {
         for side in &self.sides {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile_base::{FlowSample, Region, SolveReport, Vec2, internal::all_points_finite};
+use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2, internal::all_points_finite};
 use motile_scene::{
     Domain, FlowError, FlowWork, FluidView, Hydrodynamics, MarkerGroup, Markers, checkpoint::SavedState, gap::Boundary,
 };
@@ -89,6 +89,10 @@ impl Hydrodynamics for AxisymmetricIntegral {
             shape_modes: Some(2 * self.flow.settings().nodes / 3),
             interface_stiffness: self.stiffness,
         }
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        if let Region::Tube { drive, .. } = self.region { Some(drive) } else { None }
     }
 
     fn walls(&self) -> Option<&Boundary> {

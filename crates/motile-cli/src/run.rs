@@ -23,6 +23,7 @@ pub use flags::{CheckpointFlags, LookFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
 pub use scene_run::SceneRun;
 pub use steady::Steadiness;
+pub(crate) use summary::VERSION_KEY;
 pub use summary::{Summary, make_directory, write_results};
 pub use watched_run::{View, WatchedRun};
 pub use words::{explained, say};

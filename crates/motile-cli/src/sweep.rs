@@ -3,11 +3,11 @@
 //! The program `motile-sweep` (`cargo install motile-cli`; in a clone of the repository `cargo run --release -p
 //! motile-cli -- plan.toml`) makes the runs of a [`Plan`]: a scene, a time, ranges of the scene's entries. Each run has
 //! a folder of its own with scene file, trajectory, checkpoint and summary. Finished runs are not repeated, unless
-//! scene, settings or time have changed; interrupted ones go on from their checkpoints; failed ones are listed and do
-//! not keep the others from running. Several processes may work on one sweep: a run belongs to the first that takes it.
-//! `--shard 2/4` makes the second of four shares. `motile-sweep plan.toml collect` writes one table of all results,
-//! byte for byte the same in whatever order they were made; `motile-sweep plan.toml status` lists how many runs are
-//! left.
+//! scene, settings, time or the version of the program have changed; interrupted ones go on from their checkpoints;
+//! failed ones are listed and do not keep the others from running. Several processes may work on one sweep: a run
+//! belongs to the first that takes it. `--shard 2/4` makes the second of four shares. `motile-sweep plan.toml collect`
+//! writes one table of all results, byte for byte the same in whatever order they were made; `motile-sweep plan.toml
+//! status` lists how many runs are left.
 //!
 //! In a program, [`Plan::trials`] are the runs, [`Trial::run`] makes one, and a [`RunPool`] makes many.
 
@@ -26,7 +26,7 @@ pub use plan::Plan;
 pub use run_pool::RunPool;
 pub use trial::{State, Trial};
 
-use crate::run::{Summary, Taken, explained, say, write_results};
+use crate::run::{Summary, Taken, VERSION_KEY, explained, say, write_results};
 
 /// Options of a sweep: a plan, and what to do with its runs.
 #[derive(Debug, Args)]
@@ -150,8 +150,9 @@ fn is_stop(error: &anyhow::Error) -> bool {
 }
 
 /// Entries of a summary that collected tables leave out: names of the run, and costs, which differ between machines.
-const COST: [&str; 13] = [
+const COST: [&str; 14] = [
     "run",
+    VERSION_KEY,
     trial::FINGERPRINT,
     "seconds",
     "evaluations",
@@ -168,6 +169,10 @@ const COST: [&str; 13] = [
 
 fn collect(trials: &[Trial], directory: &std::path::Path) -> Result<()> {
     let mut rows = Vec::new();
+    let older = trials.iter().filter(|trial| trial.other_version().is_some()).count();
+    if older > 0 {
+        say(format_args!("{older} results are of another version of motile and left out: make the runs again"));
+    }
     for trial in trials {
         let State::Finished(found) = trial.state() else { continue };
         let mut row = Summary::default();
@@ -203,6 +208,10 @@ fn status(trials: &[Trial]) -> Result<()> {
         counts[kind] += 1;
     }
     let [finished, failed, cut, left] = counts;
+    let older = trials.iter().filter(|trial| trial.other_version().is_some()).count();
+    if older > 0 {
+        say(format_args!("{older} results are of another version of motile: these runs count as not begun"));
+    }
     say(format_args!("{finished} finished, {failed} failed, {cut} begun, {left} not begun, of {}", trials.len()));
     Ok(())
 }

@@ -17,7 +17,8 @@ fn summaries_and_their_tables_come_back() {
     let found: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
     let expected = serde_json::json!({
         "speed": 0.1 + 0.2, "regime": "at rest, \"nearly\"", "steps": 12_000,
-        "warnings": ["thin film", "long \\ step"], "beta": null
+        "warnings": ["thin film", "long \\ step"], "beta": null,
+        "motile_version": motile::VERSION
     });
     assert_eq!(found, expected);
 

@@ -6,6 +6,8 @@ mod file;
 pub use crate::saved_state::{Record, SavedState};
 pub use error::CheckpointError;
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::{Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, scene::Findings, step_report::StepReport};
@@ -18,12 +20,13 @@ use motile_base::{
 ///
 /// It holds what observers have found so far as well ([`crate::System::record_mut`], [`crate::Warnings`]).
 ///
-/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must
-/// be the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
-/// ([`crate::Body::properties`], with the numbers of markers and points that they started with), the number of nodes of
-/// boundary integrals. How it is computed may be another then: time step, integrator and observers, grid spacing (with
-/// markers and meshes as before), kernel, corrections, transport of particles. The flow of the state is then
-/// recomputed.
+/// To resume, make the same scene again and give it to [`Scene::resume`]. The scene has to be the same: its domain, the
+/// drive along it, the viscosities, the walls, the bodies and their materials ([`crate::Body::properties`], with the
+/// numbers of markers and points that they started with), the number of nodes of boundary integrals. If the scene was
+/// built from a description ([`Scene::described_by`]), each of its entries has to be the same too. You may change how
+/// the scene is computed: time step, integrator and observers, grid spacing (with markers and meshes as before),
+/// kernel, corrections, transport of particles. The flow of the state is then recomputed. To continue with other
+/// parameters, use [`Scene::take_over`].
 ///
 /// ```
 /// use motile_scene::{Scene, Substrate, checkpoint::Checkpoint};
@@ -44,7 +47,11 @@ use motile_base::{
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
+    /// Of the program that wrote it ([`crate::VERSION`]).
+    version: String,
     description: String,
+    /// Of the description that the scene was built from.
+    entries: BTreeMap<String, String>,
     time: f64,
     steps: u64,
     domain: Domain,
@@ -121,6 +128,18 @@ fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)])
     Ok(())
 }
 
+/// The first entry of a description ([`Scene::described_by`]) that is not the same here and in what was saved, in
+/// words. A scene that was put together by hand has no entries, and none that is different.
+#[must_use]
+pub fn other_entry(here: &BTreeMap<String, String>, saved: &BTreeMap<String, String>) -> Option<String> {
+    if here.is_empty() || saved.is_empty() {
+        return None;
+    }
+    let key = here.keys().chain(saved.keys()).find(|key| here.get(*key) != saved.get(*key))?;
+    let shown = |entries: &BTreeMap<String, String>| entries.get(key).map_or("not given", String::as_str).to_owned();
+    Some(format!("{key} is {} in it and {} here", shown(saved), shown(here)))
+}
+
 /// Number of a kind of markers in files.
 fn kind(kind: MarkerKind) -> u8 {
     match kind {
@@ -136,6 +155,12 @@ fn kind(kind: MarkerKind) -> u8 {
 }
 
 impl Checkpoint {
+    /// Version of the program that wrote it ([`crate::VERSION`]).
+    #[must_use]
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
     /// Description that it was saved with.
     #[must_use]
     pub fn description(&self) -> &str {
@@ -166,7 +191,9 @@ impl<H: Hydrodynamics> Scene<H> {
         self.control.save(&mut control);
         let velocities = system.markers().velocities.iter().copied().map(Vec2::to_array);
         Checkpoint {
+            version: crate::VERSION.to_owned(),
             description: description.into(),
+            entries: self.entries.clone(),
             time: system.time(),
             steps: system.steps() as u64,
             domain: system.hydrodynamics().fluid_view().domain,
@@ -187,8 +214,9 @@ impl<H: Hydrodynamics> Scene<H> {
     /// there. With another integrator that starts afresh. After an error the scene is as it was.
     ///
     /// # Errors
-    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses;
-    /// [`SceneError::Refused`] where bodies or fluid are of something else.
+    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses; [`SceneError::Refused`] if
+    /// another version of the program wrote it ([`Checkpoint::version`]), or if an entry of the description
+    /// ([`Scene::described_by`]), a body or the fluid is different, with its name and both values.
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare(checkpoint)?;
         let before = self.checkpoint("");
@@ -255,6 +283,17 @@ impl<H: Hydrodynamics> Scene<H> {
     }
 
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        if checkpoint.version != crate::VERSION {
+            return Err(SceneError::other_version(&checkpoint.version));
+        }
+        let physics = self.compare_physics(checkpoint);
+        let Some(entry) = other_entry(&self.entries, &checkpoint.entries) else { return physics };
+        // What the difference is, and where it was written.
+        Err(physics.err().map_or_else(|| SceneError::other_entry(&entry), |error| error.with_entry(&entry)))
+    }
+
+    /// Refuses a checkpoint of another domain, or of bodies or fluid of something else.
+    fn compare_physics(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
         let foreign = |problem: String| Err(SceneError::foreign_checkpoint(problem));
         let domain = system.hydrodynamics().fluid_view().domain;

@@ -459,6 +459,27 @@ impl SceneError {
         Self::refused("the checkpoint is of other physics", value, "Resume with the values it was saved with")
     }
 
+    /// A checkpoint of a program that may compute other numbers.
+    pub(crate) fn other_version(saved: &str) -> Self {
+        let what = format!("the checkpoint is of motile {saved}, and this is motile {}", crate::VERSION);
+        let value = "a run of two versions has the numbers of neither";
+        Self::refused(what, value, "Resume with the version that wrote it, or start a new run")
+    }
+
+    /// A checkpoint of a scene with another description: the key, and its values in the checkpoint and here, in words.
+    pub(crate) fn other_entry(entry: &str) -> Self {
+        let remedy = "Resume with the values it was saved with, or start a new run";
+        Self::refused("the checkpoint is of another description", entry, remedy)
+    }
+
+    /// The refusal of a checkpoint with the entry of the description that is different.
+    pub(crate) fn with_entry(self, entry: &str) -> Self {
+        match self {
+            Self::Refused { what, value, remedy } => Self::refused(what, format!("{value}, and {entry}"), remedy),
+            other => other,
+        }
+    }
+
     /// A body that cannot be moved as a whole.
     pub(crate) fn immovable(body: &str) -> Self {
         let remedy = "Move only droplets, rigid bodies, shells and plain markers";

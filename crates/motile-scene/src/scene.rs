@@ -17,6 +17,8 @@ pub(crate) use system::Findings;
 pub use system::{Imposed, System};
 pub use warnings::Warnings;
 
+use std::collections::BTreeMap;
+
 use motile_base::{InputError, Vec2, finite, positive};
 
 use crate::{
@@ -40,6 +42,8 @@ pub struct Scene<H> {
     saved_lengths: Vec<usize>,
     error: ErrorEstimate,
     mirror: Option<Mirror>,
+    /// Keys of the description that the scene was built from, and their values.
+    pub(crate) entries: BTreeMap<String, String>,
 }
 
 impl<H: Hydrodynamics> Scene<H> {
@@ -56,6 +60,7 @@ impl<H: Hydrodynamics> Scene<H> {
             saved_lengths: Vec::new(),
             error: ErrorEstimate::default(),
             mirror: None,
+            entries: BTreeMap::new(),
         }
     }
 
@@ -64,6 +69,14 @@ impl<H: Hydrodynamics> Scene<H> {
     #[must_use]
     pub fn advanced_by(self, integrator: impl Into<Box<dyn Integrator>>) -> Self {
         Self { integrator: integrator.into(), control: StepControl::default(), ..self }
+    }
+
+    /// Sets the description that the scene was built from: keys and their values as text. Checkpoints hold them, and
+    /// [`Scene::resume`] refuses a checkpoint in which one of them is different. A scene that you put together by hand
+    /// has none, and is compared by its bodies and its fluid alone.
+    #[must_use]
+    pub fn described_by(self, entries: BTreeMap<String, String>) -> Self {
+        Self { entries, ..self }
     }
 
     /// Adds a short-range repulsion between interfaces, solids and walls (none by default).

@@ -263,7 +263,10 @@ impl SteadyState {
         let mut modes: Vec<Eigenmode> =
             values.into_iter().filter(|z| z.im >= 0.0).map(|value| Eigenmode { value, symmetry }).collect();
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
-        Ok(Spectrum { modes, neutral, zero: NO_GROWTH * unit })
+        // The eigenvalue of a turn and a shift is the root of an error of the matrix, which others have as it is.
+        let error = if motions == 2 { neutral * neutral / unit } else { neutral };
+        let zero = NO_GROWTH * unit;
+        Ok(Spectrum { modes, neutral, zero, error: error.max(zero) })
     }
 }
 

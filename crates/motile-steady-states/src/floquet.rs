@@ -9,7 +9,7 @@ use crate::cycle::weights;
 use crate::elimination::Elimination;
 use crate::modes::Part;
 use crate::spectrum::{complement, eigenvalues};
-use crate::{LimitCycle, SteadyError};
+use crate::{LimitCycle, Stability, SteadyError};
 
 /// Steps of the time integration, of third order, over half a period.
 const STEPS: usize = 80;
@@ -26,10 +26,18 @@ pub struct Multipliers {
 }
 
 impl Multipliers {
-    /// True if all disturbances decay.
+    /// Stability of the cycle, undecided if the largest multiplier has the modulus 1 within its error.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        // The error is that of half a period, of whose multiplier the square is listed.
+        let largest = self.values.first().map_or(0.0, |value| value.norm());
+        Stability::of_rate(largest - 1.0, 2.0 * largest.sqrt() * self.neutral)
+    }
+
+    /// True if all disturbances decay by more than the error of their multipliers.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.values.iter().all(|value| value.norm() < 1.0)
+        self.stability() == Stability::Stable
     }
 }
 

@@ -76,6 +76,7 @@ mod profile;
 mod revolution;
 mod settling;
 mod spectrum;
+mod stability;
 mod state;
 mod system;
 
@@ -90,4 +91,5 @@ pub use num_complex::Complex64;
 pub use parameter::Parameter;
 pub use profile::Profile;
 pub use spectrum::{Eigenmode, ModeShape, Spectrum, Symmetry};
+pub use stability::Stability;
 pub use state::{Cost, Measured, SteadyState};

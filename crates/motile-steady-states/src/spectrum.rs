@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::SteadyError;
 use crate::model::FrameMotion;
 use crate::modes::Part;
 use crate::system::{DIFFERENCE, NO_EFFECT, Point, System};
+use crate::{Stability, SteadyError};
 
 /// Symmetry of a disturbance under the mirror image at the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +70,8 @@ pub struct Spectrum {
     pub neutral: f64,
     /// Growth rate (1/time) that counts as zero: round-off, 1e-8 D/R^2.
     pub zero: f64,
+    /// Error estimate of the growth rates (1/time): that of rigid motions, or round-off if that is more.
+    pub error: f64,
 }
 
 /// Growth rate over D/R^2 that counts as zero: the error of central differences, 1e-10, times the number of entries
@@ -83,7 +85,23 @@ impl Spectrum {
         self.modes.first()
     }
 
-    /// Number of growing disturbances, conjugate pairs counted twice: zero for a stable state.
+    /// Stability of the state, undecided if the largest growth rate is zero within its error. Disturbances that neither
+    /// grow nor decay to round-off, such as shifts of a droplet at rest, have no part in it.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        self.stability_within(self.error)
+    }
+
+    /// Stability of the state if growth rates err by as much as `error` (1/time), at least by round-off.
+    #[must_use]
+    pub fn stability_within(&self, error: f64) -> Stability {
+        let rates = self.modes.iter().filter(|mode| mode.value.norm() > self.zero).map(|mode| mode.value.re);
+        let error = error.max(self.zero);
+        rates.reduce(f64::max).map_or(Stability::Stable, |rate| Stability::of_rate(rate, error))
+    }
+
+    /// Number of growing disturbances by their rates alone, conjugate pairs counted twice. [`Spectrum::stability`] is
+    /// the verdict, which compares the rates with their error.
     #[must_use]
     pub fn unstable(&self) -> usize {
         self.modes.iter().filter(|mode| mode.value.re > self.zero).map(Eigenmode::multiplicity).sum()
@@ -190,7 +208,7 @@ impl System {
         }
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
         let zero = NO_GROWTH * self.model.rate_unit();
-        Ok(Spectrum { modes, neutral, zero })
+        Ok(Spectrum { modes, neutral, zero, error: neutral.max(zero) })
     }
 }
 

@@ -58,6 +58,7 @@ mod recommend;
 pub mod setup;
 mod setup_error;
 
+pub use motile_scene::VERSION;
 pub use recommend::{Recommendation, SceneKind, cheapest, recommend};
 pub use setup_error::SetupError;
 pub use {

@@ -2,11 +2,13 @@
 
 use active_interface::InterfaceError;
 use elastic_solids::SolidError;
-use motile_base::internal::{place, refusal, told_apart};
+use motile_base::internal::{place, refusal, told, told_apart};
 use motile_boundary_integrals::LayerError;
 use motile_interior::InteriorError;
 use motile_scene::FlowError;
 use stokes_grid::StokesError;
+
+use crate::setup::Squeezed;
 
 /// A scene that could not be set up.
 #[derive(thiserror::Error)]
@@ -132,6 +134,21 @@ impl SetupError {
         let lines = told.trim_end().lines().filter(|line| !(copied && (is_copy(line) || is_mark(line))));
         let value = lines.map(shortened).collect::<Vec<_>>().join("\n");
         Self::Refused { what, value, remedy: "Correct this entry".to_owned() }
+    }
+
+    /// Round droplet of a radius that is larger than what walls leave around its centre, and what it would be squeezed
+    /// to (length).
+    pub(crate) fn wider_than_walls(radius: f64, room: f64, half_height: f64, to: Squeezed) -> Self {
+        let [radius, room] = told_apart([radius, room]);
+        let what = format!("a round droplet of radius {radius} does not fit between the walls");
+        let value = format!("they leave {room} around its centre");
+        let to = if to == Squeezed::Ellipse { "an ellipse" } else { "a stadium" };
+        let remedy = format!(
+            "Add `squeezed = true` to the droplet, so that it starts as {to} of its area of the half height {}, or use \
+             a smaller radius or wider walls",
+            told(half_height)
+        );
+        Self::Refused { what, value, remedy }
     }
 
     /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities: the keys of

@@ -269,6 +269,7 @@ fn runs_in_tubes_resume_bit_for_bit() {
 #[test]
 fn droplets_in_tight_tubes_start_squeezed() {
     let mut setup = scene(Region::tube(0.9), [64, 256]);
+    setup.droplets[0].squeezed = true;
     let shape = |to| DropletShape::Squeezed { radius: 1.0, half_height: 0.85, to };
     for (shape, limit) in [
         (DropletShape::Round { radius: 1.0 }, 1e-9),

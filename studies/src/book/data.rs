@@ -194,6 +194,11 @@ impl Source {
         Plan::of(plan).and_then(|plan| plan.trials(&folder(name, making))).with_context(|| format!("data {name}"))
     }
 
+    /// True for boundaries between outcomes of runs, which short runs do not show.
+    pub(super) fn is_bisection(&self) -> bool {
+        self.bisect.is_some()
+    }
+
     /// Its plan with what a preset and `--quick` change.
     fn whole_plan(&self, making: &Making) -> Result<Option<Table>> {
         let Some(plan) = &self.plan else { return Ok(None) };

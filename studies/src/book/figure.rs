@@ -187,6 +187,11 @@ pub(super) struct Checked {
 }
 
 impl Checked {
+    /// True if nothing was found.
+    pub(super) fn is_empty(&self) -> bool {
+        self.text.is_empty() || self.values().all(f64::is_nan)
+    }
+
     /// The numbers in the text, without what is said beside them.
     fn values(&self) -> impl Iterator<Item = f64> + '_ {
         let number = |part: &str| {

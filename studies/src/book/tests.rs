@@ -55,9 +55,27 @@ fn quick_is_faster_than_full() {
     names.dedup();
     for name in names {
         let source = Source::read(&name).expect(&name);
+        if source.is_bisection() {
+            continue;
+        }
         let [full, quick] = [false, true].map(|quick| source.trials(&name, &making(quick, "size")).expect(&name));
         assert!(full.is_empty() || size(&quick) < 0.6 * size(&full), "{name}: {} of {}", size(&quick), size(&full));
     }
+}
+
+/// Short runs show no boundary: figures of boundaries are refused before any run, and left out of a chapter.
+#[test]
+fn figures_of_boundaries_have_no_quick_version() {
+    let out = std::env::temp_dir().join(format!("motile-no-quick-{}", std::process::id()));
+    let common = Common { quick: true, write: false, threads: Some(1), quiet: true, out: out.clone() };
+    let error = make(&["E.6".to_owned()], &common).unwrap_err().to_string();
+    assert!(error.starts_with("figure E.6 has no quick version, because short runs show no boundary"), "{error}");
+    make(&["E.6".to_owned(), "E.7".to_owned()], &common).unwrap();
+    assert!(!out.exists());
+    // Numbers that nothing was found for are not taken for results.
+    let check = |text: &str| Checked { name: "a number".to_owned(), text: text.to_owned() };
+    assert!(check("").is_empty() && check("0.7: none (standard error none); 0.9: none").is_empty());
+    assert!(!check("0.7: none; 0.9: 0.2 (standard error none)").is_empty());
 }
 
 #[test]

@@ -7,7 +7,8 @@ use motile::base::Drive;
 use motile::base::Region;
 use motile::setup::{DropletSetup, Setup};
 use motile_steady_states::{
-    Continuation, Critical, Eigenmode, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+    Continuation, Critical, Eigenmode, LimitCycle, Parameter, SpecialKind, SpecialPoint, Stability, SteadyState,
+    Symmetry,
 };
 use motile_tests::validation::Table;
 
@@ -127,8 +128,11 @@ pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
                     kind => other.push(format!("{at:.4} ({}, {})", kind.name(), mode.symmetry.name())),
                 }
             }
-            let stable: Vec<_> =
-                branch.points.iter().map(|point| (point.value, point.spectrum.unstable() == 0)).collect();
+            let stable: Vec<_> = branch
+                .points
+                .iter()
+                .map(|point| (point.value, point.spectrum.stability() == Stability::Stable))
+                .collect();
             let last = stable.last().map_or(f64::NAN, |point| point.0);
             table.push([
                 strength.to_string(),

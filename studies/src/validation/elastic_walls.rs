@@ -49,7 +49,7 @@ impl Case {
 
     fn setup(&self) -> Setup {
         let [inside, viscosity] = self.viscosities;
-        let mut droplet = DropletSetup::active(self.activity);
+        let mut droplet = DropletSetup { squeezed: true, ..DropletSetup::active(self.activity) };
         droplet.viscosity = (inside != viscosity).then_some(inside);
         Setup { viscosity, droplets: vec![droplet], ..Setup::default() }
     }

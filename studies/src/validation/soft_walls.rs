@@ -80,7 +80,7 @@ impl Case {
             } else {
                 IntegratorKind::default()
             },
-            droplets: vec![DropletSetup::active(self.activity)],
+            droplets: vec![DropletSetup { squeezed: true, ..DropletSetup::active(self.activity) }],
             solids: solids.collect(),
             ..Setup::default()
         };

@@ -10,7 +10,10 @@ from ._scene import Scene as _Scene
 
 _Array = npt.NDArray[np.float64]
 
-__all__ = ["Scene", "Setup", "SteadyState", "branch", "steady"]
+__all__ = ["VERSION", "Scene", "Setup", "SteadyState", "branch", "steady"]
+
+VERSION: str
+"""Version of motile and, after a plus sign, of the numbers that it computes."""
 
 @final
 class Setup:
@@ -97,7 +100,8 @@ class SteadyState:
     @property
     def positions(self) -> _Array: ...
     def spectrum(self) -> tuple[npt.NDArray[np.complex128], list[str]]: ...
-    def is_stable(self) -> bool: ...
+    def is_stable(self) -> bool | None: ...
+    def growth_rate_error(self) -> float: ...
 
 def steady(setup: Setup) -> SteadyState:
     """Steady state of a setup with one droplet."""

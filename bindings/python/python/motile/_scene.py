@@ -350,7 +350,9 @@ class Scene:
 
     def load(self, path: FilePath) -> None:
         """Goes on from a saved state of the same setup: the steps that follow are, bit for bit, those that would have
-        followed there."""
+        followed there. An error names the key if the state was saved with another setup. You may change `step`,
+        `integrator`, `tolerance`, `least_gap`, the grid's spacing, kernel, correction and solver, and the particles'
+        `flux`."""
         self._scene.load(os.fspath(path))
 
     def __repr__(self) -> str:

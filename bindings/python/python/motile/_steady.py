@@ -23,8 +23,10 @@ class Branch:
     """Speeds (length per time)."""
     growth_rates: npt.NDArray[np.float64]
     """Largest growth rates of small disturbances (1/time)."""
+    growth_rate_errors: npt.NDArray[np.float64]
+    """Error estimates of the growth rates (1/time): a smaller growth rate does not decide whether a state is stable."""
     unstable: npt.NDArray[np.int64]
-    """Numbers of growing disturbances: zero for a stable state."""
+    """Numbers of growing disturbances, by their growth rates alone: zero for a stable state."""
     special: list[tuple[str, float]]
     """Folds, branch points and Hopf points: kind and value of the parameter."""
     end: str

@@ -6,6 +6,7 @@ import hashlib
 import itertools
 import multiprocessing
 import os
+import warnings
 import zipfile
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._error import Error
-from ._motile import Setup
+from ._motile import VERSION, Setup
 from ._scene import FilePath, Track
 
 if TYPE_CHECKING:
@@ -75,9 +76,10 @@ def sweep(
 
     Runs are spread over `processes`. With a `folder` each is kept there when it is done, and what is kept is not run
     again: a sweep that was interrupted goes on, and values can be added. What a run is kept as depends on all of its
-    setup, on `until` and `every`, so that a changed sweep never takes results of another. A run that ends in an error
-    is part of the result, with all that was recorded of it. As with all of `multiprocessing`, programs that use more
-    than one process need `if __name__ == "__main__":`.
+    setup, on `until` and `every`, so that a changed sweep never takes results of another. A run that another version of
+    motile has kept is run again, with a warning. A run that ends in an error is part of the result, with all that was
+    recorded of it. As with all of `multiprocessing`, programs that use more than one process need
+    `if __name__ == "__main__":`.
     """
     if every is None:
         every = until / 100
@@ -118,8 +120,14 @@ def _run(work: tuple[str, float, float, str | None]) -> tuple[tuple[list[str], A
         if place.exists():
             try:
                 with np.load(place) as known:
-                    error = str(known["error"]) or None
-                    return (known["names"].tolist(), known["values"]), error
+                    version = str(known["version"]) if "version" in known else "of an older version"
+                    if version == str(VERSION):
+                        error = str(known["error"]) or None
+                        return (known["names"].tolist(), known["values"]), error
+                warnings.warn(
+                    f"{place} was kept by motile {version}, and this is motile {VERSION}: it is run again",
+                    stacklevel=2,
+                )
             except (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile) as broken:
                 remedy = "remove it, and it is run again"
                 raise Error(f"{place} is no result of a sweep: {remedy}", remedy=remedy) from broken
@@ -136,6 +144,6 @@ def _run(work: tuple[str, float, float, str | None]) -> tuple[tuple[list[str], A
     if place:
         part = place.with_suffix(f".{os.getpid()}.part")
         with part.open("wb") as file:
-            np.savez(file, names=names, values=values, error=error or "", setup=text)
+            np.savez(file, names=names, values=values, error=error or "", setup=text, version=str(VERSION))
         part.replace(place)
     return (names, values), error

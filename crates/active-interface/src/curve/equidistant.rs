@@ -2,6 +2,7 @@
 
 use motile_base::{Vec2, internal::all_points_finite};
 
+use super::MAXIMUM_UNEVENNESS;
 use crate::InterfaceError;
 
 /// Largest relative difference of chords.
@@ -13,7 +14,8 @@ const STALLED: usize = 5;
 
 /// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them,
 /// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates and of the
-/// parameter, if that is more).
+/// parameter, if that is more). If there are none, because a corner is sharper than their distance, they are at equal
+/// arc lengths.
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
@@ -44,7 +46,8 @@ pub(crate) fn equidistant(
         })
         .collect();
 
-    let mut points: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
+    let even: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
+    let mut points = even.clone();
     let extent = points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
     let (mut best, mut nearest, mut stalled, mut attainable) = (f64::INFINITY, points.clone(), 0, TOLERANCE);
     for _ in 0..200 {
@@ -80,6 +83,11 @@ pub(crate) fn equidistant(
     }
     if best <= attainable {
         return Ok(nearest);
+    }
+    // Around a corner that is sharper than the distance of points there need be none at equal chords.
+    let (least, most) = chords(&even).iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &c| (a.min(c), b.max(c)));
+    if most <= MAXIMUM_UNEVENNESS * least {
+        return Ok(even);
     }
     Err(InterfaceError::NoConvergence {
         what: "the search for equidistant markers",

@@ -10,10 +10,13 @@ use motile_base::{
 };
 
 use super::{
-    MAXIMUM_MARKERS, MAXIMUM_UNEVENNESS, MINIMUM_MARKERS, equidistant::equidistant, polygon::raw_area,
-    spline::PeriodicSpline,
+    MAXIMUM_MARKERS, MAXIMUM_UNEVENNESS, MINIMUM_MARKERS, equidistant::equidistant, near_polygon::NearPolygon,
+    polygon::raw_area,
 };
 use crate::InterfaceError;
+
+/// Samples on which a curve is checked.
+const SAMPLES: usize = 2048;
 
 /// Equidistant markers of one period of the curve
 /// `y = height + sum over k of a_k cos(2 pi k x/L) + b_k sin(2 pi k x/L)`, k from 1, over the advance of plus or minus
@@ -47,18 +50,33 @@ pub fn wave(
     Ok(markers)
 }
 
-/// Equidistant markers of the smooth curve (a cubic spline) through the points of one period (length), which continues
-/// `advance` further along x (length).
+/// Equidistant markers of the smooth curve through the points of one period (length), which continues `advance` further
+/// along x (length): a cubic spline near the polygon, as [`Curve::through_points`](crate::Curve::through_points).
 ///
 /// # Errors
 /// An advance that is zero; fewer than eight points, points that are not finite, coincide or do not close across the
 /// period, a crossing; fewer than eight or more than a million markers.
 pub fn line_through(points: &[Vec2], advance: f64, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
-    check_period(points, advance)?;
     within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
-    let advance = Vec2::new(advance, 0.0);
-    let spline = PeriodicSpline::new(points, advance)?;
-    equidistant(|t| spline.point(t), advance, count)
+    let curve = near_line(points, advance)?;
+    equidistant(|t| curve.spline.point(t), Vec2::new(advance, 0.0), count)
+}
+
+/// Largest distance of the curve of [`line_through`] from the polygon through its points (length).
+///
+/// # Errors
+/// Those of [`line_through`].
+pub fn line_distance_from_polygon(points: &[Vec2], advance: f64) -> Result<f64, InterfaceError> {
+    Ok(near_line(points, advance)?.distance)
+}
+
+fn near_line(points: &[Vec2], advance: f64) -> Result<NearPolygon, InterfaceError> {
+    check_period(points, advance)?;
+    NearPolygon::new(points, Vec2::new(advance, 0.0), |spline| {
+        let samples: Vec<Vec2> = (0..SAMPLES).map(|k| spline.point(k as f64 / SAMPLES as f64)).collect();
+        let found = CrossingFinder::default().first_crossing_over(&samples, advance)?;
+        Ok(found.map(|(first, second)| [first, second].map(|k| (k % SAMPLES) as f64 / SAMPLES as f64)))
+    })
 }
 
 /// Area (length squared) between y = 0 and one period of the polygon that continues `advance` further along x, positive
@@ -93,7 +111,7 @@ pub(crate) fn check_period(markers: &[Vec2], advance: f64) -> Result<(), Interfa
         return Err(InterfaceError::uneven_spacing(longest / shortest, MAXIMUM_UNEVENNESS));
     }
     match CrossingFinder::default().first_crossing_over(markers, advance)? {
-        Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),
+        Some((first, second)) => Err(InterfaceError::crossing_points(first, second)),
         None => Ok(()),
     }
 }

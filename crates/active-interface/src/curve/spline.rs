@@ -49,7 +49,7 @@ impl PeriodicSpline {
     }
 
     /// Position and its derivative by the parameter on piece k, at the fraction x of the piece.
-    fn piece(&self, k: usize, x: f64) -> (Vec2, Vec2) {
+    pub(crate) fn piece(&self, k: usize, x: f64) -> (Vec2, Vec2) {
         let m = self.bends.len();
         let h = self.knots[k + 1] - self.knots[k];
         let (p, q) = (self.points[k], self.points[k + 1]);
@@ -60,11 +60,20 @@ impl PeriodicSpline {
         (position, derivative)
     }
 
+    /// Length of the chord of piece k (length).
+    pub(crate) fn chord(&self, k: usize) -> f64 {
+        self.knots[k + 1] - self.knots[k]
+    }
+
+    /// The piece at the fraction `t` in [0, 1] of the parameter.
+    pub(crate) fn piece_at(&self, t: f64) -> usize {
+        let m = self.bends.len();
+        self.knots[1..m].partition_point(|&knot| knot <= t * self.knots[m])
+    }
+
     /// The point at the fraction `t` in [0, 1] of the parameter.
     pub(crate) fn point(&self, t: f64) -> Vec2 {
-        let m = self.bends.len();
-        let u = t * self.knots[m];
-        let k = self.knots[1..m].partition_point(|&knot| knot <= u);
+        let (u, k) = (t * self.knots[self.bends.len()], self.piece_at(t));
         self.piece(k, (u - self.knots[k]) / (self.knots[k + 1] - self.knots[k])).0
     }
 

@@ -210,18 +210,18 @@ impl Body for Solid {
                 "the mean energy of shears of 0.1 and -0.1 with a stretch of 1.05",
                 mean(&|state| self.law.energy(state).unwrap_or(f64::NAN)),
             ),
-            (
-                "the energy of its surface there",
-                mean(&|state| self.surface_elasticity.as_ref().map_or(0.0, |surface| surface.energy(state))),
-            ),
         ];
+        let surface = self.surface_elasticity.iter().flat_map(|surface| {
+            let [stretching, bending] = surface.moduli();
+            [("the stretching modulus of its surface", stretching), ("the bending modulus of its surface", bending)]
+        });
         let relaxing = self.relaxation.iter().flat_map(|relaxation| {
             let [modulus, viscosity] = relaxation.sums();
             [("the integral of the moduli of its Maxwell elements", modulus), ("that of their viscosities", viscosity)]
         });
         let active = self.bonds.iter().flat_map(Bonds::properties);
         let damping = self.damping.iter().map(|damping| ("its viscosity above that of the fluid", damping.viscosity()));
-        let properties = properties.into_iter().chain(relaxing).chain(active).chain(damping);
+        let properties = properties.into_iter().chain(surface).chain(relaxing).chain(active).chain(damping);
         let spread =
             self.spreading.as_ref().map(|spreading| ("the number of markers", spreading.marker_count() as f64));
         properties.chain(spread).map(|(name, value)| (name.to_owned(), value)).collect()

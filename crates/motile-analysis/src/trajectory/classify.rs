@@ -10,8 +10,6 @@ use crate::AnalysisError;
 
 /// Standard errors by which a change of amplitude must differ from zero: 95 per cent confidence.
 const SIGNIFICANT: f64 = 2.0;
-/// Standard error of the relative change of amplitude per period up to which an oscillation can be called steady.
-const UNCERTAIN: f64 = 0.1;
 /// Growth of a small speed over the last quarter of the record above which a droplet is not at rest.
 const SPEEDING_UP: f64 = 1.5;
 /// Periods in the record from which on a fitted oscillation is believed.
@@ -33,7 +31,8 @@ impl Trajectory {
     ///    tail in which they are exponential in time, so that an oscillation that has grown and saturated is steady.
     ///    Drifting, if the height about which it oscillates moves to one side by more than the swings, or if the
     ///    oscillation decays towards a height off the centre line. Undecided, if the amplitude goes up and down by more
-    ///    than a fifth and less than half of the swings belong to the tail.
+    ///    than a fifth and less than half of the swings belong to the tail, or if the change of the amplitude per
+    ///    period or its standard error is above [`RegimeCriteria::steady`] without being significant.
     /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`] fits
     ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at
     ///    least half of its period, or without oscillation a change by a factor of e. Drifting, if the droplet leaves
@@ -156,8 +155,10 @@ fn oscillating(swings: &Swings, tail: &Tail, criteria: &RegimeCriteria) -> Regim
         value if changes && value > 0.0 => Regime::Growing,
         _ if changes && last.abs() > 0.5 * amplitudes[0] => Regime::Drifting,
         _ if changes => Regime::Decaying,
-        _ if per_period.error <= UNCERTAIN => Regime::SteadyOscillation,
-        _ => irregular,
+        // Neither is a change that the error hides, nor one beyond the bound that is not significant.
+        value if value.abs().max(per_period.error) <= criteria.steady => Regime::SteadyOscillation,
+        _ if swings.wavering() > 1 => irregular,
+        value => Regime::Undecided(Doubt::Uncertain { change: value, error: per_period.error }),
     }
 }
 

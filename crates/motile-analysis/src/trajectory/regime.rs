@@ -46,6 +46,13 @@ pub enum Doubt {
         /// Largest over smallest amplitude of the swings.
         ratio: f64,
     },
+    /// A change of the amplitude that may be zero or not, by its error: make the run longer.
+    Uncertain {
+        /// Relative change per period (no dimension).
+        change: f64,
+        /// Its standard error (no dimension).
+        error: f64,
+    },
     /// A small speed that is growing: make the run longer.
     SpeedingUp {
         /// Growth rate of the speed (1/time).
@@ -74,6 +81,12 @@ impl fmt::Display for Doubt {
             Self::TooShort { periods } if *periods > 0.0 => write!(f, "only {periods:.1} periods"),
             Self::TooShort { .. } => f.write_str("the record is too short"),
             Self::Irregular { ratio } => write!(f, "the amplitude goes up and down, by a factor of {ratio:.2}"),
+            Self::Uncertain { change, error } => {
+                write!(
+                    f,
+                    "the amplitude changes by {change:.2e} of it per period, with a standard error of {error:.1e}"
+                )
+            }
             Self::SpeedingUp { rate } => write!(f, "hardly moving, but speeding up at the rate {rate:.2e}"),
         }
     }
@@ -91,7 +104,8 @@ pub struct RegimeCriteria {
     pub rest: f64,
     /// Smallest return of the motion after a turning point that counts, over the range of heights (no dimension).
     pub hysteresis: f64,
-    /// Relative change of the amplitude per period up to which an oscillation is steady (no dimension).
+    /// Relative change of the amplitude per period, and standard error of that, up to which an oscillation is steady
+    /// (no dimension).
     pub steady: f64,
     /// Shortest path without a turning point that is called a drift (length); on a shorter one the droplet may as well
     /// be about to turn.

@@ -62,11 +62,12 @@ pub struct CheckpointFlags {
 
 impl CheckpointFlags {
     /// Brings the scene to the state of the checkpoint to go on from, if one is given. If the checkpoint was saved with
-    /// other settings, which its description shows, the run goes on with those given now and a note is printed.
+    /// other settings that may change ([`Setup::entries`]), which its description shows, the run continues with those
+    /// given now and a note is printed.
     ///
     /// # Errors
-    /// A checkpoint that cannot be read, is of another scene or not before the time `end`; a file to save to that
-    /// cannot be written.
+    /// A checkpoint that cannot be read, is of another scene or other physics, or not before the time `end`; a file to
+    /// save to that cannot be written.
     pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
         self.try_file()?;
         let Some(path) = &self.resume else { return Ok(()) };
@@ -77,7 +78,8 @@ impl CheckpointFlags {
         scene.resume(&checkpoint).with_context(flag)?;
         if checkpoint.description() != description {
             eprintln!(
-                "note: the checkpoint was saved with other settings ({}), the run goes on with those given now",
+                "note: the checkpoint was saved with other settings of the computation ({}), the run continues with \
+                 those given now",
                 checkpoint.description()
             );
         }

@@ -8,7 +8,7 @@ use super::{flags::OutputFlags, summary::Summary, words::say};
 use anyhow::{Result, ensure};
 use motile::base::internal::decimals;
 use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
-use motile::setup::{AnyFlow, Setup};
+use motile::setup::{AnyFlow, DropletShape, Setup, Squeezed};
 use motile_output::{Look, RunProgress};
 
 /// Most steps of a run: more would take weeks.
@@ -51,6 +51,10 @@ pub struct Job {
     pub warnings: Vec<String>,
     output: OutputFlags,
     description: String,
+    /// Part of the region's area that the droplets of suspensions fill.
+    filled: Option<f64>,
+    /// Largest distance of a shape that is given by points from their polygon (length).
+    off_points: Option<f64>,
     outcome: Result<(), SceneError>,
     /// Lock on the directory, which keeps other runs out.
     _lock: File,
@@ -76,8 +80,22 @@ impl Job {
         if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
             return Err(Taken(directory).into());
         }
+        let filled = setup.filled()?;
+        if let Some(filled) = filled.filter(|_| !output.quiet) {
+            say(format_args!("the droplets fill {filled:.4} of the region's area"));
+        }
+        if !output.quiet {
+            squeezed_droplets(setup)?.iter().for_each(say);
+        }
+        let mut off_points: Option<f64> = None;
+        for (key, distance) in setup.distances_from_points()? {
+            off_points = Some(off_points.map_or(distance, |most| most.max(distance)));
+            if !output.quiet {
+                say(format_args!("{key}: the curve through them is up to {distance:.2e} away from their polygon"));
+            }
+        }
         let (seconds, warnings, outcome) = (0.0, Vec::new(), Ok(()));
-        Ok(Self { directory, end, seconds, warnings, output, description, outcome, _lock: lock })
+        Ok(Self { directory, end, seconds, warnings, output, description, filled, off_points, outcome, _lock: lock })
     }
 
     /// True if pictures are to be drawn.
@@ -160,6 +178,12 @@ impl Job {
     /// Adds what the run has cost to a summary: steps and their lengths, evaluations of the flow, computing time; its
     /// warnings, and its failure if it failed.
     pub fn put_cost(&self, summary: &mut Summary, scene: &Scene<AnyFlow>) {
+        if let Some(filled) = self.filled {
+            summary.put("area_fraction", filled, "of the droplets at the start");
+        }
+        if let Some(distance) = self.off_points {
+            summary.put("distance_from_points", distance, "of curves through points from their polygons (R0)");
+        }
         summary.put("time", scene.time(), "simulated");
         summary.put("steps", scene.steps(), "");
         summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
@@ -220,4 +244,22 @@ fn check_run(scene: &Scene<AnyFlow>, end: f64, step: StepSize) -> Result<()> {
         end / dt
     );
     if let StepSize::Fixed(dt) = step { Ok(scene.check_step(dt)?) } else { Ok(()) }
+}
+
+/// A note for each round droplet of a description that starts squeezed.
+fn squeezed_droplets(setup: &Setup) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    for (number, droplet) in setup.droplets.iter().enumerate() {
+        let (DropletShape::Round { .. }, DropletShape::Squeezed { half_height, to, .. }) =
+            (&droplet.shape, setup.shape(droplet)?)
+        else {
+            continue;
+        };
+        let shape = if to == Squeezed::Ellipse { "an ellipse" } else { "a stadium" };
+        notes.push(format!(
+            "droplets[{number}] starts as {shape} of half height {half_height:.3}, because the walls leave it no more \
+             room"
+        ));
+    }
+    Ok(notes)
 }

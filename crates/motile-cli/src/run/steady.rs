@@ -8,6 +8,10 @@ const DEVIATION: f64 = 1e-3;
 const LATE: f64 = 0.2;
 /// Speeds below this are rest, in units of D/R0: what decays to nothing never has a constant speed.
 const REST: f64 = 1e-5;
+/// Factor by which the speed grows between the halves of the late part of a run whose droplet is not at rest but starts
+/// to move, and the speed, in units of D/R0, above which that is no round-off.
+const SPEEDING_UP: f64 = 1.5;
+const ROUND_OFF: f64 = 1e-9;
 /// Least time for which the speed must have been constant, in units of R0^2/D: a short run has not had the time to show
 /// that it is steady.
 const PATIENCE: f64 = 0.5;
@@ -15,7 +19,8 @@ const PATIENCE: f64 = 0.5;
 /// Steadiness of a run, judged by the speed of its droplet.
 ///
 /// The final speed is the mean over the last fifth of the run. The state is steady from the time after which the speed
-/// stays within 0.1 % of the final speed, or below 1e-5 D/R0 (at rest). This must last for at least the last fifth of
+/// stays within 0.1 % of the final speed, or below 1e-5 D/R0 (at rest, unless it grows by half and more between the two
+/// halves of that fifth: a droplet that starts to move). This must last for at least the last fifth of
 /// the run and half a diffusion time R0^2/D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steadiness {
@@ -47,7 +52,14 @@ impl Steadiness {
             points.get(first).map(|&(t, _)| t).filter(long_enough)
         };
         let constant = since(&|v| (v - mean).abs() <= DEVIATION * mean.abs());
-        let resting = since(&|v| v.abs() <= rest);
+        let half_mean = |later: bool| {
+            let half = late.clone().filter(|(t, _)| (*t >= end - 0.5 * LATE * (end - start)) == later);
+            let (count, sum) = half.fold((0.0, 0.0), |(n, sum), (_, v)| (n + 1.0, sum + v.abs()));
+            sum / count
+        };
+        let [first, second] = [false, true].map(half_mean);
+        let starts = second > SPEEDING_UP * first && second > ROUND_OFF * diffusion;
+        let resting = since(&|v| v.abs() <= rest).filter(|_| !starts);
         let deviation = late.map(|(_, v)| (v / mean - 1.0).abs()).fold(0.0, f64::max);
         Self { since: resting.or(constant), at_rest: resting.is_some(), final_speed: mean, deviation }
     }

@@ -5,6 +5,9 @@ use std::{collections::HashMap, fmt::Write as _, fs, path::Path};
 use anyhow::{Context, Result};
 use serde_json::{Map, Value};
 
+/// Entry of a written summary with the version of the program.
+pub(crate) const VERSION_KEY: &str = "motile_version";
+
 /// Named results in the order they are put in, written as `summary.json` and printed as a table.
 ///
 /// ```
@@ -60,13 +63,23 @@ impl Summary {
         table
     }
 
-    /// Writes `summary.json`. The file appears only when it is complete, so that its presence means a finished run.
+    /// Version of the program that wrote a summary; `None` for one that was not read from a file, or of a time before
+    /// versions were written.
+    #[must_use]
+    pub fn version(&self) -> Option<&str> {
+        self.values.get(VERSION_KEY).and_then(Value::as_str)
+    }
+
+    /// Writes `summary.json`, with the version of the program ([`motile::VERSION`]) at its end. The file appears only
+    /// when it is complete, so that its presence means a finished run.
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
         let partial = path.with_extension("json.part");
-        fs::write(&partial, self.json())
+        let mut whole = self.clone();
+        whole.put(VERSION_KEY, motile::VERSION, "");
+        fs::write(&partial, whole.json())
             .and_then(|()| fs::rename(&partial, path))
             .with_context(|| format!("writing {}", path.display()))
     }

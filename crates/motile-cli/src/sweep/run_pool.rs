@@ -37,7 +37,8 @@ impl<'a> RunPool<'a> {
     }
 
     /// Results of all jobs, in their order, in which they are also begun. A job is run by `run`, unless its file
-    /// `<name>.json` has its results already. A job that fails does not keep the others from running.
+    /// `<name>.json` has its results already, of this version of the program. A job that fails does not keep the others
+    /// from running.
     pub fn run<J: Sync>(
         &self,
         jobs: &[J],
@@ -96,13 +97,22 @@ impl<'a> RunPool<'a> {
         if let Ok(Some(summary)) = Summary::read(&path)
             && summary.values().get(NAME).and_then(Value::as_str) == Some(name)
         {
-            return Ok(summary);
+            if summary.version() == Some(motile::VERSION) {
+                return Ok(summary);
+            }
+            eprintln!("{}", made_again(&path, summary.version()));
         }
         let mut summary = run().with_context(|| name.trim_end_matches("/summary").to_owned())?;
         summary.put(NAME, name, "");
         summary.write(&path)?;
         Ok(summary)
     }
+}
+
+/// Note about results of another version of the program.
+pub(super) fn made_again(path: &Path, version: Option<&str>) -> String {
+    let (path, found, own) = (path.display(), version.unwrap_or("of an older version"), motile::VERSION);
+    format!("{path} was written by motile {found}, and this is motile {own}: it is made again")
 }
 
 #[cfg(test)]

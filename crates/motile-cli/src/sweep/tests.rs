@@ -68,6 +68,23 @@ fn results_of_another_plan_are_none() {
     all.act(Action::Collect, 0.1, 24, "-2.0, -3.0, -4.0").unwrap();
     assert!(written() == before && all.column("time") == [0.1; 3]);
 
+    // Results of another version of the program are none, and made again.
+    let mut rewritten = 0;
+    for folder in fs::read_dir(&first).unwrap() {
+        let path = folder.unwrap().path().join("summary.json");
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(&format!("\"motile_version\": \"{}\"", motile::VERSION)), "{text}");
+        fs::write(&path, text.replace(motile::VERSION, "0.0.9+1")).unwrap();
+        rewritten += 1;
+    }
+    assert_eq!(rewritten, 3);
+    let error = all.act(Action::Collect, 0.1, 24, "-2.0, -3.0, -4.0").unwrap_err();
+    assert!(error.to_string().contains("none of the 3 runs is finished"), "{error}");
+    all.act(Action::Run, 0.1, 24, "-2.0, -3.0, -4.0").unwrap();
+    all.act(Action::Collect, 0.1, 24, "-2.0, -3.0, -4.0").unwrap();
+    assert_eq!(all.column("time"), [0.1; 3]);
+    let before = written();
+
     // Another scene is refused, whatever is asked for.
     for action in [Action::Run, Action::Collect, Action::Status] {
         for activities in ["-2.0, -3.0", "-4.0, -5.0"] {

@@ -8,6 +8,7 @@ use motile::scene::{SceneError, checkpoint::Checkpoint};
 use motile::setup::Setup;
 use serde_json::Value;
 
+use super::run_pool::made_again;
 use crate::run::{CheckpointFlags, OutputFlags, Summary, Taken, View, WatchedRun, explained, make_directory};
 
 /// Entry of a summary with the [`Trial::fingerprint`] of its run.
@@ -55,10 +56,12 @@ impl Trial {
         self.folder.join("summary.json")
     }
 
-    /// Fingerprint of scene, settings and time, by which results of this run are told from others.
+    /// Fingerprint of scene, settings, time and version of the program ([`motile::VERSION`]), by which results of this
+    /// run are told from others.
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        format!("{}, steps {:?}, to {}", self.setup.fingerprint(), self.setup.step, self.time)
+        let (scene, step) = (self.setup.fingerprint(), self.setup.step);
+        format!("{scene}, steps {step:?}, to {}, motile {}", self.time, motile::VERSION)
     }
 
     /// State of the run, by its folder. Files that cannot be read or have another fingerprint do not count.
@@ -81,13 +84,25 @@ impl Trial {
         own.then_some(summary)
     }
 
-    /// Removes results of another run, such as of a plan to another time.
+    /// Version of the program that made the results in the folder, if it is another one than this; none is known of
+    /// results without one.
+    pub(super) fn other_version(&self) -> Option<Option<String>> {
+        let summary = Summary::read(&self.summary()).ok().flatten()?;
+        let version = summary.version().map(str::to_owned);
+        (version.as_deref() != Some(motile::VERSION)).then_some(version)
+    }
+
+    /// Removes results of another run, such as of a plan to another time, and of another version of the program, of
+    /// which a note is printed.
     ///
     /// # Errors
     /// A file that cannot be removed.
     pub fn discard_others(&self) -> Result<()> {
         let path = self.summary();
         if path.exists() && self.results().is_none() {
+            if let Some(version) = self.other_version() {
+                eprintln!("{}", made_again(&path, version.as_deref()));
+            }
             fs::remove_file(&path).with_context(|| format!("removing {}, of another run", path.display()))?;
         }
         Ok(())
@@ -136,7 +151,7 @@ impl Trial {
             }
         }
         outcome.map(|mut summary| {
-            summary.put(FINGERPRINT, self.fingerprint(), "scene, settings and time");
+            summary.put(FINGERPRINT, self.fingerprint(), "scene, settings, time and version");
             summary
         })
     }

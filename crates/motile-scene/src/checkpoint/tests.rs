@@ -19,6 +19,20 @@ fn a_refusal_leaves_the_flow_as_it_was() {
     assert_eq!(scene.checkpoint(""), before);
 }
 
+/// A checkpoint of another version of the program, whose numbers may be others, is refused with both versions.
+#[test]
+fn a_checkpoint_of_another_version_is_refused() {
+    let mut scene = Scene::new(DragBox::new(4.0, 1.0, 0.25));
+    let saved = scene.checkpoint("");
+    assert_eq!(saved.version(), crate::VERSION);
+    let older = Checkpoint { version: "0.0.9+1".to_owned(), ..saved };
+    let error = scene.resume(&Checkpoint::from_bytes(&older.to_bytes().unwrap()).unwrap()).unwrap_err();
+    let words = format!("the checkpoint is of motile 0.0.9+1, and this is motile {}", crate::VERSION);
+    assert!(refused(&error, &words), "{error}");
+    // The state alone may be taken.
+    scene.take_over(&older).unwrap();
+}
+
 /// Of two domains the first length that differs, with the digits that tell it.
 #[test]
 fn another_domain_is_told_by_a_length() {

@@ -137,8 +137,10 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         self
     }
 
-    /// Saves a checkpoint with that description to `path` after every `every` steps of the scene (0 counts as 1), in
-    /// place of the last one, which stays until the new one is complete. What is saved has no influence on the run.
+    /// Saves a checkpoint with that description to `path` after every `every` steps of the scene (0 counts as 1), and
+    /// once more when the run is stopped by a flag ([`Run::stop_on`]) or by its number of steps ([`Run::most_steps`]).
+    /// Each takes the place of the last one, which stays until the new one is complete. What is saved has no influence
+    /// on the run.
     #[must_use]
     pub fn save(mut self, every: usize, path: &'a Path, description: &'a str) -> Self {
         self.saver = Some(Saver { every: every.max(1), path, description });
@@ -178,23 +180,37 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         let mut taken = 0_usize;
         while self.until - self.scene.time() > self.negligible() {
             if taken >= self.most {
+                self.save_once_more()?;
                 return Err(SceneError::TooManySteps { time: self.scene.time(), most: self.most });
             }
             self.advance(least)?;
             taken += 1;
             self.notify(false)?;
-            let time = self.scene.time();
-            if let Some(saver) = &self.saver
-                && self.scene.steps().is_multiple_of(saver.every)
-            {
-                let saved = self.scene.checkpoint(saver.description).write(saver.path);
-                saved.map_err(|source| SceneError::Checkpoint { time, source: Box::new(source) })?;
+            if self.is_due() {
+                self.write_checkpoint()?;
             }
             if self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-                return Err(SceneError::Stopped { time });
+                self.save_once_more()?;
+                return Err(SceneError::Stopped { time: self.scene.time() });
             }
         }
         Ok(())
+    }
+
+    /// True if a checkpoint is saved after the present number of steps.
+    fn is_due(&self) -> bool {
+        self.saver.as_ref().is_some_and(|saver| self.scene.steps().is_multiple_of(saver.every))
+    }
+
+    /// Saves the state in which a run stops before its end, unless that has just been done.
+    fn save_once_more(&self) -> Result<(), SceneError> {
+        if self.is_due() { Ok(()) } else { self.write_checkpoint() }
+    }
+
+    fn write_checkpoint(&self) -> Result<(), SceneError> {
+        let Some(saver) = &self.saver else { return Ok(()) };
+        let saved = self.scene.checkpoint(saver.description).write(saver.path);
+        saved.map_err(|source| SceneError::Checkpoint { time: self.scene.time(), source: Box::new(source) })
     }
 
     /// Takes one step, as often as it needs.

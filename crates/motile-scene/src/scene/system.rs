@@ -14,6 +14,7 @@ mod state;
 use crate::{
     Body, Handle, Hydrodynamics, Markers, SceneError,
     body::{StepInfo, StepLimit},
+    gap::Boundary,
     hydrodynamics::FlowWork,
     saved_state::{Record, SavedState},
 };
@@ -186,6 +187,7 @@ impl<H: Hydrodynamics> System<H> {
             drive.flux().map_or(gradient, |flux| ("the imposed flux", flux))
         }));
         properties.extend(self.flow_properties());
+        properties.extend(self.hydrodynamics.walls().into_iter().flat_map(wall_properties));
         if let Some(repulsion) = &self.contacts.repulsion {
             properties.push(("the strength of the repulsion", repulsion.strength()));
             properties.push(("the range of the repulsion", repulsion.range()));
@@ -357,4 +359,19 @@ impl<H: Hydrodynamics> System<H> {
         self.clock.first_step = false;
         self.bodies.end_step(&self.hydrodynamics.fluid_view(), self.clock.time, dt)
     }
+}
+
+/// Numbers by which walls are told from others: of sides, their length, and a mean that any displacement changes.
+fn wall_properties(walls: &Boundary) -> [(&'static str, f64); 3] {
+    let sides = walls.sides();
+    let [count, length] = [sides.len() as f64, sides.iter().map(|[start, end]| start.distance(*end)).sum()];
+    let reach = walls.corners().map(|place| place.x.abs().max(place.y.abs())).fold(0.0, f64::max);
+    // From a point beyond all of them, so that no sum is a difference.
+    let beyond = Vec2::new(-2.0 * reach, -3.0 * reach);
+    let fourth = walls.corners().map(|place| place.distance(beyond).powi(4)).sum::<f64>() / count;
+    [
+        ("the number of sides of the walls", count),
+        ("the length of the walls", length),
+        ("the mean fourth power of the distance of the walls", fourth),
+    ]
 }

@@ -60,9 +60,18 @@ impl Setup {
     /// cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
-        if !self.suspension.is_empty() {
-            return self.placed()?.build();
-        }
+        let built = if self.suspension.is_empty() {
+            self.assembled()?
+        } else {
+            let placed = self.placed()?;
+            placed.check()?;
+            placed.assembled()?
+        };
+        Ok(Built { scene: built.scene.described_by(self.entries()), ..built })
+    }
+
+    /// The scene of a description that has been checked and has no suspensions.
+    fn assembled(&self) -> Result<Built, SetupError> {
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
         let plans = self.bodies().enumerate().map(|(k, (_, body))| body.plan(self).map_err(keyed(k)));
         let (plans, flow) = (plans.collect::<Result<Vec<_>, _>>()?, self.flow()?);
@@ -334,8 +343,12 @@ impl Setup {
         inside.any(|viscosity| viscosity.is_some_and(|inside| inside != self.viscosity))
     }
 
-    /// The shape of a droplet at the start: its own, or that of a circle squeezed between walls.
-    fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
+    /// The shape of a droplet at the start: its own, or that of a circle that is squeezed between walls, by a film if
+    /// it is as wide as they leave it, and by more only if it is [`DropletSetup::squeezed`].
+    ///
+    /// # Errors
+    /// A circle that is wider than its surroundings.
+    pub fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
         let [length, width] = self.region.lengths();
@@ -371,6 +384,9 @@ impl Setup {
         let half_height = room - FILM * radius;
         if half_height <= FLATTEST * radius {
             return Err(SetupError::NoRoom { length, width, hint: self.mixed_units(droplet) });
+        }
+        if room < least && !droplet.squeezed {
+            return Err(SetupError::wider_than_walls(radius, room, half_height, to));
         }
         Ok(DropletShape::Squeezed { radius, half_height, to })
     }

@@ -47,6 +47,9 @@ pub struct DropletSetup {
     pub area_constraint: bool,
     /// Its shape at the start.
     pub shape: DropletShape,
+    /// Leave for a round droplet that is wider than the walls of a channel or tube leave it to start squeezed between
+    /// them; without it such a droplet is refused.
+    pub squeezed: bool,
     /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
     #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
@@ -68,6 +71,7 @@ impl Default for DropletSetup {
             motion: Motion::default(),
             area_constraint: false,
             shape: DropletShape::default(),
+            squeezed: false,
             particles: Some(Particles::default()),
             gel: None,
         }
@@ -275,9 +279,10 @@ pub enum Start {
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 #[non_exhaustive]
 pub enum DropletShape {
-    /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of
-    /// a twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
-    /// particles of the circle. In a tube, a sphere that is squeezed to a spheroid of its volume.
+    /// A circle. If it is as wide as the walls leave it, it starts as an ellipse, or between elastic walls as a
+    /// stadium, that leaves a film of a twentieth of the radius, with the area and the particles of the circle. If it
+    /// is wider, it is refused, unless it is [`DropletSetup::squeezed`] to such a shape. In a tube, a sphere, which
+    /// starts as a spheroid of its volume there. [`Setup::shape`] is the shape at the start.
     Round {
         /// Radius of the circle (length).
         radius: f64,
@@ -307,7 +312,8 @@ pub enum DropletShape {
         #[serde(default)]
         sines: Vec<f64>,
     },
-    /// The smooth closed curve through points (length).
+    /// The smooth closed curve through points (length), which stays near their polygon
+    /// ([`Curve::through_points`], [`Setup::distances_from_points`]).
     Points(Vec<[f64; 2]>),
 }
 

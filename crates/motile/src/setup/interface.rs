@@ -12,6 +12,7 @@ use super::{
     body::{BodySetup, Planned},
     checked::Checked,
     droplet::check_points,
+    strays::points_along,
 };
 use crate::SetupError;
 
@@ -106,8 +107,8 @@ pub enum InterfaceShape {
         #[serde(default)]
         sines: Vec<f64>,
     },
-    /// The smooth curve through points of one period (length), along x or against it; the next image of the first
-    /// follows the last.
+    /// The smooth curve through points of one period (length), along x or against it, near their polygon; the next
+    /// image of the first follows the last.
     Points(Vec<[f64; 2]>),
 }
 
@@ -147,11 +148,8 @@ impl InterfaceSetup {
             InterfaceShape::Flat => wave(self.height, advance, &[], &[], count),
             InterfaceShape::Waves { cosines, sines } => wave(self.height, advance, cosines, sines, count),
             InterfaceShape::Points(points) => {
-                let mut points: Vec<Vec2> = points.iter().map(|&[x, y]| Vec2::new(x, y + self.height)).collect();
-                let ends = points.first().zip(points.last());
-                if ends.is_some_and(|(first, last)| (last.x - first.x) * advance < 0.0) {
-                    points.reverse();
-                }
+                let up = Vec2::new(0.0, self.height);
+                let points: Vec<Vec2> = points_along(points, advance).into_iter().map(|point| point + up).collect();
                 line_through(&points, advance, count)
             }
         }

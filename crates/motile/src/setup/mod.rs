@@ -5,6 +5,7 @@ mod build;
 mod check;
 mod checked;
 mod droplet;
+mod entries;
 #[cfg(feature = "toml")]
 mod file;
 mod flow;
@@ -20,6 +21,7 @@ mod rigid_body;
 mod scales;
 mod shell;
 mod solid;
+mod strays;
 mod suspension;
 mod wall;
 
@@ -182,15 +184,10 @@ impl Setup {
     }
 
     /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not
-    /// different time steps: what checkpoints bear to say which scene they are of. FNV-1a of the printed description.
+    /// different time steps. FNV-1a of the printed description. A resumed run compares [`Setup::entries`].
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        let printed =
-            format!("{:?}", Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() });
-        let hash = printed
-            .bytes()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-        format!("{hash:016x}")
+        Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() }.hash()
     }
 }
 

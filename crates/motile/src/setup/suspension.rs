@@ -18,8 +18,12 @@ use crate::SetupError;
 use lattice::sites;
 use placement::{Circle, Room};
 
+/// Halvings of an interval of factors, down to round-off.
+const BISECTIONS: u32 = 60;
 /// Most droplets of a suspension.
 const MOST: usize = 100_000;
+/// Largest relative difference between the area fraction that is given and the one that is reached.
+const OFF: f64 = 0.02;
 /// Part of the area that the densest packing of equal circles fills.
 const DENSEST: f64 = 0.9069;
 
@@ -44,7 +48,9 @@ const DENSEST: f64 = 0.9069;
 pub struct SuspensionSetup {
     /// Number of droplets; this or the part of the area is given.
     pub count: Option<usize>,
-    /// Part of the region's area that the droplets fill, by the mean of their areas (no dimension).
+    /// Part of the region's area that the droplets fill (no dimension). Radii that differ are scaled together, within
+    /// their bounds, so that it is met; of equal circles it is the nearest one that a whole number of them fills, and
+    /// refused if that is off by more than 2 %. [`Setup::filled`] tells it.
     pub area_fraction: Option<f64>,
     /// Radii (length); `None` for that of the droplet.
     pub radius: Option<Distribution>,
@@ -168,6 +174,31 @@ impl Setup {
         Ok(placed)
     }
 
+    /// Part of the region's area that the round droplets fill, those of suspensions included (no dimension); `None`
+    /// without suspensions.
+    ///
+    /// ```
+    /// use motile::prelude::*;
+    /// use motile::setup::{Distribution, SuspensionSetup};
+    ///
+    /// let radius = Some(Distribution::Between([0.8, 1.2]));
+    /// let suspension = SuspensionSetup { area_fraction: Some(0.3), radius, ..SuspensionSetup::default() };
+    /// let setup = Setup { droplets: Vec::new(), suspension: vec![suspension], ..Setup::default() };
+    /// assert!((setup.filled()?.unwrap() - 0.3).abs() < 1e-9);
+    /// # Ok::<(), motile::SetupError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Setup::placed`].
+    pub fn filled(&self) -> Result<Option<f64>, SetupError> {
+        if self.suspension.is_empty() {
+            return Ok(None);
+        }
+        let ([length, width], placed) = (self.region.lengths(), self.placed()?);
+        let squares: f64 = placed.droplets.iter().map(|droplet| radius(droplet).powi(2)).sum();
+        Ok(Some(PI * squares / (length * width)))
+    }
+
     /// Refuses suspensions of values out of their range, and where there is no area to fill.
     pub(super) fn check_suspensions(&self) -> Result<(), SetupError> {
         for (number, suspension) in self.suspension.iter().enumerate() {
@@ -239,11 +270,45 @@ impl SuspensionSetup {
         PI * self.radii().mean_square()
     }
 
+    /// Area of its droplets, whose number is given, by the radii that its seed draws (length squared).
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        // Which region it is has no influence on the radii.
+        let droplets = self.draw(&Region::Plane).droplets;
+        PI * droplets.iter().map(|droplet| radius(droplet).powi(2)).sum::<f64>()
+    }
+
     /// Number of droplets in a region.
     fn number(&self, region: &Region) -> f64 {
         let [length, width] = region.lengths();
         let of_area = |fraction: f64| (fraction * length * width / self.mean_area()).round();
         self.count.map_or_else(|| of_area(self.area_fraction.unwrap_or_default()), |count| count as f64)
+    }
+
+    /// Area that a fraction of a region is, over the area of a circle of radius one.
+    fn squares(fraction: f64, region: &Region) -> f64 {
+        let [length, width] = region.lengths();
+        fraction * length * width / PI
+    }
+
+    /// Refuses a fraction from which the nearest one that its radii reach is too far.
+    fn check_reached(&self, checked: &Checked<'_>, region: &Region, fraction: f64) -> Result<(), SetupError> {
+        let ([least, most], wanted) = (self.radii().bounds(), Self::squares(fraction, region));
+        let of = |count: f64| wanted.clamp(count * least * least, count * most * most) / wanted * fraction;
+        let count = self.number(region);
+        let reached = of(count);
+        if (reached / fraction - 1.0).abs() <= OFF {
+            return Ok(());
+        }
+        let other = if reached < fraction { count + 1.0 } else { count - 1.0 };
+        let alternative =
+            if other > 0.0 { format!("and {other} fill {:.3}", of(other)) } else { "and fewer fill none".to_owned() };
+        let remedy = format!(
+            "{count} droplets fill {reached:.3} of the area, {alternative}, which is off by more than {} %: give one of \
+             these, another region, or other radii",
+            100.0 * OFF
+        );
+        checked.refuse("area-fraction", &fraction, remedy)
     }
 
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
@@ -287,6 +352,7 @@ impl SuspensionSetup {
                     let remedy = format!("it makes {count} droplets: give what makes 1 to {MOST}");
                     return checked.refuse("area-fraction", &fraction, remedy);
                 }
+                self.check_reached(checked, &setup.region, fraction)?;
             }
             (Some(count), Some(_)) => {
                 let remedy = "area-fraction says how many there are as well: give one of the two";
@@ -321,8 +387,31 @@ impl SuspensionSetup {
             }
             droplet
         });
-        let droplets = droplets.collect();
+        let mut droplets: Vec<DropletSetup> = droplets.collect();
+        if let (Some(fraction), Distribution::Between(_) | Distribution::Normal { .. }) = (self.area_fraction, radii) {
+            fill(&mut droplets, radii.bounds(), Self::squares(fraction, region));
+        }
         Drawn { droplets, random, gap: self.gap, arrangement: self.arrangement }
+    }
+}
+
+/// Radius of a round droplet (length).
+fn radius(droplet: &DropletSetup) -> f64 {
+    if let DropletShape::Round { radius } = droplet.shape { radius } else { 0.0 }
+}
+
+/// Scales the radii of droplets, within bounds (length), so that their squares add up to `wanted` (length squared), or
+/// come as near to it as the bounds let them.
+fn fill(droplets: &mut [DropletSetup], [least, most]: [f64; 2], wanted: f64) {
+    let scaled = |droplet: &DropletSetup, factor: f64| (factor * radius(droplet)).clamp(least, most);
+    let sum = |factor: f64| droplets.iter().map(|droplet| scaled(droplet, factor).powi(2)).sum::<f64>();
+    let (mut low, mut high) = (least / most, most / least);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if sum(middle) < wanted { low = middle } else { high = middle }
+    }
+    for droplet in droplets {
+        *droplet = droplet.clone().with_radius(scaled(droplet, high));
     }
 }
 

@@ -100,7 +100,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.integral.elements", nodes(64, usize::MAX)),
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
         ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
-        ("method.grid.spacing = 0.1: a length of 1000 would take 10000 cells, 1.0e8 in all", {
+        ("method.grid.spacing = 0.1: a length of 1000 would take 1.0e4 cells, 1.0e8 in all", {
             Setup { region: Region::Box { lengths: [1e3; 2] }, ..grid(coarse) }
         }),
         ("droplets[0].particles.start.perturbed.amplitude = 1: give a number from 0 to below 1", {
@@ -574,6 +574,10 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
         let height = markers.iter().fold(0.0_f64, |most, marker| most.max(marker.y));
         (polygon_moments(&markers).unwrap().area, height)
     };
+    let squeezed = |mut setup: Setup| {
+        setup.droplets[0].squeezed = true;
+        setup
+    };
     let narrow = Setup { region: channel(2.0), ..Setup::default() };
     let wide = Setup { region: channel(3.0), ..Setup::default() };
     for (setup, half_height) in [
@@ -581,7 +585,7 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
         (&wide, 1.0),
         (&elastic(2.0, layers()), 0.95),
         (&elastic(2.0, plain()), 1.0),
-        (&elastic(1.6, plain()), 0.75),
+        (&squeezed(elastic(1.6, plain())), 0.75),
     ] {
         let (area, height) = area_and_height(setup);
         assert!((height - half_height).abs() < 1e-3, "{height} {half_height}");
@@ -659,8 +663,42 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
         elastic.solids.clear();
         assert!(elastic.build().is_ok());
     }
-    // Where no place has room for the circle it is squeezed wherever it is.
-    assert!(at(2.0, 0.3).build().is_ok() && at(3.0, 0.5).build().is_ok());
+    // Where no place has room for the circle it may be squeezed wherever it is.
+    assert!(at(3.0, 0.5).build().is_ok());
+    let mut aside = at(2.0, 0.3);
+    let error = refused(&aside);
+    assert!(error.contains("a round droplet of radius 1 does not fit between the walls: they leave 0.7"), "{error}");
+    aside.droplets[0].squeezed = true;
+    assert!(aside.build().is_ok());
+}
+
+/// A round droplet that is wider than its surroundings is refused, in a channel of rigid or elastic walls and in a
+/// tube, unless it is to be squeezed; what it starts as then is told by its shape.
+#[test]
+fn round_droplets_are_squeezed_only_on_request() {
+    let tube = Region::Tube { radius: 0.5, shape: Default::default(), drive: Drive::ZeroFlux, length: None };
+    let of = |region| Setup { region, ..Setup::default() };
+    for (setup, expected) in [
+        (of(channel(0.5)), Some((0.2, Squeezed::Ellipse))),
+        (of(channel(1.9)), Some((0.9, Squeezed::Ellipse))),
+        (of(tube), Some((0.45, Squeezed::Ellipse))),
+        (elastic(1.0, layers()), Some((0.45, Squeezed::Stadium))),
+        (elastic(1.6, plain()), Some((0.75, Squeezed::Stadium))),
+        (of(channel(2.2)), None),
+    ] {
+        let mut setup = setup;
+        let shape = |setup: &Setup| setup.shape(&setup.droplets[0]).map_err(|error| error.to_string());
+        let Some((half, kind)) = expected else {
+            assert_eq!(shape(&setup), Ok(DropletShape::Round { radius: 1.0 }));
+            continue;
+        };
+        let error = shape(&setup).unwrap_err();
+        assert!(error.contains("Add `squeezed = true` to the droplet"), "{error}");
+        assert!(setup.build().is_err_and(|error| error.to_string().starts_with("droplets[0]: a round droplet")));
+        setup.droplets[0].squeezed = true;
+        let Ok(DropletShape::Squeezed { radius, half_height, to }) = shape(&setup) else { panic!("{setup:?}") };
+        assert!(radius == 1.0 && (half_height - half).abs() < 1e-12 && to == kind, "{half_height} {half}");
+    }
 }
 
 #[test]
@@ -1019,6 +1057,78 @@ mod file {
         }
         let missing: Vec<_> = wanted.difference(&shown).collect();
         assert!(wanted.len() > 150 && missing.is_empty(), "{} {missing:?}", wanted.len());
+    }
+
+    /// Keys that a resumed run may change.
+    fn may_change(key: &str) -> bool {
+        let ends = ["particles.flux", "spacing", "kernel", "corrected", "solver"];
+        let method = key.starts_with("method.") && !key.ends_with("marker-spacing");
+        ["integrator", "tolerance", "least-gap"].contains(&key)
+            || key.starts_with("step.")
+            || key.ends_with(ends[0])
+            || method && ends[1..].iter().any(|end| key.ends_with(end))
+    }
+
+    /// The refusal of a checkpoint of the description `saved` in a scene of `here`.
+    fn refusal_of_resuming(saved: &Setup, here: &Setup) -> Option<String> {
+        let scene =
+            |setup: &Setup| Scene::new(motile_scene::Substrate::new(1.0).unwrap()).described_by(setup.entries());
+        scene(here).resume(&scene(saved).checkpoint("")).err().map(|error| error.to_string())
+    }
+
+    /// Each key of the annotated scene, changed in a scene that resumes: refused with both values, or free to change.
+    #[test]
+    fn every_key_is_compared_by_resumed_runs_or_free_to_change() {
+        let read = |document: &toml::Value| document.clone().try_into::<Setup>().unwrap();
+        let documents = annotated();
+        let base = read(&documents[0]);
+        let (mut refused, mut free) = (std::collections::BTreeSet::new(), std::collections::BTreeSet::new());
+        for document in &documents {
+            let saved = read(document);
+            assert_eq!(refusal_of_resuming(&saved, &saved), None);
+            visit_values(document, &[], &mut |keys| {
+                let mut changed = document.clone();
+                let value = value_at(&mut changed, keys);
+                let [before, after] = match value.clone() {
+                    toml::Value::Float(number) => [number.to_string(), (1.01 * number + 0.003).to_string()],
+                    // Whole numbers where a number of any kind may stand are read as such.
+                    toml::Value::Integer(number) => [number.to_string(), (number + 1).to_string()],
+                    toml::Value::Boolean(flag) => [flag.to_string(), (!flag).to_string()],
+                    toml::Value::String(_) if keys.last().is_some_and(|key| key == "name") => {
+                        ["\"".to_owned(), "\"zzz\"".to_owned()]
+                    }
+                    _ => return,
+                };
+                *value = format!("x = {after}").parse::<toml::Table>().unwrap()["x"].clone();
+                let key = keys.iter().fold(String::new(), |key, part| match part.parse::<usize>() {
+                    Ok(number) => format!("{key}[{number}]"),
+                    Err(_) if key.is_empty() => part.clone(),
+                    Err(_) => format!("{key}.{part}"),
+                });
+                match refusal_of_resuming(&saved, &read(&changed)) {
+                    None => assert!(may_change(&key) && free.insert(key.clone()) | true, "{key} is not compared"),
+                    Some(said) => {
+                        let words = format!("the checkpoint is of another description: {key} is ");
+                        assert!(!may_change(&key) && said.starts_with(&words), "{key}: {said}");
+                        assert!(said.contains(&before) && said.contains(&after), "{key}: {said}");
+                        refused.insert(key);
+                    }
+                }
+            });
+            // Another value in place of one of the annotated scene.
+            if saved != base {
+                let differs = |key: &str| {
+                    let [a, b] = [document, &documents[0]].map(|document| document.get(key));
+                    a != b
+                };
+                let key =
+                    ["method", "droplets", "interfaces", "integrator", "step"].into_iter().find(|key| differs(key));
+                let numerics = Setup { step: base.step, integrator: base.integrator, ..saved.clone() };
+                let said = refusal_of_resuming(&saved, &base);
+                assert!(said.is_some() || numerics == base || numerics.entries() == base.entries(), "{key:?}");
+            }
+        }
+        assert!(refused.len() > 150 && free.len() >= 7, "{} {}", refused.len(), free.len());
     }
 }
 

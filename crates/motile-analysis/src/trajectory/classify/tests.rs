@@ -277,3 +277,16 @@ proptest! {
         prop_assert!((report.evidence.period.unwrap().value / 80.0 - 1.0).abs() < 1e-4);
     }
 }
+
+/// Few swings whose amplitudes scatter by some per cent are not steady within 1 %, and not known to grow.
+#[test]
+fn scattering_amplitudes_decide_nothing() {
+    let times = even(100.0, 2000);
+    let scattering = report(&trajectory(&times, |t| (0.3 * t).sin() * (1.0 + 0.085 * (0.37 * t).cos())));
+    let Regime::Undecided(Doubt::Uncertain { change, error }) = scattering.regime else { panic!("{scattering:?}") };
+    assert!(error > 0.01 && error < 0.1 && change.abs() < 3.0 * error, "{change} {error}");
+    assert!(scattering.regime.to_string().contains("with a standard error of"), "{}", scattering.regime);
+    // Over many periods the error falls below the bound.
+    let long = report(&trajectory(&even(4000.0, 40_000), |t| (0.3 * t).sin() * (1.0 + 0.085 * (0.37 * t).cos())));
+    assert_eq!(long.regime, Regime::SteadyOscillation, "{long:?}");
+}

@@ -37,3 +37,11 @@ fn rest_is_steady() {
     let slowing = run(60.0, |t| 1.05e-6 * (1.0 + 3.0 * (-0.05 * t).exp()));
     assert!(slowing.since.is_none() && !slowing.at_rest, "{slowing:?}");
 }
+
+/// A droplet that is slow because it has only begun to move is not at rest, but one whose speed is round-off is.
+#[test]
+fn what_starts_to_move_is_not_at_rest() {
+    let starting = run(200.0, |t| 1e-9 * (0.03 * t).exp());
+    assert!(starting.final_speed < 1e-6 && !starting.at_rest && starting.since.is_none(), "{starting:?}");
+    assert!(run(200.0, |t| 1e-16 * (1.0 + (7.0 * t).sin())).at_rest);
+}

@@ -13,7 +13,7 @@ fn files_keep_order_and_come_back() {
     summary.write(&path).unwrap();
     let back = Summary::read(&path).unwrap().unwrap();
     fs::remove_file(&path).unwrap();
-    assert_eq!(back.values().keys().collect::<Vec<_>>(), ["speed", "area", "steady", "steps"]);
+    assert_eq!(back.values().keys().collect::<Vec<_>>(), ["speed", "area", "steady", "steps", "motile_version"]);
     assert_eq!(back.number("speed"), 0.2);
     assert!(back.number("area").is_nan() && back.number("absent").is_nan());
     assert!(Summary::read(&path).unwrap().is_none());

@@ -39,5 +39,14 @@ fn finished_runs_are_kept_and_spoilt_or_failed_ones_made_again() {
     assert_eq!(count, 5);
     assert!(results.iter().enumerate().all(|(k, r)| r.as_ref().unwrap().number("square") == (k * k) as f64));
     assert_eq!(go(100).1, 0);
+
+    // Of another version, and of a time before there were any.
+    let written = fs::read_to_string(file(0)).unwrap();
+    fs::write(file(0), written.replace(motile::VERSION, "0.0.9+1")).unwrap();
+    let unmarked = fs::read_to_string(file(1)).unwrap().replace("motile_version", "another_entry");
+    fs::write(file(1), unmarked).unwrap();
+    assert_eq!((go(100).1, go(100).1), (2, 0));
+    let said = made_again(&file(0), Some("0.0.9+1"));
+    assert!(said.contains("was written by motile 0.0.9+1, and this is motile"), "{said}");
     fs::remove_dir_all(&directory).unwrap();
 }

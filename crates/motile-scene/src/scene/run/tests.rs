@@ -252,3 +252,38 @@ fn stages_are_counted_over_all_steps() {
     }
     assert!(stages.iter().enumerate().all(|(k, &(all, most))| all == 2 * (k + 1) * most && most >= 2), "{stages:?}");
 }
+
+/// A run that a flag or its number of steps stops between two checkpoints saves the state in which it stops.
+#[test]
+fn runs_that_are_stopped_save_a_last_checkpoint() {
+    let path = std::env::temp_dir().join(format!("motile-stopped-{}.checkpoint", std::process::id()));
+    let make = || {
+        let mut scene = empty();
+        scene.add(drawn());
+        scene
+    };
+    let flag = AtomicBool::new(false);
+    let mut raise = |system: &mut System<DragBox>| {
+        flag.store(system.steps() == 3, Ordering::Relaxed);
+        Ok::<_, Infallible>(())
+    };
+    let mut stopped = make();
+    let run = stopped.run(1.0).step_size(StepSize::Fixed(0.01)).observe(Every::Steps(1), &mut raise);
+    let error = run.save(100, &path, "").stop_on(&flag).go().unwrap_err();
+    assert!(matches!(error, SceneError::Stopped { .. }), "{error}");
+    assert_eq!(crate::checkpoint::Checkpoint::read(&path).unwrap(), stopped.checkpoint(""));
+    std::fs::remove_file(&path).unwrap();
+
+    let mut limited = make();
+    let run = limited.run(1.0).step_size(StepSize::Fixed(0.01)).most_steps(5).save(100, &path, "");
+    assert!(matches!(run.go(), Err(SceneError::TooManySteps { .. })));
+    let saved = crate::checkpoint::Checkpoint::read(&path).unwrap();
+    assert_eq!((saved.steps(), &saved), (5, &limited.checkpoint("")));
+    std::fs::remove_file(&path).unwrap();
+    let mut resumed = make();
+    resumed.resume(&saved).unwrap();
+    for scene in [&mut resumed, &mut limited] {
+        scene.run(1.0).step_size(StepSize::Fixed(0.01)).go().unwrap();
+    }
+    assert_eq!(resumed.checkpoint(""), limited.checkpoint(""));
+}

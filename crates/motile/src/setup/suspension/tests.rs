@@ -216,3 +216,42 @@ fn one_row_in_a_channel_is_on_its_axis() {
     assert!(placed.droplets.iter().all(|droplet| droplet.centre[1] == 0.0), "{:?}", placed.droplets[0].centre);
     assert_eq!(placed.droplets.len(), 3);
 }
+
+/// Part of the region's area that the circles fill.
+fn filled(setup: &Setup) -> f64 {
+    let [length, width] = setup.region.lengths();
+    setup.placed().unwrap().droplets.iter().map(|droplet| PI * radius(droplet).powi(2)).sum::<f64>() / (length * width)
+}
+
+/// A fraction of the area is met by radii that differ, and of equal circles refused if it is off by more than 2 %.
+#[test]
+fn the_area_fraction_is_met_or_refused() {
+    for radius_of in [Distribution::Between([0.8, 1.2]), Distribution::Normal { mean: 1.0, deviation: 0.1 }] {
+        for (side, seed) in [(6.0, 1), (6.0, 2), (6.0, 3), (12.0, 4), (20.0, 5)] {
+            let suspension = SuspensionSetup {
+                area_fraction: Some(0.3),
+                radius: Some(radius_of),
+                seed,
+                ..SuspensionSetup::default()
+            };
+            let setup = of(suspension, Region::Box { lengths: [side; 2] });
+            assert!((filled(&setup) - 0.3).abs() < 1e-9, "{radius_of} {side} {seed}: {}", filled(&setup));
+            assert!((setup.filled().unwrap().unwrap() - 0.3).abs() < 1e-9);
+            let [least, most] = radius_of.bounds();
+            assert!(setup.placed().unwrap().droplets.iter().all(|d| (least..=most).contains(&radius(d))));
+        }
+    }
+    let alike = |fraction: f64| {
+        let radius = Some(Distribution::Value(1.0));
+        let suspension = SuspensionSetup { area_fraction: Some(fraction), radius, ..SuspensionSetup::default() };
+        of(suspension, Region::Box { lengths: [6.0; 2] })
+    };
+    let error = alike(0.3).check().unwrap_err().to_string();
+    assert!(error.starts_with("suspension[0].area-fraction = 0.3: 3 droplets fill 0.262 of the area"), "{error}");
+    assert!(error.contains("and 4 fill 0.349"), "{error}");
+    // Within 2 % the nearest one is taken, and told.
+    let near = alike(0.26);
+    assert!((filled(&near) / (3.0 * PI / 36.0) - 1.0).abs() < 1e-12);
+    assert_eq!(near.filled().unwrap(), Some(filled(&near)));
+    assert_eq!(Setup::default().filled().unwrap(), None);
+}

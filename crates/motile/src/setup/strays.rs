@@ -1,0 +1,50 @@
+//! Distances of smooth curves from the points that they are given by.
+
+use active_interface::line_distance_from_polygon;
+use motile_base::Vec2;
+
+use super::{DropletShape, InterfaceShape, Setup, Side};
+use crate::SetupError;
+
+impl Setup {
+    /// Keys of all shapes that are given by points, each with the largest distance of its smooth curve from the polygon
+    /// through the points (length).
+    ///
+    /// # Errors
+    /// Points through which no curve goes.
+    pub fn distances_from_points(&self) -> Result<Vec<(String, f64)>, SetupError> {
+        let mut distances = Vec::new();
+        let droplets = self.droplets.iter().enumerate().map(|(k, body)| (format!("droplets[{k}].shape"), &body.shape));
+        let rigid = self.rigid_bodies.iter().enumerate();
+        let rigid = rigid.map(|(k, body)| (format!("rigid-bodies[{k}].shape"), &body.shape));
+        let shells = self.shells.iter().enumerate().flat_map(|(k, shell)| {
+            let rest = shell.rest.iter().map(move |rest| (format!("shells[{k}].rest"), rest));
+            std::iter::once((format!("shells[{k}].shape"), &shell.shape)).chain(rest)
+        });
+        for (key, shape) in droplets.chain(rigid).chain(shells) {
+            if let DropletShape::Points(_) = shape {
+                let (curve, ..) = shape.curve()?;
+                distances.extend(curve.distance_from_polygon().map(|distance| (format!("{key}.points"), distance)));
+            }
+        }
+        let [length, _] = self.region.lengths();
+        for (k, interface) in self.interfaces.iter().enumerate() {
+            if let InterfaceShape::Points(points) = &interface.shape {
+                let advance = if interface.inside == Side::Above { length } else { -length };
+                let distance = line_distance_from_polygon(&points_along(points, advance), advance)?;
+                distances.push((format!("interfaces[{k}].shape.points"), distance));
+            }
+        }
+        Ok(distances)
+    }
+}
+
+/// Points in the direction in which an interface advances.
+pub(super) fn points_along(points: &[[f64; 2]], advance: f64) -> Vec<Vec2> {
+    let mut points: Vec<Vec2> = points.iter().copied().map(Vec2::from).collect();
+    let ends = points.first().zip(points.last());
+    if ends.is_some_and(|(first, last)| (last.x - first.x) * advance < 0.0) {
+        points.reverse();
+    }
+    points
+}
