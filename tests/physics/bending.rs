@@ -69,7 +69,7 @@ fn a_grid_converges_to_boundary_integrals() {
     let exact = found(Method::Integral(IntegralMethod { nodes: 64, elements: 1024 }));
     let steps = [0.2, 0.1, 0.05];
     let errors = steps.map(|h| (found(Method::Grid(GridMethod::of_spacing(h))) / exact - 1.0).abs());
-    assert!(order(&steps, &errors) > 1.8 && errors[2] < 1e-2, "{errors:?}");
+    assert!(order(&steps, &errors) > 1.8 && errors[2] < 7e-4, "{errors:?}");
 }
 
 /// Largest distance of the markers from the unit circle, over that at the start, after 400 steps of `part` of the
@@ -123,7 +123,7 @@ fn a_bent_droplet_becomes_round_on_a_grid() {
     let Built { mut scene, droplets, .. } = setup.build().expect("a scene");
     scene.run(2.0).go().expect("a run");
     let seen = scene.observe(droplets[0]).expect("observables");
-    assert!((seen.aspect_ratio_moments - 1.0).abs() < 2e-3, "{}", seen.aspect_ratio_moments);
+    assert!((seen.aspect_ratio_moments - 1.0).abs() < 4e-5, "{}", seen.aspect_ratio_moments);
 }
 
 #[test]

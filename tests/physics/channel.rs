@@ -13,7 +13,7 @@ fn point_forces_are_second_order() {
     for (name, drive) in channel::drives() {
         let errors: Vec<f64> =
             SPACINGS.iter().map(|&h| channel::point_forces(&BSpline::<4>, h, drive).unwrap()).collect();
-        assert!((order(&SPACINGS, &errors) - 2.0).abs() < 0.1, "{name}: {errors:?}");
+        assert!((order(&SPACINGS, &errors) - 2.0).abs() < 0.01, "{name}: {errors:?}");
         assert!(errors[1] < 6e-3, "{name}: {errors:?}");
     }
 }
@@ -48,10 +48,10 @@ fn a_weak_swimmer_comes_to_rest() {
 /// The droplet as wide as the channel starts in contact with both walls and opens a film of 0.09 R0.
 #[test]
 fn steady_swimmers() {
-    for (width, speed, time) in [(2.0, 0.01, 120.0), (3.0, 0.005, 60.0)] {
+    for (width, [speed, gap, flux], time) in [(2.0, [0.005, 0.003, 0.004], 120.0), (3.0, [0.002, 0.007, 0.008], 60.0)] {
         let errors = steady(&Setup { region: open_channel(12.0, width), ..on_grid(0.05) }, time).unwrap();
         assert!(errors.speed.abs() < speed, "{errors:?}");
-        assert!(errors.gap.unwrap().abs() < 0.01 && errors.flux.unwrap().abs() < 0.01, "{errors:?}");
+        assert!(errors.gap.unwrap().abs() < gap && errors.flux.unwrap().abs() < flux, "{errors:?}");
         assert!(errors.area_change.abs() < 1e-5 && errors.particle_change.abs() < 1e-12, "{errors:?}");
     }
 }

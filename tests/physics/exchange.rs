@@ -112,8 +112,8 @@ fn numbers_on_and_inside_come_to_rest_at_the_exact_rate() {
     // A droplet at rest with its inside has as many.
     let Built { scene, droplets, .. } = setup(Start::Uniform, None, -0.1).build().unwrap();
     let droplet = scene.body(droplets[0]).unwrap();
-    assert!((droplet.number_inside().unwrap() / at_rest - 1.0).abs() < 1e-3);
-    assert!(droplet.exchange_flux().unwrap().abs() < 1e-2 * on * UNBINDING);
+    assert!((droplet.number_inside().unwrap() / at_rest - 1.0).abs() < 1e-12);
+    assert!(droplet.exchange_flux().unwrap().abs() < 1e-12 * on * UNBINDING);
 }
 
 #[test]

@@ -162,7 +162,7 @@ fn layers_move_as_integrals_do() {
     let disc = SolidSetup::new(SolidOutline::Disc { centre: [0.0, -4.2], radius: 0.6 }, material);
     let beside = after(layers, vec![SolidSetup { hold: Hold::Free, ..disc }]);
     for (found, exact) in beside.iter().zip(exact) {
-        assert!((found / exact - 1.0).abs() < 1e-2, "{beside:?} {exact:?}");
+        assert!((found / exact - 1.0).abs() < 0.002, "{beside:?} {exact:?}");
     }
 }
 

@@ -139,7 +139,7 @@ fn fast_diffusion_is_a_pool() {
     let start = TAU * MEAN;
     let pool = number(None);
     let errors = [10.0, 100.0, 1000.0].map(|bulk| (number(Some(bulk)) - pool).abs() / (pool - start).abs());
-    assert!(errors[2] < 0.02 && errors[2] < errors[0], "{errors:?}, {pool} of {start}");
+    assert!(errors[2] < 6e-6 && errors[2] < errors[0], "{errors:?}, {pool} of {start}");
 }
 
 /// Steps as long as the exchange allows against steps a twentieth as long.
@@ -154,7 +154,7 @@ fn fast_exchange_is_stable_up_to_its_limit() {
             assert!(range[0] >= 0.0);
             number_on
         });
-        assert!((on[0] / on[1] - 1.0).abs() < 2e-3, "{binding} {bulk}: {on:?}");
+        assert!((on[0] / on[1] - 1.0).abs() < 3e-4, "{binding} {bulk}: {on:?}");
     }
 }
 
@@ -196,5 +196,5 @@ fn the_smallest_cell_at_the_interface_bounds_the_step() {
             bound = 2.0 / limit.dt;
         }
     });
-    assert!((bound / fastest - 1.0).abs() < 0.02, "{bound} {fastest}");
+    assert!((bound / fastest - 1.0).abs() < 1e-9, "{bound} {fastest}");
 }

@@ -6,7 +6,7 @@ use motile_tests::validation::relaxation;
 fn aspect_ratio_and_area() {
     let coarse = relaxation::run(0.1, 0.04).unwrap();
     let fine = relaxation::run(0.05, 0.02).unwrap();
-    assert!(coarse.aspect_ratio_error.abs() < 1e-3, "{coarse:?}");
+    assert!(coarse.aspect_ratio_error.abs() < 2e-4, "{coarse:?}");
     assert!(fine.aspect_ratio_error.abs() < 1e-4, "{fine:?}");
     assert!(fine.area_change.abs() < 1e-6, "{fine:?}");
 }

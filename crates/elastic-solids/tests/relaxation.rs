@@ -114,7 +114,7 @@ fn steps_are_of_second_order() {
         // Steps of forty relaxation times err no more than those of an elastic layer.
         let case = Case { springs, moduli: [20.0, 5.0], time: 1e-3 };
         let error = (sheared(&case, 0.2, 25) - sheared(&case, 0.2, 2000)).abs();
-        assert!(error < 1e-3, "{springs}: {error:e}");
+        assert!(error < 3e-4, "{springs}: {error:e}");
     }
 }
 

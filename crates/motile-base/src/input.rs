@@ -148,3 +148,6 @@ pub fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(), Inpu
         }
     })
 }
+
+#[cfg(test)]
+mod tests;

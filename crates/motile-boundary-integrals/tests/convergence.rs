@@ -79,6 +79,6 @@ fn forces_of_segments_are_of_second_order_in_the_markers() {
     println!("{errors:?}");
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        assert!((order - 2.0).abs() < 0.1, "{errors:?}");
+        assert!((order - 2.0).abs() < 0.009, "{errors:?}");
     }
 }

@@ -176,3 +176,23 @@ fn walls() {
     lost[3].y = f64::NAN;
     assert!(of(lost.clone(), 40).contains("the points of a wall"), "{}", of(lost, 40));
 }
+
+/// A wall of straight pieces turns at each corner by twice the angle of its slope, about which a warning is given above
+/// 0.7 and not below.
+#[test]
+fn corners_of_walls_are_told_from_their_angle_on() {
+    let region = Region::Channel { length: 6.0, width: 8.0, drive: Drive::ZeroFlux };
+    let excess = |turn: f64| {
+        let slope = (0.5 * turn).tan();
+        let zigzag = |x: f64| -2.0 + slope * ((x.rem_euclid(6.0) - 3.0).abs() - 1.5);
+        let walls = [RigidWall::below(6.0, 48, zigzag).unwrap(), RigidWall::above(6.0, 48, |_| 2.0).unwrap()];
+        let flow = BoundaryIntegral::new(region, 1.0, Settings::default()).unwrap().with_walls(&walls).unwrap();
+        let warnings = flow.warnings();
+        warnings.iter().find(|warning| warning.cause == "corners not resolved").map(|warning| warning.excess)
+    };
+    assert_eq!(excess(0.68), None);
+    for turn in [0.72, 1.0, 1.3] {
+        let found = excess(turn).unwrap();
+        assert!((found - turn / 0.7).abs() < 1e-9, "{turn}: {found}");
+    }
+}

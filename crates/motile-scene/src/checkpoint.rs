@@ -118,7 +118,7 @@ fn difference(saved: Domain, present: Domain) -> String {
 fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)]) -> Result<(), SceneError> {
     let value = |list: &[(String, f64)], name: &str| list.iter().find(|entry| entry.0 == name).map(|entry| entry.1);
     let same =
-        |a: f64, b: f64| a == b || (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs()) || (a.is_nan() && b.is_nan());
+        |a: f64, b: f64| a == b || (a - b).abs() <= ROUND_OFF * a.abs().min(b.abs()) || (a.is_nan() && b.is_nan());
     for (name, _) in here.iter().chain(saved) {
         let [present, saved] = [value(here, name), value(saved, name)];
         if !present.zip(saved).is_some_and(|(a, b)| same(a, b)) {

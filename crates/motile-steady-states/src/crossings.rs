@@ -163,3 +163,6 @@ fn modes_of(spectrum: &Spectrum, symmetry: Symmetry, neutral: usize) -> Vec<Eige
     }
     modes
 }
+
+#[cfg(test)]
+mod tests;

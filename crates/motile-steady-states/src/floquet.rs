@@ -70,24 +70,8 @@ impl LimitCycle {
                 jacobians.iter().zip(&weights).map(|(jacobian, w)| w[which] * jacobian[(i, j)]).sum()
             })
         };
-        let step = PI / STEPS as f64;
-        let mut flow = basis.clone();
-        for k in 0..STEPS {
-            let start = step * k as f64;
-            let (first, second) = (step * matrix(start + step / 3.0), step * matrix(start + step));
-            let mut stages = DMatrix::identity(2 * n, 2 * n);
-            for (row, weights) in [[5.0 / 12.0, -1.0 / 12.0], [0.75, 0.25]].into_iter().enumerate() {
-                for (column, (weight, matrix)) in weights.into_iter().zip([&first, &second]).enumerate() {
-                    let mut block = stages.view_mut((row * n, column * n), (n, n));
-                    block -= weight * matrix;
-                }
-            }
-            let mut right = DMatrix::zeros(2 * n, flow.ncols());
-            right.rows_mut(0, n).copy_from(&flow);
-            right.rows_mut(n, n).copy_from(&flow);
-            let singular = || SteadyError::singular("the growth on a cycle", "Use another number of nodes");
-            flow = Elimination::new(stages).solve(right).ok_or_else(singular)?.rows(n, n).into_owned();
-        }
+        let singular = || SteadyError::singular("the growth on a cycle", "Use another number of nodes");
+        let mut flow = propagated(matrix, basis.clone(), STEPS).ok_or_else(singular)?;
         for row in odd {
             flow.row_mut(row).neg_mut();
         }
@@ -100,3 +84,28 @@ impl LimitCycle {
         Ok(Multipliers { values, neutral: shifts.iter().map(distance).fold(0.0, f64::max) })
     }
 }
+
+/// The solutions of `dy/dt = A(t) y` at t = pi from those at 0, the columns of `flow`, in so many steps of the method
+/// Radau IIA of third order; `None` for a singular step.
+fn propagated(matrix: impl Fn(f64) -> DMatrix<f64>, mut flow: DMatrix<f64>, steps: usize) -> Option<DMatrix<f64>> {
+    let (n, step) = (flow.nrows(), PI / steps as f64);
+    for k in 0..steps {
+        let start = step * k as f64;
+        let (first, second) = (step * matrix(start + step / 3.0), step * matrix(start + step));
+        let mut stages = DMatrix::identity(2 * n, 2 * n);
+        for (row, weights) in [[5.0 / 12.0, -1.0 / 12.0], [0.75, 0.25]].into_iter().enumerate() {
+            for (column, (weight, matrix)) in weights.into_iter().zip([&first, &second]).enumerate() {
+                let mut block = stages.view_mut((row * n, column * n), (n, n));
+                block -= weight * matrix;
+            }
+        }
+        let mut right = DMatrix::zeros(2 * n, flow.ncols());
+        right.rows_mut(0, n).copy_from(&flow);
+        right.rows_mut(n, n).copy_from(&flow);
+        flow = Elimination::new(stages).solve(right)?.rows(n, n).into_owned();
+    }
+    Some(flow)
+}
+
+#[cfg(test)]
+mod tests;

@@ -72,3 +72,6 @@ pub(crate) fn in_steps<T>(
     }
     Ok(last)
 }
+
+#[cfg(test)]
+mod tests;

@@ -167,3 +167,6 @@ impl Modes {
         (offsets, density)
     }
 }
+
+#[cfg(test)]
+mod tests;

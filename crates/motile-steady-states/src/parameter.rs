@@ -170,3 +170,6 @@ impl Parameter {
         Ok(setup)
     }
 }
+
+#[cfg(test)]
+mod tests;

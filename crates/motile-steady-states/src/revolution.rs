@@ -85,3 +85,6 @@ impl VolumeMoments {
         Ok(Self { centroid, aspect_ratio: (along / across).sqrt(), surface: integral(&|_, n| n.length()) })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -285,3 +285,6 @@ pub(crate) fn eigenvector(
     let image = &matrix * &vector;
     Ok((vector.dotc(&image) / vector.dotc(&vector), vector))
 }
+
+#[cfg(test)]
+mod tests;

@@ -128,7 +128,7 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
     let [rough, spectrum] = [&coarse, &circle].map(|state| state.spectrum().expect("resolved"));
     println!("neutral {:.1e} {:.1e}", rough.neutral, spectrum.neutral);
     assert!(!circle.is_mirror_symmetric() && spectrum.unstable() == 0 && spectrum.neutral < 0.3 * rough.neutral);
-    assert!((rough.modes[0].value - spectrum.modes[0].value).norm() < 1e-3 && spectrum.modes[0].value.im > 0.1);
+    assert!((rough.modes[0].value - spectrum.modes[0].value).norm() < 2e-5 && spectrum.modes[0].value.im > 0.1);
     // A run of the same without a repulsion turns alike.
     let method = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
     let built = Setup { method, ..aside }.build().expect("as described");
@@ -141,7 +141,7 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
     let rate = before.angle_to(after) / 10.0;
     println!("turning {} {rate}, speed {} {}", circle.turning_rate(), circle.velocity().length(), after.length());
     assert!((circle.turning_rate() / rate - 1.0).abs() < 0.02, "{} {rate}", circle.turning_rate());
-    assert!((circle.velocity().length() / after.length() - 1.0).abs() < 0.01, "{}", circle.velocity());
+    assert!((circle.velocity().length() / after.length() - 1.0).abs() < 0.003, "{}", circle.velocity());
     // Force moments are those of the whole droplet in both: of the interface alone they are others.
     let measured = circle.measured().expect("measured");
     let interface = {

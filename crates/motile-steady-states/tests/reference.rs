@@ -80,7 +80,7 @@ fn droplets_in_channels_swing_as_the_reference_has_it() {
         let spectrum = state.spectrum().unwrap();
         let slowest = spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap();
         let (growth, frequency) = (number(&row, "growth"), number(&row, "freq"));
-        assert!((slowest.re / growth - 1.0).abs() < 1e-3, "{row:?}: {slowest}");
+        assert!((slowest.re / growth - 1.0).abs() < 3e-4, "{row:?}: {slowest}");
         assert!((slowest.im / frequency - 1.0).abs() < 1e-4, "{row:?}: {slowest}");
     }
 }
@@ -180,7 +180,7 @@ fn the_flow_around_a_swimmer() {
     let front = |point: &&Vec2| (**point - seen.centroid).dot(heading);
     let foremost = state.profile().positions.iter().max_by(|a, b| front(a).total_cmp(&front(b))).unwrap();
     let there = state.sample(&[*foremost]).unwrap()[0].velocity;
-    assert!((there - state.velocity()).length() < 1e-3 * seen.speed, "{there} {}", state.velocity());
+    assert!((there - state.velocity()).length() < 2e-4 * seen.speed, "{there} {}", state.velocity());
     assert!(state.sample(&[Vec2::NAN]).is_err());
 }
 
@@ -231,12 +231,17 @@ fn the_aspect_ratio_is_along_the_motion() {
 /// that of the observables of runs.
 #[test]
 fn the_stresslet_is_along_the_motion() {
-    let droplets = vec![DropletSetup { angle: std::f64::consts::FRAC_PI_4, ..DropletSetup::active(-2.0) }];
-    let region = Region::Box { lengths: [3.0; 2] };
-    let state =
-        SteadyState::find(&Setup { method: nodes(48), region, droplets, ..Setup::default() }).expect("a swimmer");
-    assert!((state.velocity().x / state.velocity().y - 1.0).abs() < 1e-3, "{}", state.velocity());
-    let (measured, seen) = (state.measured().expect("measured"), state.observables().expect("seen"));
-    let expected = seen.moments.stresslet()[0][0];
-    assert!(expected.abs() > 0.1 && (measured.stresslet / expected - 1.0).abs() < 1e-3, "{measured:?} {expected}");
+    // Between two viscosities runs take the normals of the polygon, of second order.
+    for (viscosity, tolerance) in [(None, 1e-12), (Some(300.0), 0.03)] {
+        let angle = std::f64::consts::FRAC_PI_4;
+        let droplets = vec![DropletSetup { angle, viscosity, ..DropletSetup::active(-2.0) }];
+        let region = Region::Box { lengths: [3.0; 2] };
+        let state =
+            SteadyState::find(&Setup { method: nodes(48), region, droplets, ..Setup::default() }).expect("a swimmer");
+        assert!((state.velocity().x / state.velocity().y - 1.0).abs() < 1e-10, "{}", state.velocity());
+        let (measured, seen) = (state.measured().expect("measured"), state.observables().expect("seen"));
+        let expected = seen.moments.stresslet()[0][0];
+        let error = measured.stresslet / expected - 1.0;
+        assert!(expected.abs() > 0.1 && error.abs() < tolerance, "{viscosity:?}: {measured:?} {expected}");
+    }
 }

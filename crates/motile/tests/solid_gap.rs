@@ -87,11 +87,11 @@ fn walls_count_in_the_smallest_gap() {
     let curved = Setup { region: region(6.0), method, droplets, walls, ..Setup::default() };
     for setup in [straight, curved] {
         let Built { mut scene, .. } = setup.build().unwrap();
-        assert!((scene.system_mut().wall_gap().unwrap() - 0.2).abs() < 1e-2);
+        assert!((scene.system_mut().wall_gap().unwrap() - 0.2).abs() < 0.003);
         scene.run(0.2).go().unwrap();
         let least = scene.system().minimum_gap().unwrap();
         assert_eq!(Some(least), scene.system().minimum_wall_gap());
-        assert!((least - 0.2).abs() < 2e-2, "{least}");
+        assert!((least - 0.2).abs() < 0.003, "{least}");
     }
 }
 

@@ -288,3 +288,95 @@ fn particles_on_one_side_of_the_axis_are_refused() {
         assert!(droplet(start).is_ok());
     }
 }
+
+/// A view of a grid of the spacing 0.1 with corrected velocities, in a region of these periods and walls.
+fn on_grid(periods: [Option<f64>; 2], walls: Option<[f64; 2]>) -> FluidView {
+    let domain = Domain { origin: [0.0; 2], periods: periods.into(), walls };
+    FluidView { domain, ..Converging { smooth: false }.fluid_view() }
+}
+
+/// A round swimmer that carries its particles fast enough for the stresslet not to be resolved.
+fn fast_swimmer(centre: Vec2) -> ActiveDroplet {
+    let markers = Curve::circle(1.0).unwrap().translated(centre).markers(64).unwrap();
+    let numbers = InitialConcentration::polarised(1.0, 0.4).unwrap().particle_numbers(&markers).unwrap();
+    let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+    let mut droplet = ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap();
+    droplet.interface.derived.slip = vec![0.2; 64];
+    droplet
+}
+
+/// Excess of the warning about the stresslet.
+fn excess_of_stresslet(droplet: &ActiveDroplet, view: &FluidView) -> f64 {
+    let warnings = droplet.warnings(view);
+    warnings.iter().find(|warning| warning.cause == "stresslet not resolved").map_or(0.0, |warning| warning.excess)
+}
+
+/// Beside the upper wall as beside the lower one, and between images above and below as between those on both sides.
+#[test]
+fn warnings_about_stresslets_see_both_walls_and_all_images() {
+    let walls = |y: f64| excess_of_stresslet(&fast_swimmer(Vec2::new(0.0, y)), &on_grid([None; 2], Some([-2.0, 2.0])));
+    let [low, middle, high] = [-0.4, 0.0, 0.4].map(walls);
+    assert!(middle > 1.0 && high > 1.1 * middle && (low / high - 1.0).abs() < 1e-9, "{low} {middle} {high}");
+    let images = |periods| excess_of_stresslet(&fast_swimmer(Vec2::ZERO), &on_grid(periods, None));
+    let [far, beside, above] = [[None; 2], [Some(2.4), None], [None, Some(2.4)]].map(images);
+    assert!(far > 1.0 && above > 1.1 * far && (beside / above - 1.0).abs() < 1e-9, "{far} {beside} {above}");
+    let both = images([Some(2.4), Some(2.8)]);
+    assert!((both / beside - 1.0).abs() < 1e-9, "{both} {beside}");
+}
+
+/// A body of revolution that has lost a part of its volume gets it back in one step, wherever it is.
+#[test]
+fn a_step_restores_the_volume_of_a_body_of_revolution() {
+    let curve = Curve::ellipse(1.3, 0.8).unwrap().translated(Vec2::new(5.0, 0.0));
+    let markers = curve.markers(64).unwrap();
+    for factor in [0.97, 1.0, 1.04] {
+        let droplet = ActiveDroplet::passive(&markers, 1.0).unwrap().axisymmetric().unwrap();
+        let mut droplet = droplet.with_bounds(1.0, 1.0).unwrap();
+        let volume = droplet.interface.initial_area();
+        let mut state = vec![0.0; droplet.state_len()];
+        droplet.write_state(&mut state);
+        let size = |x: f64| 5.0 + factor * (x - 5.0);
+        state.chunks_exact_mut(2).for_each(|place| (place[0], place[1]) = (size(place[0]), factor * place[1]));
+        droplet.read_state(&state).unwrap();
+        assert!((droplet.interface.area() / volume - factor.powi(3)).abs() < 1e-12);
+        droplet.end_step(&Converging { smooth: true }.fluid_view(), 0.01).unwrap();
+        assert!((droplet.interface.area() / volume - 1.0).abs() < 1e-10, "{factor}: {}", droplet.interface.area());
+        let middle = 0.5 * (droplet.markers()[0] + droplet.markers()[32]);
+        assert!(middle.distance(Vec2::new(5.0, 0.0)) < 1e-12, "{middle}");
+    }
+}
+
+/// What the implicit part of the exchange gives to the interface it takes from inside.
+#[test]
+fn implicit_exchange_keeps_the_number_of_particles() {
+    let exchange = crate::Exchange::new(0.3, 0.7).unwrap();
+    let mut droplet = droplet(Motion::default()).with_well_mixed_interior(exchange, 5.0).unwrap();
+    droplet.begin_step(&Converging { smooth: false }.fluid_view(), motion_step()).unwrap();
+    let (len, markers) = (droplet.state_len(), droplet.markers().len());
+    let mut state = vec![0.0; len];
+    droplet.write_state(&mut state);
+    let mut change = vec![0.0; len];
+    droplet.add_implicit(&state, 0.1, &mut change);
+    let (gained, lost) = (change[2 * markers..len - 1].iter().sum::<f64>(), -change[len - 1]);
+    let flux = droplet.exchange_flux().unwrap();
+    assert!((gained - 0.1 * flux).abs() < 1e-12 && (lost - 0.1 * flux).abs() < 1e-12, "{gained} {lost} {flux}");
+}
+
+fn motion_step() -> motile_scene::StepInfo {
+    motile_scene::StepInfo { dt: 0.1, stabilised: false }
+}
+
+/// Observables of a droplet in a scene are those of its own viscosity inside and of the fluid's outside.
+#[test]
+fn observables_know_the_viscosities_on_both_sides() {
+    use crate::observables::InterfaceState;
+    for inside in [None, Some(3.0)] {
+        let mut scene = Scene::new(Converging { smooth: true });
+        let droplet = droplet(Motion::default());
+        let droplet = inside.map_or(droplet.clone(), |inside| droplet.with_viscosity_inside(inside).unwrap());
+        let handle = scene.add(droplet);
+        scene.system_mut().evaluate().unwrap();
+        let state = InterfaceState::of(scene.system(), handle).unwrap();
+        assert_eq!(state.viscosities, [inside.unwrap_or(1.0), 1.0]);
+    }
+}

@@ -122,3 +122,64 @@ fn a_drop_without_particles_at_rest() {
         assert!(observe(&bad, Convention::FarField).is_err());
     }
 }
+
+/// In three dimensions: a spheroid has its aspect ratio, volume and surface, a thick lens the ratio of its second moments
+/// `INT x^2 r^2 dx` and `INT r^4/4 dx`, and a sphere the projections of the flow on it, `sin^3` and `sin^3 cos` in its
+/// frame: 4/5 of the first on B1 and 4/7 of the second on B2.
+#[test]
+fn spheroids_and_squirmers_in_three_dimensions() {
+    let bulge = |t: f64, more: f64| t.sin() * (1.0 + more * t.sin().powi(2));
+    let seen = |[along, more]: [f64; 2], velocity: &dyn Fn(Vec2) -> Vec2| {
+        let centre = Vec2::new(4.0, 0.0);
+        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / 96.0;
+        let mut markers: Vec<Vec2> =
+            (0..96).map(|k| centre + Vec2::new(along * angle(k).cos(), bulge(angle(k), more))).collect();
+        (markers[0].y, markers[48].y) = (0.0, 0.0);
+        let velocities: Vec<Vec2> = markers.iter().map(|x| velocity(*x - centre)).collect();
+        let forces = vec![Vec2::ZERO; 96];
+        let state = InterfaceState {
+            markers: &markers,
+            forces: &forces,
+            velocities: &velocities,
+            imposed: ImposedFlow::NONE,
+            numbers: &[],
+            viscosities: [1.0; 2],
+            inside: None,
+            enclosed: Vec::new(),
+            axisymmetric: true,
+            on_grid: false,
+        };
+        observe(&state, Convention::FarField).unwrap()
+    };
+    let pi = std::f64::consts::PI;
+    let spheroid = seen([1.5, 0.0], &|_| Vec2::new(0.2, 0.0));
+    assert_relative_eq!(spheroid.aspect_ratio_moments, 1.5, max_relative = 1e-9);
+    assert_relative_eq!(spheroid.area, 2.0 * pi, max_relative = 1e-9);
+    let eccentricity = (1.0 - 1.0 / 2.25_f64).sqrt();
+    let surface = 2.0 * pi * (1.0 + 1.5 / eccentricity * eccentricity.asin());
+    assert_relative_eq!(spheroid.perimeter, surface, max_relative = 1e-9);
+    assert_relative_eq!(spheroid.centroid.x, 4.0, max_relative = 1e-12);
+    assert_relative_eq!(spheroid.velocity.x, 0.2, max_relative = 1e-9);
+
+    let lens = seen([0.7, 0.4], &|_| Vec2::new(0.2, 0.0));
+    let integral = |of: &dyn Fn(f64, f64) -> f64| {
+        let parts = (1..1000).map(|k| f64::from(k) * pi / 1000.0);
+        parts.map(|t| of(0.7 * t.cos(), bulge(t, 0.4)) * 0.7 * t.sin()).sum::<f64>()
+    };
+    let ratio = integral(&|x, r| x * x * r * r) / integral(&|_, r| 0.25 * r.powi(4));
+    assert_relative_eq!(lens.aspect_ratio_moments, ratio.sqrt(), max_relative = 1e-9);
+
+    let (b1, b2, speed) = (0.3, -0.1, 0.2);
+    let sphere = seen([1.0, 0.0], &|n| {
+        // On the upper half theta grows from the front towards the back; the lower half is its mirror image.
+        let (cos, sin, side) = (n.x, n.y.abs(), n.y.signum());
+        let around = sin.powi(3) * (b1 / 0.8 + 1.75 * b2 * cos);
+        Vec2::new(speed - around * sin, around * cos * side)
+    });
+    assert_relative_eq!(sphere.velocity.x, speed, max_relative = 1e-9);
+    assert_relative_eq!(sphere.aspect_ratio_moments, 1.0, max_relative = 1e-9);
+    assert_relative_eq!(sphere.squirmer.b1, b1, max_relative = 1e-9);
+    assert_relative_eq!(sphere.squirmer.b2, b2, max_relative = 1e-9);
+    assert_relative_eq!(sphere.squirmer_laboratory.b1, b1 - speed, max_relative = 1e-9);
+    assert_relative_eq!(sphere.squirmer_laboratory.b2, b2, max_relative = 1e-9);
+}

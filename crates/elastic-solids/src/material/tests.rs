@@ -108,7 +108,7 @@ fn small_strains_measure_the_moduli() {
         });
         assert!(errors[0] < 1e-2 && errors[1] < 1e-4, "{energy:?}: {errors:?}");
         let order = (errors[0] / errors[1]).log10();
-        assert!((order - 2.0).abs() < 0.1, "{energy:?}: order {order}");
+        assert!((order - 2.0).abs() < 2e-4, "{energy:?}: order {order}");
     }
 }
 

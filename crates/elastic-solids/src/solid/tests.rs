@@ -287,3 +287,25 @@ fn surfaces_that_are_pinned_in_part_have_gaps_and_films() {
         assert!(reasons.contains(&"the closing of a film"), "{x}: {reasons:?}");
     }
 }
+
+/// Sizes of the entries of the state: the radius of a disc of the same area, or the mean thickness of a periodic solid.
+#[test]
+fn scales_are_the_sizes_of_the_solid() {
+    let of = |mesh: TriangleMesh| {
+        let solid = Solid::springs(mesh, 1.0).unwrap();
+        let mut scales = vec![0.0; solid.state_len()];
+        solid.write_scales(&mut scales);
+        scales
+    };
+    for unit in [1.0, 1e-3] {
+        let block = equilateral_block(Vec2::ZERO, 8, 8, 0.2 * unit).unwrap();
+        let radius = (block.area() / std::f64::consts::PI).sqrt();
+        assert!(of(block).iter().all(|scale| (scale / radius - 1.0).abs() < 1e-12));
+        // Six rows of triangles of the side 0.2, whatever the period.
+        for columns in [10, 40] {
+            let thickness = 6.0 * 0.2 * unit * 0.75_f64.sqrt();
+            let scales = of(equilateral_strip(Vec2::ZERO, columns, 6, 0.2 * unit).unwrap());
+            assert!(scales.iter().all(|scale| (scale / thickness - 1.0).abs() < 1e-12), "{scales:?}");
+        }
+    }
+}

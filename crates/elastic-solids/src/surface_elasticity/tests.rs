@@ -82,7 +82,7 @@ fn solids_with_surface_elasticity() {
     let bare = Solid::springs(disc, 10.0).unwrap().deformed(|s| 1.1 * s).unwrap();
     let covered = bare.clone().with_surface_elasticity(5.0, 0.1).unwrap();
     let more = covered.elastic_energy().unwrap() - bare.elastic_energy().unwrap();
-    assert!((more / (0.5 * 5.0 * 0.01 * TAU) - 1.0).abs() < 0.02, "{more}");
+    assert!((more / (0.5 * 5.0 * 0.01 * TAU) - 1.0).abs() < 0.006, "{more}");
     assert_ne!(bare.properties(), covered.properties());
     for moduli in [[-1.0, 0.0], [0.0, f64::NAN]] {
         assert!(bare.clone().with_surface_elasticity(moduli[0], moduli[1]).is_err());
@@ -112,6 +112,6 @@ fn stiffness_is_that_of_the_shortest_waves() {
         let solid = Solid::springs(mesh.clone(), 1e-3).unwrap().with_surface_elasticity(moduli[0], moduli[1]).unwrap();
         let view = crate::solid::tests::fluid_view();
         let rate = 2.0 / crate::solid::tests::limit(&solid, &view) * view.viscosity;
-        assert!((rate / sum - 1.0).abs() < 1e-3, "{moduli:?}: {rate} {sum}");
+        assert!((rate / sum - 1.0).abs() < 2e-4, "{moduli:?}: {rate} {sum}");
     }
 }

@@ -257,3 +257,6 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         self.flow.rewind();
     }
 }
+
+#[cfg(test)]
+mod tests;

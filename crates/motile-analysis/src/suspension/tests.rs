@@ -140,3 +140,29 @@ fn the_area_is_that_of_the_smooth_curve() {
         assert!((area / (0.78 * PI) - 1.0).abs() < 1e-13, "{area}");
     }
 }
+
+/// A droplet heads away from where its particles are, wherever it is, and counts what it carries.
+#[test]
+fn members_head_away_from_their_particles() {
+    use active_interface::{ContractileTension, Curve, ExcludedVolume, InitialConcentration};
+    use ib_core::{BSpline, ImmersedBoundary};
+    use motile_scene::Scene;
+    use stokes_grid::{Grid, PeriodicStokes};
+
+    let grid = Grid::periodic(32, 32, 0.25).unwrap();
+    let mut scene = Scene::new(ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0).unwrap(), BSpline::<4>));
+    let places = [(Vec2::ZERO, 0.7), (Vec2::new(2.5, -2.0), -2.0), (Vec2::new(-2.5, 100.0), 3.0)];
+    for (centre, heading) in places {
+        let markers = Curve::ellipse(1.2, 0.9).unwrap().rotated(heading).translated(centre).markers(64).unwrap();
+        let numbers = InitialConcentration::polarised(1.0, heading).unwrap().particle_numbers(&markers).unwrap();
+        let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+        scene.add(ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap());
+    }
+    let members = Member::all(scene.system_mut()).unwrap();
+    for (member, (centre, heading)) in members.iter().zip(places) {
+        assert!(member.centroid.distance(centre) < 1e-9, "{member:?}");
+        assert!((member.area / members[0].area - 1.0).abs() < 1e-9, "{member:?}");
+        assert!(member.heading.distance(Vec2::from_angle(heading)) < 1e-6, "{member:?} {heading}");
+        assert!((member.particles / members[0].particles - 1.0).abs() < 1e-9, "{member:?}");
+    }
+}

@@ -57,3 +57,17 @@ fn short_tubes_are_told_their_least_length() {
         assert!(tube(shape, least).check().is_ok());
     }
 }
+
+/// A throat that is wider than the ends leaves them the narrowest.
+#[test]
+fn the_least_radius_is_that_of_the_narrowest_place() {
+    let throat = |throat| TubeShape::Constriction { throat, throat_length: 2.0, ramp: 1.0 };
+    let wavy = |amplitude| TubeShape::Sinusoidal { amplitude, period: 6.0 };
+    for (shape, least) in
+        [(TubeShape::Straight, 1.5), (throat(0.5), 0.5), (throat(2.0), 1.5), (wavy(0.25), 1.25), (wavy(-0.25), 1.25)]
+    {
+        assert_eq!(shape.least_radius(1.5), least, "{shape:?}");
+        let places = (0..=2000).map(|k| shape.radius(1.5, 10.0, 0.01 * f64::from(k - 1000)));
+        assert!((places.fold(f64::INFINITY, f64::min) - least).abs() < 1e-3, "{shape:?}");
+    }
+}

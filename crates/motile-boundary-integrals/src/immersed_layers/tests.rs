@@ -348,3 +348,20 @@ fn what_has_no_layers_is_refused() {
     let error = ImmersedLayers::new(solver, BSpline::<4>, NODES, TOLERANCE).unwrap_err();
     assert!(error.to_string().contains("middle"), "{error}");
 }
+
+/// A surface that names a marker which its body does not have is refused.
+#[test]
+fn surfaces_name_markers_of_their_body() {
+    let velocities = |first: usize| {
+        let mut markers = droplet(None);
+        let points: Vec<Vec2> = circle(Vec2::new(0.3, 1.9), 0.7, 64);
+        let surface = SurfaceCurve::through(first..first + 64, 0);
+        push(&mut markers, surface, &points);
+        // Another body follows, whose first marker the surface must not take.
+        push(&mut markers, closed(64), &circle(Vec2::new(0.3, -1.9), 0.7, 64));
+        channel(6.0, 0.25).velocities(&mut markers).map(drop)
+    };
+    assert!(velocities(0).is_ok());
+    let error = velocities(1).unwrap_err().to_string();
+    assert!(error.contains("the markers of a solid with a surface"), "{error}");
+}

@@ -34,3 +34,18 @@ fn spacings_follow_the_least_ones() {
         assert!(expected.contains(value), "{k}: {value}");
     }
 }
+
+/// A flat wall takes as many nodes as the wish, whether it is the lower or the upper one; its last node is as far from
+/// the first one of the next period.
+#[test]
+fn flat_walls_take_the_nodes_that_are_wanted() {
+    for upper in [false, true] {
+        let wall = if upper { RigidWall::above(6.0, 32, |_| 1.0) } else { RigidWall::below(6.0, 32, |_| -1.0) };
+        let wall = wall.unwrap().graded(|_| 0.1).unwrap();
+        assert!((60..=62).contains(&wall.nodes), "{}", wall.nodes);
+        let many = wall.points.len();
+        let next = |k: usize| if k + 1 == many { wall.points[0] + wall.period } else { wall.points[k + 1] };
+        let step = 6.0 / many as f64;
+        assert!((0..many).all(|k| (wall.points[k].distance(next(k)) / step - 1.0).abs() < 1e-6));
+    }
+}

@@ -94,3 +94,36 @@ fn results_of_another_plan_are_none() {
     }
     assert!(written() == before);
 }
+
+/// Shares count from one, and together they are all runs.
+#[test]
+fn shares_take_every_run_once() {
+    for of in [1, 2, 4] {
+        let mut taken: Vec<usize> = Vec::new();
+        for number in 1..=of {
+            let Shard { number, of } = shard(&format!("{number}/{of}")).unwrap();
+            taken.extend((0..10).skip(number).step_by(of));
+        }
+        taken.sort_unstable();
+        assert_eq!(taken, (0..10).collect::<Vec<_>>(), "{of}");
+    }
+    assert!(["0/4", "5/4", "1", "1/0", "-1/2", "a/b"].into_iter().all(|text| shard(text).is_err()));
+}
+
+/// A failure counts if it is of this scene, these settings and this time.
+#[test]
+fn failures_of_other_scenes_are_not_believed() {
+    let folder = std::env::temp_dir().join(format!("motile-failures-{}", std::process::id()));
+    let trial = |time: f64| {
+        let (label, setup) = ("run".to_owned(), motile::setup::Setup::default());
+        Trial { label, values: Vec::new(), setup, time, folder: folder.clone() }
+    };
+    make_directory(&folder).unwrap();
+    let outcome = trial(1.0).keep(|_| bail!("the droplet burst"));
+    assert!(outcome.is_err());
+    let State::Failed(failure) = trial(1.0).state() else { panic!("{:?}", trial(1.0).state()) };
+    assert!(failure.contains("the droplet burst"), "{failure}");
+    let other = trial(2.0).state();
+    fs::remove_dir_all(&folder).unwrap();
+    assert!(matches!(other, State::Left), "{other:?}");
+}

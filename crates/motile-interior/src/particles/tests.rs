@@ -129,3 +129,31 @@ fn limits_of_the_step_inside_are_those_of_exchange_and_transport() {
         assert!((second / transport - 1.0).abs() < 1e-13, "{second} {transport}");
     }
 }
+
+/// Sizes of the numbers of the cells: their mean, or one where there are none.
+#[test]
+fn scales_are_the_mean_of_the_numbers() {
+    for density in [0.0, 1.0, 1e3] {
+        let (_, body) = filled(48, 0.7, |place| density * (1.0 + 0.5 * place.x));
+        let mut scales = vec![0.0; body.state_len()];
+        body.write_scales(&mut scales);
+        let total: f64 = body.numbers().iter().sum();
+        let mean = if density > 0.0 { total / body.numbers().len() as f64 } else { 1.0 };
+        assert!(scales.iter().all(|scale| (scale / mean - 1.0).abs() < 1e-12), "{density}");
+    }
+}
+
+/// Particles that are lost are an error, as are those that come from nowhere.
+#[test]
+fn lost_and_new_particles_are_errors() {
+    for (factor, kept) in [(1.0, true), (1.01, false), (0.99, false)] {
+        let (_, mut body) = filled(48, 0.7, |_| 1.0);
+        let state: Vec<f64> = body.numbers().iter().map(|number| factor * number).collect();
+        body.read_state(&state).unwrap();
+        let outcome = body.write_forces(&view(), &mut vec![Vec2::ZERO; body.marker_count()]);
+        match outcome {
+            Ok(()) => assert!(kept, "{factor}"),
+            Err(error) => assert!(!kept && matches!(error, BodyError::NotConserved { .. }), "{factor}: {error}"),
+        }
+    }
+}

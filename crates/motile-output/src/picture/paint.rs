@@ -459,3 +459,6 @@ impl Painter<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -83,3 +83,21 @@ fn the_smallest_jacobian_is_that_of_all_solids() {
         assert!(energy > 0.1 && (value("elastic_energy") / energy - 1.0).abs() < 1e-12, "{measured:?}");
     }
 }
+
+/// Rigid walls reach to the straight walls behind them, on the side away from the fluid, which is on their right.
+#[test]
+fn rigid_walls_reach_away_from_the_fluid() {
+    let straight = Some([-3.0, 3.0]);
+    for (way, height, thickness) in [(-1.0, -1.0, 2.0), (1.0, 2.0, 1.0)] {
+        let mut boundary = Boundary::default();
+        let at = |k: i32| Vec2::new(way * 0.5 * f64::from(k), height);
+        (-4..4).for_each(|k| boundary.push(at(k), at(k + 1)));
+        boundary.sort();
+        let shape = rigid_shape(&boundary, straight);
+        let ring = &shape.area[0];
+        let next = ring.iter().cycle().skip(1);
+        let area = 0.5 * ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>();
+        assert!((area.abs() - 4.0 * thickness).abs() < 1e-12, "{way}: {ring:?}");
+        assert_eq!(shape.edges[0].len(), 9);
+    }
+}

@@ -124,3 +124,10 @@ fn seeds_keep_apart_from_their_images() {
         assert_eq!(tracer.line(Vec2::new(x, 0.3)).is_some(), begins, "{x}");
     }
 }
+
+/// A million cells of the spacing in a square of two by two, at a spacing of 0.002.
+#[test]
+fn spacings_for_too_many_streamlines_are_refused() {
+    let field = sampled(true, |_| Vec2::ZERO);
+    assert!(streamlines(&field, 0.00201, Vec2::ZERO).is_ok() && streamlines(&field, 0.00199, Vec2::ZERO).is_err());
+}

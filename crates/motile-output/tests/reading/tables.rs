@@ -186,3 +186,22 @@ fn motion_of_many_droplets_is_that_of_their_rows() {
     }
     assert!(motion[3][1] > 1e-4 && (motion[0][2] - 1.0).abs() < 1e-9, "{motion:?}");
 }
+
+/// The stress that a repulsion transmits is the pressure of its forces times the distances, over the area of the box.
+#[test]
+fn stresses_of_contacts_are_those_of_the_repulsion() {
+    let directory = Directory::new("contacts");
+    let droplet = |x: f64| DropletSetup { centre: [x, 0.0], ..DropletSetup::active(-1.0) };
+    let repulsion = motile::scene::gap::Repulsion::new(200.0, 0.1).ok();
+    let region = Region::Box { lengths: [6.0, 5.0] };
+    let setup = Setup { region, droplets: vec![droplet(-1.01), droplet(1.01)], repulsion, ..Setup::default() };
+    let mut scene = setup.build().unwrap().scene;
+    let mut tables = SuspensionCsv::create(&directory.0, scene.system_mut(), 0.1).unwrap();
+    scene.run(0.01).observe(Every::Time(0.01), &mut tables).go().unwrap();
+    let load = scene.system_mut().repulsion_load().unwrap().unwrap();
+    let (header, rows) = read(&directory.0.join("suspension.csv"));
+    let column = header.iter().position(|name| name == "contact_stress").unwrap();
+    let expected = 0.5 * (load.virial[0][0] + load.virial[1][1]) / 30.0;
+    let found = rows.last().unwrap()[column];
+    assert!(expected.abs() > 1e-3 && (found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+}

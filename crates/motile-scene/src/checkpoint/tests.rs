@@ -88,3 +88,34 @@ fn markers_of_another_kind_are_those_of_another_scene() {
         }
     }
 }
+
+/// Numbers that are equal but for round-off, and absent ones, are the same; an absent one and a number are not.
+#[test]
+fn properties_are_compared_one_by_one() {
+    let same = |here: f64, saved: f64| {
+        let of = |value: f64| [("the size".to_owned(), value)];
+        compare_properties("body", &of(here), &of(saved)).is_ok()
+    };
+    assert!(same(2.0, 2.0) && same(2.0, 2.0 + 1e-12) && same(f64::INFINITY, f64::INFINITY));
+    assert!(same(f64::NAN, f64::NAN) && same(0.0, -0.0));
+    assert!(!same(2.0, f64::NAN) && !same(f64::NAN, 2.0) && !same(2.0, 2.1) && !same(2.0, f64::INFINITY));
+    let named = |name: &str| [(name.to_owned(), 1.0)];
+    assert!(compare_properties("body", &named("one"), &named("other")).is_err());
+    assert!(compare_properties("body", &named("one"), &[]).is_err() && compare_properties("body", &[], &[]).is_ok());
+}
+
+/// A file that goes on, or ends early, is told by its length and not by its checksum.
+#[test]
+fn files_of_another_length_are_told_by_it() {
+    let bytes = Scene::new(DragBox::new(4.0, 1.0, 0.25)).checkpoint("").to_bytes().unwrap();
+    assert!(Checkpoint::from_bytes(&bytes).is_ok());
+    let longer = [&bytes[..], &[0]].concat();
+    for (other, length) in [(&longer[..], bytes.len() + 1), (&bytes[..bytes.len() - 1], bytes.len() - 1)] {
+        let told = Checkpoint::from_bytes(other).unwrap_err().to_string();
+        assert!(told.contains(&format!("it has {length} bytes where {} are needed", bytes.len())), "{told}");
+    }
+    let mut damaged = bytes;
+    *damaged.last_mut().unwrap() ^= 1;
+    let told = Checkpoint::from_bytes(&damaged).unwrap_err().to_string();
+    assert!(told.contains("the checkpoint is damaged"), "{told}");
+}

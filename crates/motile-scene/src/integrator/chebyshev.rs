@@ -256,3 +256,6 @@ impl Integrator for RungeKuttaChebyshev {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

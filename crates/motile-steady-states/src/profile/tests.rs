@@ -30,3 +30,17 @@ fn extrema_between_the_nodes() {
     let [high, low] = Profile { positions, density, nuclei: Vec::new() }.extrema().unwrap();
     assert!((high - 3.0).abs() < 1e-9 && (low - 1.0).abs() < 1e-9, "{high} {low}");
 }
+
+/// A droplet above the axis becomes one on it, which begins at its front.
+#[test]
+fn symmetrised_droplets_begin_at_their_front() {
+    for (height, first) in [(0.0, 0), (0.25, 0), (-0.3, 3)] {
+        let mut given = ellipse(Vec2::new(0.4, height), 0.0);
+        given.positions.rotate_left(first);
+        let found = given.symmetrised().unwrap();
+        let exact = ellipse(Vec2::new(0.4, 0.0), 0.0);
+        for (one, other) in found.positions.iter().zip(&exact.positions) {
+            assert!(one.distance(*other) < 1e-9, "{height} {first}: {one} {other}");
+        }
+    }
+}

@@ -1317,3 +1317,59 @@ fn elastic_walls_through_points_may_reach_beyond_the_middle() {
         assert!((area - 6.0 * thickness).abs() < 1e-9, "{area} {thickness}");
     }
 }
+
+/// A droplet in a rigid wall is told how deep it reaches into it.
+#[test]
+fn overlaps_with_rigid_walls_have_their_depth() {
+    let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
+    for side in [1.0, -1.0] {
+        let shape = DropletShape::Ellipse { half_axes: [1.0; 2] };
+        let droplets = vec![DropletSetup { centre: [0.0, 0.75 * side], shape, ..DropletSetup::default() }];
+        let setup = Setup { region: channel(6.0), walls: walls.clone(), droplets, ..Setup::default() };
+        let Err(crate::SetupError::Overlap { depth, y, .. }) = setup.build().map(|_| ()) else { panic!("no overlap") };
+        assert!((depth - 0.25).abs() < 5e-3 && (side * y - 1.75).abs() < 5e-3, "{depth} {y}");
+    }
+}
+
+/// A droplet fits into a tube up to both of its ends.
+#[test]
+fn droplets_fit_between_both_ends_of_a_tube() {
+    let shape = motile_base::TubeShape::Constriction { throat: 1.2, throat_length: 2.0, ramp: 2.0 };
+    let region = Region::Tube { radius: 1.5, shape, drive: Drive::ZeroFlux, length: Some(24.0) };
+    let at = |x: f64| {
+        let droplets = vec![DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }];
+        Setup { region, droplets, ..Setup::default() }.build().map(|_| ()).map_err(|error| error.to_string())
+    };
+    for side in [1.0, -1.0] {
+        let error = at(11.5 * side).unwrap_err();
+        assert!(error.starts_with("droplets[0]: the body does not fit into the region"), "{error}");
+        assert_eq!(at(8.0 * side), Ok(()));
+    }
+}
+
+/// A mode and a half for each of three markers, also of an odd number of nodes.
+#[test]
+fn membranes_have_three_markers_for_two_modes() {
+    let count = |nodes: usize, elements: usize| {
+        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, elements }), ..Setup::default() };
+        setup.membrane_count(&Curve::circle(1.0).unwrap(), "the shell").unwrap()
+    };
+    for (nodes, least) in [(32, 48), (33, 50), (64, 96), (65, 98)] {
+        assert_eq!(count(nodes, nodes), least);
+        assert_eq!(count(nodes, 200), 200);
+    }
+}
+
+/// A place has one factor.
+#[test]
+fn places_of_a_grading_increase() {
+    let wall = elastic(3.0, plain());
+    let of = |factors: Vec<[f64; 2]>| {
+        let grading = Grading::Along { axis: Axis::X, factors };
+        let solids = vec![SolidSetup { grading, ..wall.solids[0].clone() }];
+        Setup { solids, ..wall.clone() }.check().map_err(|error| error.to_string())
+    };
+    assert_eq!(of(vec![[0.0, 1.0], [0.5, 2.0]]), Ok(()));
+    let error = of(vec![[0.0, 1.0], [0.5, 2.0], [0.5, 3.0]]).unwrap_err();
+    assert!(error.starts_with("solids[0].grading.along.factors") && error.contains("places increasing"), "{error}");
+}

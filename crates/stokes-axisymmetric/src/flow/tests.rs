@@ -544,3 +544,25 @@ fn velocities_do_not_depend_on_the_number_of_threads() {
     assert_eq!(bits(2), expected);
     assert_eq!(bits(3), expected);
 }
+
+/// Two spheres at a distance of twelve radii of the tube are each alone in it, as are those beside their ends.
+#[test]
+fn spheres_far_apart_in_a_tube_are_alone() {
+    let (count, radius) = (48, 1.5);
+    let forces = on_sphere(count, |_| Vec2::new(1.5, 0.0));
+    let speeds = |places: &[f64]| -> Vec<f64> {
+        let spheres: Vec<Vec<Vec2>> =
+            places.iter().map(|x| sphere(count).iter().map(|at| *at + Vec2::new(*x, 0.0)).collect()).collect();
+        let mut flow = flow(count).with_tube(radius).unwrap();
+        flow.load(spheres.iter().map(|sphere| Interface::rigid(sphere, &forces, 1.0))).unwrap();
+        flow.solve().unwrap();
+        let [half_length, _] = flow.tube_resolution().unwrap();
+        let extent = places.iter().map(|x| x.abs()).fold(0.0, f64::max) + 1.0;
+        assert!(half_length >= extent + 5.5 * radius, "{half_length} {extent}");
+        (0..places.len()).map(|number| flow.rigid_velocity(number).unwrap()).collect()
+    };
+    let alone = speeds(&[0.0])[0];
+    for speed in speeds(&[-9.0, 9.0]) {
+        assert!((speed / alone - 1.0).abs() < 1e-7, "{speed} {alone}");
+    }
+}

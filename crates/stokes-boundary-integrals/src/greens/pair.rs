@@ -278,3 +278,6 @@ pub(crate) enum AnyPair {
     Lattice(LatticePair<false>),
     Sheared(LatticePair<true>),
 }
+
+#[cfg(test)]
+mod tests;

@@ -57,3 +57,12 @@ fn repairs_of_a_run_add_up() {
     sum.accumulate(Repair { segments: 4, moved: 0.5, furthest: 2 });
     assert_eq!(sum, Repair { segments: 5, moved: 2.5, furthest: 3 });
 }
+
+/// The segment opposite, which is one and not two, gives what it is asked for once.
+#[test]
+fn the_opposite_segment_gives_once() {
+    let mut numbers = [-1.0, 0.25, 3.0, 0.25];
+    let repair = repair(&mut numbers).unwrap();
+    assert_eq!(numbers, [0.0, 0.0, 2.5, 0.0]);
+    assert_eq!(repair, Repair { segments: 1, moved: 1.0, furthest: 2 });
+}

@@ -100,3 +100,15 @@ fn bad_input_is_refused() {
     let empty = ActiveRegion { start: 0.0, end: 0.0, length: 0.0, fraction: 0.0 };
     assert!(active_curvature(&markers, &empty).is_err());
 }
+
+/// A region all around, and one longer than that.
+#[test]
+fn a_circle_that_is_active_all_around_has_its_curvature() {
+    let markers = Curve::circle(2.0).unwrap().markers(64).unwrap();
+    let perimeter = crate::polygon_perimeter(&markers).unwrap();
+    let of = |length: f64| {
+        let region = ActiveRegion { start: 0.3, end: 0.3 + length, length, fraction: length / perimeter };
+        active_curvature(&markers, &region)
+    };
+    assert!((of(perimeter).unwrap() - 0.5).abs() < 2e-3 && of(1.001 * perimeter).is_err());
+}

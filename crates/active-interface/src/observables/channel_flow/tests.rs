@@ -140,7 +140,7 @@ fn net_flux_on_a_grid() {
         assert_relative_eq!(pressure_drop(scene.system().report(), 6.0).unwrap(), 2.4, max_relative = 1e-13);
         (found - 0.4 * 27.0 / 24.0).abs()
     });
-    assert!(errors[1] < 2e-3 && (errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
+    assert!(errors[1] < 5e-4 && (errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
 }
 
 /// Through the part of the interface to the right of the cross-section flows what flows through the cross-section
@@ -184,7 +184,7 @@ fn inside_flux_is_that_of_the_interface() {
         let through = flux_through_interface(markers, scene.system().markers().velocities(), x);
         ((flow.inside - through).abs(), (flow.net() - 1.0).abs())
     });
-    assert!(errors[1].0 < 2e-3 && errors[0].0 / errors[1].0 > 3.0, "{errors:?}");
+    assert!(errors[1].0 < 3e-4 && errors[0].0 / errors[1].0 > 3.0, "{errors:?}");
     assert!(errors[1].1 < 2e-3 && errors[0].1 / errors[1].1 > 3.0, "{errors:?}");
 }
 

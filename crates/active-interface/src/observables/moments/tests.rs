@@ -256,3 +256,31 @@ fn stresslets_turn_with_the_axes() {
         assert!((yx - xy).abs() + (yy + xx).abs() < 1e-12);
     }
 }
+
+/// The dipole of a rigid body inside in axes that are turned: `D'_ij = a_i D a_j` with the axes a of the frame.
+#[test]
+fn dipoles_of_rigid_bodies_turn_with_the_axes() {
+    let dipole = [[1.0, 0.4], [-0.3, 2.0]];
+    let body = Enclosed {
+        positions: Vec::new(),
+        forces: Vec::new(),
+        velocities: Vec::new(),
+        viscosities: [1.0; 2],
+        rigid_dipole: Some(dipole),
+    };
+    for heading in [0.0, 0.7, -2.0_f64] {
+        let frame = Frame::new(Vec2::ZERO, heading).unwrap();
+        let mut moments = ForceMoments { quadrupole: Some(Default::default()), ..ForceMoments::default() };
+        moments.add_body(&body, Vec2::ZERO, Convention::FarField, &frame).unwrap();
+        let (sin, cos) = heading.sin_cos();
+        let axes = [[cos, sin], [-sin, cos]];
+        for i in 0..2 {
+            for j in 0..2 {
+                let of = |k: usize, l: usize| axes[i][k] * dipole[k][l] * axes[j][l];
+                let exact = of(0, 0) + of(0, 1) + of(1, 0) + of(1, 1);
+                assert!((moments.dipole[i][j] - exact).abs() < 1e-14, "{heading}: {:?}", moments.dipole);
+            }
+        }
+        assert_eq!(moments.quadrupole, None);
+    }
+}

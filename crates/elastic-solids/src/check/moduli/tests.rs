@@ -43,13 +43,13 @@ fn springs_on_unstructured_meshes() {
         let law = Springs::new(&mesh, SHEAR).unwrap();
         for inner in [InnerPoints::Strained, InnerPoints::Relaxed] {
             let found = measured(&mesh, &law, inner);
-            assert!((found.shear / SHEAR - 1.0).abs() < 0.02, "{inner:?} {found:?}");
+            assert!((found.shear / SHEAR - 1.0).abs() < 0.006, "{inner:?} {found:?}");
             // The bulk modulus of a wall is the difference of this and the shear modulus, with both their
             // anisotropies.
             let stretch = found.shear + found.bulk;
             assert!((stretch / (3.0 * SHEAR) - 1.0).abs() < 0.02, "{inner:?} {found:?}");
             if mesh.period().is_none() {
-                assert!((found.bulk / (2.0 * SHEAR) - 1.0).abs() < 0.01, "{inner:?} {found:?}");
+                assert!((found.bulk / (2.0 * SHEAR) - 1.0).abs() < 0.002, "{inner:?} {found:?}");
             }
         }
         let [strained, relaxed] =
@@ -85,7 +85,7 @@ fn layers_in_series_relax_to_the_mean_compliance() {
     let law = law.unwrap();
     let strained = measured(&mesh, &law, InnerPoints::Strained);
     let relaxed = measured(&mesh, &law, InnerPoints::Relaxed);
-    assert!((strained.shear - 2.0).abs() < 1e-3 && (relaxed.shear - 1.5).abs() < 1e-3, "{strained:?} {relaxed:?}");
+    assert!((strained.shear - 2.0).abs() < 1e-12 && (relaxed.shear - 1.5).abs() < 2e-7, "{strained:?} {relaxed:?}");
 }
 
 #[test]

@@ -45,3 +45,32 @@ fn a_uniform_pressure_moves_nothing() {
     let dragged = corrected(|chord| 2.0 * chord);
     assert!(largest(&pressed) < 1e-14 && largest(&dragged) > 0.01, "{} {}", largest(&pressed), largest(&dragged));
 }
+
+/// Where an interface runs along the grid, what the correction takes off is periodic in its height: the first harmonic,
+/// and the second one times the part that the kernel has of it.
+#[test]
+fn harmonics_of_the_height_have_their_ratio() {
+    let (count, radius, spacing) = (512_u32, 4.0, 0.1);
+    let speed = |height: f64| {
+        let at = |k: u32| {
+            let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
+            Vec2::new(radius * cos, radius * sin + height)
+        };
+        let positions: Vec<Vec2> = (0..count).map(at).collect();
+        let forces: Vec<Vec2> = (0..count).map(|k| 0.5 * (at(k + 1) - at(k + count - 1))).collect();
+        let mut velocities = vec![Vec2::ZERO; count as usize];
+        let setting = Setting { walls: None, ..CHANNEL };
+        let deficit = MobilityDeficit::new(&BSpline::<4>);
+        MobilityCorrection::new(deficit).apply(&setting, &positions, &forces, &mut velocities).unwrap();
+        velocities[count as usize / 4].x
+    };
+    let speeds: Vec<f64> = (0..16).map(|k| speed(spacing * f64::from(k) / 16.0)).collect();
+    let harmonic = |n: f64| {
+        let part = |k: usize| speeds[k] * (TAU * n * k as f64 / 16.0).cos();
+        (0..16).map(part).sum::<f64>() / 8.0
+    };
+    let [first, second, fourth] = [1.0, 2.0, 4.0].map(harmonic);
+    let ratio = MobilityDeficit::new(&BSpline::<4>).second_harmonic();
+    assert!((second / first / ratio - 1.0).abs() < 0.2, "{first:e} {second:e} {ratio}");
+    assert!(fourth.abs() < 0.2 * second.abs(), "{second:e} {fourth:e}");
+}

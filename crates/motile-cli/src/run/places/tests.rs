@@ -100,3 +100,21 @@ fn a_trial_of_a_checkpoint_leaves_other_files_alone() {
     assert_eq!(fs::read_to_string(&other).unwrap(), "mine");
     assert_eq!(fs::read_dir(&directory.0).unwrap().count(), 1);
 }
+
+/// One file under two names, whether or not it is linked.
+#[test]
+fn one_file_may_have_several_names() {
+    let directory = Directory::new("names");
+    let there = |name: &str| directory.0.join(name);
+    fs::create_dir(there("a")).unwrap();
+    fs::write(there("a/state"), "").unwrap();
+    fs::write(there("other"), "").unwrap();
+    fs::hard_link(there("a/state"), there("hard")).unwrap();
+    let is_state = |name: &str| are_one(&there(name), &there("a/state"));
+    assert!(
+        is_state("a/state") && is_state("a/../a/./state") && !is_state("other") && !is_state("a") && !is_state("new")
+    );
+    #[cfg(unix)]
+    assert!(is_state("hard"));
+    assert!(are_one(&there("new"), &there("a/../new")));
+}

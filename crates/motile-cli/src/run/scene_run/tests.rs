@@ -69,3 +69,16 @@ fn bodies_without_droplets_leave_tables() {
     assert_eq!(value(&flow, flow.len() - 1, "time"), value(&bodies, disc, "time"));
     std::fs::remove_dir_all(&directory).unwrap();
 }
+
+/// What a droplet keeps is its area in the plane and its volume in three dimensions.
+#[test]
+fn droplets_of_revolution_have_a_volume() {
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 96 });
+    for (region, size) in [(Region::Plane, 1.0), (Region::Space, 4.0 / 3.0)] {
+        let droplets = vec![DropletSetup::active(-1.0)];
+        let built = Setup { region, method, droplets, ..Setup::default() }.build().unwrap();
+        let (mut scene, droplet) = (built.scene, built.droplets[0]);
+        let found = area(&mut scene, region, droplet).unwrap();
+        assert!((found / (size * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{found}");
+    }
+}

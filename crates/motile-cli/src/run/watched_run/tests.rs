@@ -150,3 +150,50 @@ fn a_run_in_the_plane_is_drawn() {
     assert!(directory.join("final.png").metadata().is_ok_and(|data| data.len() > 2000));
     std::fs::remove_dir_all(&directory).unwrap();
 }
+
+/// Dimensionless numbers and concentrations under their names, and the mean of the iterations of all evaluations.
+#[test]
+fn results_are_under_their_names() {
+    let directory = directory("named-run");
+    let mut droplet = DropletSetup { viscosity: Some(300.0), tension: 1500.0, ..DropletSetup::active(-2.0) };
+    let particles = droplet.particles.as_mut().unwrap();
+    particles.excluded_volume = ExcludedVolume::Step(3.0);
+    let method = Method::Integral(IntegralMethod { nodes: 32, elements: 64 });
+    let setup = Setup { region: Region::Plane, method, droplets: vec![droplet], ..Setup::default() };
+    let mut run = watch(&setup, 0.05, &output(&directory, true)).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    std::fs::remove_dir_all(&directory).unwrap();
+    let c0 = setup.droplets[0].particles.unwrap().concentration;
+    for (name, expected) in [
+        ("excluded_volume_ratio", 1.5),
+        ("bare_tension_ratio", 1500.0 / (2.0 * c0)),
+        ("viscosity_ratio", 3.0),
+        ("peclet", setup.numbers(&setup.droplets[0]).unwrap().unwrap().peclet),
+    ] {
+        assert!((summary.number(name) / expected - 1.0).abs() < 1e-12, "{name}: {}", summary.number(name));
+    }
+    let [most, least] = ["concentration_max", "concentration_min"].map(|name| summary.number(name));
+    assert!((1.5..2.5).contains(&most) && (0.0..0.5).contains(&least), "{most} {least}");
+    let [mean, largest] = ["solver_iterations_mean", "solver_iterations_max"].map(|name| summary.number(name));
+    assert!(mean > 0.0 && mean <= largest, "{mean} {largest}");
+    let work = run.scene.system().hydrodynamics().work();
+    assert!((mean * work.evaluations as f64 - work.iterations as f64).abs() < 1e-9, "{mean} {work:?}");
+}
+
+/// Concentrations are shown in units of c0 where all droplets have the same one.
+#[test]
+fn droplets_of_several_concentrations_have_no_common_unit() {
+    let unit = |second: f64| {
+        let directory = directory(&format!("unit-run-{second}"));
+        let mut droplets =
+            [-1.5, 1.5].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::active(-1.0) }).to_vec();
+        let particles = droplets[1].particles.as_mut().unwrap();
+        particles.concentration *= second;
+        let run = watch(&Setup { droplets, ..Setup::default() }, 0.01, &output(&directory, false)).unwrap();
+        std::fs::remove_dir_all(&directory).unwrap();
+        run.pictures.unwrap().0.concentration
+    };
+    assert_eq!(unit(1.0), Some(Particles::default().concentration));
+    assert_eq!(unit(2.0), None);
+}

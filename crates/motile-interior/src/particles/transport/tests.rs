@@ -55,3 +55,22 @@ fn transport_is_limited_in_proportion_to_the_speed() {
         assert!(apart < 1e-9 * largest, "{speed}: {apart} of {largest}");
     }
 }
+
+/// Nothing crosses the faces of cells in fluid that moves with them, also where all of them grow or shrink.
+#[test]
+fn a_mesh_that_moves_with_the_fluid_carries_its_particles_along() {
+    let mut mesh = DiscMesh::new(48, 0.15).unwrap();
+    let mut nodes = vec![Vec2::ZERO; mesh.node_count()];
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / 48.0;
+    nodes.iter_mut().take(48).enumerate().for_each(|(k, node)| *node = Vec2::from_angle(angle(k)));
+    mesh.place(&mut nodes);
+    let cells = Cells::new(mesh.triangles().to_vec(), &nodes);
+    let mut transport = Transport::new(&cells, &nodes).unwrap();
+    for growth in [0.0, 0.3, -0.2] {
+        let velocity = |at: &Vec2| Vec2::new(0.4, -0.1) + growth * *at + 0.7 * at.perp();
+        let motion: Vec<Vec2> = nodes.iter().map(velocity).collect();
+        transport.set_motion(&cells, &nodes, (&motion, &motion));
+        let largest = transport.fluxes.iter().fold(0.0_f64, |most, flux| most.max(flux.abs()));
+        assert!(largest < 1e-13, "{growth}: {largest:e}");
+    }
+}

@@ -59,3 +59,12 @@ fn the_examples_of_rfc_4648() {
         assert_eq!(base64(plain.as_bytes()), coded);
     }
 }
+
+/// The size on paper, in centimetres, where there is one.
+#[test]
+fn drawings_have_their_size_on_paper() {
+    let mut drawing = Drawing::new([100.0, 60.0]);
+    assert!(drawing.svg().contains("width=\"100\" height=\"60\" viewBox=\"0 0 100 60\""), "{}", drawing.svg());
+    drawing.per_cm = Some(40.0);
+    assert!(drawing.svg().contains("width=\"2.5cm\" height=\"1.5cm\" viewBox=\"0 0 100 60\""), "{}", drawing.svg());
+}

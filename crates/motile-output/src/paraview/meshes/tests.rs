@@ -25,3 +25,16 @@ fn triangles_of_both_walls_of_a_channel() {
     assert!((pieces.mesh.triangles.iter().map(size).sum::<f64>() - 2.0 * 4.0 * thickness).abs() < 1e-9);
     assert!(pieces.stress.iter().flatten().all(|s| s.abs() < 1e-9));
 }
+
+/// The surface of a droplet of revolution goes from pole to pole: its ends on the axis, and rings between them.
+#[test]
+fn surfaces_of_revolution_are_closed() {
+    let method = Method::Integral(IntegralMethod { nodes: 48, elements: 96 });
+    let setup = Setup { region: Region::Space, method, droplets: vec![DropletSetup::active(-1.0)], ..Setup::default() };
+    let scene = setup.build().unwrap().scene;
+    let markers = scene.system().bodies::<ActiveDroplet>().next().unwrap().1.markers().len();
+    let rings = markers / 2 - 1;
+    let document = surfaces(scene.system()).unwrap().document().unwrap();
+    assert!(document.contains(&format!("NumberOfPoints=\"{}\"", 2 + rings * SECTORS)), "{document:.300}");
+    assert!(document.contains(&format!("NumberOfPolys=\"{}\"", (rings + 1) * SECTORS)), "{document:.300}");
+}

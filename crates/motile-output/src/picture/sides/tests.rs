@@ -60,3 +60,27 @@ fn samples_on_the_interface_are_not_trusted() {
         assert!((fields.outside.at(1.05 * direction) - 1.0).abs() < 1e-9, "{direction}");
     }
 }
+
+/// Samples that are farther apart along y than along x: those within three quarters of the larger distance are not
+/// trusted.
+#[test]
+fn the_larger_distance_of_samples_counts() {
+    for cells in [[80, 20], [20, 80]] {
+        let raster = Raster::new([-2.0, -2.0], [4.0, 4.0], cells, [false; 2]).unwrap();
+        let curve: Vec<Vec2> =
+            (0..400).map(|k| Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 400.0)).collect();
+        let value = |p: &Vec2| match p.length() - 1.0 {
+            gap if gap.abs() < 0.14 => 1e3,
+            gap if gap < 0.0 => 3.0,
+            _ => 1.0,
+        };
+        let values: Vec<f64> = raster.points().iter().map(value).collect();
+        assert!(values.iter().filter(|value| **value == 1e3).count() > 20);
+        let fields = sides(&raster, values, &[&curve], 0.0).unwrap();
+        for k in 0..200 {
+            let direction = Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 200.0);
+            assert!((fields.inside.at(0.95 * direction) - 3.0).abs() < 1e-9, "{cells:?} {direction}");
+            assert!((fields.outside.at(1.05 * direction) - 1.0).abs() < 1e-9, "{cells:?} {direction}");
+        }
+    }
+}

@@ -53,3 +53,15 @@ fn opposite_directions_have_other_colours() {
         assert!(difference(of_angle(angle), of_angle(angle + 0.05)) < 8);
     }
 }
+
+/// Concentrations are told relative to their mean, whatever its unit.
+#[test]
+fn concentrations_are_relative_to_their_mean() {
+    use motile::prelude::*;
+    let mut scene = Setup { droplets: vec![DropletSetup::active(-1.0)], ..Setup::default() }.build().unwrap().scene;
+    let seen = SuspensionPicture::take(scene.system_mut()).unwrap();
+    let relative = &seen.droplets[0].relative;
+    let mean = relative.iter().sum::<f64>() / relative.len() as f64;
+    let most = relative.iter().copied().fold(0.0, f64::max);
+    assert!((mean - 1.0).abs() < 1e-12 && (most - 2.0).abs() < 0.01, "{mean} {most}");
+}

@@ -98,7 +98,7 @@ fn one_marker_more_does_not_change_the_step_limit() {
     println!("{limits:?}");
     for few in &limits[..2] {
         for many in &limits[2..] {
-            assert!((many / few - 1.0).abs() < 0.02, "{limits:?}");
+            assert!((many / few - 1.0).abs() < 0.005, "{limits:?}");
         }
     }
 }

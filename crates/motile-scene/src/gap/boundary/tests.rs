@@ -132,3 +132,15 @@ proptest! {
         }
     }
 }
+
+/// Neighbours of a box whose rows are displaced by the tilt: each pair of opposite ones once.
+#[test]
+fn images_of_a_tilted_box_are_its_eight_neighbours() {
+    let periods = Periods { lengths: [Some(3.0), Some(2.0)], tilt: 0.5 };
+    let found: Vec<Vec2> = shifts(periods, true).into_iter().flatten().collect();
+    let of = |rows: f64, columns: f64| Vec2::new(3.0 * columns + 0.5 * rows, 2.0 * rows);
+    assert_eq!(found, [of(0.0, 1.0), of(1.0, 0.0), of(1.0, 1.0), of(-1.0, 1.0)]);
+    let along = Periods { lengths: [Some(3.0), None], tilt: 0.0 };
+    assert_eq!(shifts(along, true), [Some(of(0.0, 1.0)), None, None, None]);
+    assert_eq!(shifts(periods, false), [Some(Vec2::ZERO), None, None, None]);
+}

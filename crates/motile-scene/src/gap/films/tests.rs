@@ -237,8 +237,8 @@ fn the_load_of_a_film_is_that_of_its_pair() {
             let load = films.load(&repulsion, &surfaces);
             let force = forces[..48].iter().map(|force| force.x).sum::<f64>();
             // The force on the first one is to the left, the other one 2.05 to its right.
-            assert!((load.virial[0][0] + 2.05 * force).abs() < 0.01 * force.abs(), "{load:?} {force}");
-            assert!(load.virial[1][1].abs() < 0.01 * load.virial[0][0], "{load:?}");
+            assert!((load.virial[0][0] + 2.05 * force).abs() < 1e-12 * force.abs(), "{load:?} {force}");
+            assert!(load.virial[1][1].abs() < 1e-12 * load.virial[0][0], "{load:?}");
             let film = load.mean_film.unwrap();
             assert!(film > 0.05 && film < 0.1 && load.largest_pressure <= repulsion.pressure(0.049), "{load:?}");
             load

@@ -74,7 +74,7 @@ fn bodies_beside_and_inside_one_another_do_not() {
             assert_eq!(depth([(circle(0.0, 1.0), INTERFACE), (circle(place, 0.5), kind)]), None, "{place}");
         }
         let found = depth([(circle(0.0, 1.0), INTERFACE), (circle(0.6, 0.5), kind)]).unwrap();
-        assert!((found - 0.1).abs() < 1e-3, "{found}");
+        assert!((found - 0.1).abs() < 1e-12, "{found}");
     }
     // A droplet inside a solid.
     assert!(depth([(circle(0.0, 1.0), MarkerKind::Points), (circle(0.3, 0.5), INTERFACE)]).unwrap() > 0.4);

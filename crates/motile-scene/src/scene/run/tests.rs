@@ -287,3 +287,18 @@ fn runs_that_are_stopped_save_a_last_checkpoint() {
     }
     assert_eq!(resumed.checkpoint(""), limited.checkpoint(""));
 }
+
+/// A run may take as many steps as are allowed, and not one more.
+#[test]
+fn a_run_takes_no_more_steps_than_allowed() {
+    let run = |most: usize| {
+        let mut scene = empty();
+        scene.add(drawn());
+        let outcome = scene.run(1.0).step_size(StepSize::Fixed(0.25)).most_steps(most).go();
+        (outcome, scene.steps())
+    };
+    let (outcome, steps) = run(4);
+    assert!(outcome.is_ok() && steps == 4, "{outcome:?} {steps}");
+    let (outcome, steps) = run(3);
+    assert!(matches!(outcome, Err(SceneError::TooManySteps { most: 3, .. })) && steps == 3, "{outcome:?} {steps}");
+}

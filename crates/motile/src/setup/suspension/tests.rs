@@ -255,3 +255,34 @@ fn the_area_fraction_is_met_or_refused() {
     assert_eq!(near.filled().unwrap(), Some(filled(&near)));
     assert_eq!(Setup::default().filled().unwrap(), None);
 }
+
+/// Least values of zero are refused where only positive ones make sense, and not for activities.
+#[test]
+fn ranges_that_begin_at_zero_are_refused() {
+    let region = Region::Box { lengths: [9.0, 7.0] };
+    let check = |suspension: SuspensionSetup| {
+        of(SuspensionSetup { count: Some(4), ..suspension }, region).placed().map(|_| ()).map_err(|e| e.to_string())
+    };
+    let from_zero = Some(Distribution::Between([0.0, 0.5]));
+    for suspension in
+        [SuspensionSetup { radius: from_zero, ..small() }, SuspensionSetup { viscosity: from_zero, ..small() }]
+    {
+        let error = check(suspension).unwrap_err();
+        assert!(error.contains("0 would be among them: give positive ones"), "{error}");
+    }
+    assert_eq!(check(SuspensionSetup { activity: Some(Distribution::Between([-0.5, 0.0])), ..small() }), Ok(()));
+    assert_eq!(check(SuspensionSetup { radius: Some(Distribution::Between([0.25, 0.5])), ..small() }), Ok(()));
+}
+
+/// Each droplet has a perturbation of its own, whose seeds count from that of the suspension.
+#[test]
+fn droplets_are_perturbed_one_by_one() {
+    let mut suspension = SuspensionSetup { count: Some(5), ..small() };
+    suspension.droplet.particles.as_mut().unwrap().start = Start::Perturbed { amplitude: 0.1, seed: 7 };
+    let placed = of(suspension, Region::Box { lengths: [9.0, 7.0] }).placed().unwrap();
+    let seed = |droplet: &DropletSetup| match droplet.particles.as_ref().unwrap().start {
+        Start::Perturbed { seed, .. } => seed,
+        _ => panic!("it is not perturbed"),
+    };
+    assert_eq!(placed.droplets.iter().map(seed).collect::<Vec<_>>(), [7, 8, 9, 10, 11]);
+}
