@@ -244,7 +244,7 @@ fn run(flags: &Flags, setup: &Setup) -> Result<()> {
             };
             let seen = Snapshot::take(scene.system_mut(), raster)?;
             let caption = format!("Ca = {},  viscosity ratio {}", flags.capillary_number(), flags.viscosity_ratio);
-            flags.output.look.apply(Look { caption, ..Look::of(&setup) }).write_picture(&seen, &[], picture)?;
+            flags.output.look.apply(Look { caption, ..Look::of(setup) }).write_picture(&seen, &[], picture)?;
         }
         Ok(())
     })

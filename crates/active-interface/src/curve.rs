@@ -320,7 +320,7 @@ impl Curve {
         let mut markers = if matches!(self.shape, Shape::Ellipse(a, b) if a == b) {
             (0..count).map(|k| self.point(k as f64 / count as f64)).collect()
         } else {
-            equidistant(|t| self.point(t), Vec2::ZERO, count)?
+            equidistant(|t| self.point(t), Vec2::ZERO, count, matches!(self.shape, Shape::Spline(_)))?
         };
         let moments = polygon_moments(&markers)?;
         if moments.area <= 0.0 {

@@ -14,8 +14,8 @@ const STALLED: usize = 5;
 
 /// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them,
 /// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates and of the
-/// parameter, if that is more). If there are none, because a corner is sharper than their distance, they are at equal
-/// arc lengths.
+/// parameter, if that is more). If there are none on a curve that may have corners, because a corner is sharper than
+/// their distance, they are at equal arc lengths.
 ///
 /// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
@@ -23,6 +23,7 @@ pub(crate) fn equidistant(
     point: impl Fn(f64) -> Vec2,
     advance: Vec2,
     count: usize,
+    has_corners: bool,
 ) -> Result<Vec<Vec2>, InterfaceError> {
     let chords = |points: &[Vec2]| {
         let next = points.iter().skip(1).copied().chain(points.first().map(|first| first + advance));
@@ -86,7 +87,7 @@ pub(crate) fn equidistant(
     }
     // Around a corner that is sharper than the distance of points there need be none at equal chords.
     let (least, most) = chords(&even).iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &c| (a.min(c), b.max(c)));
-    if most <= MAXIMUM_UNEVENNESS * least {
+    if has_corners && most <= MAXIMUM_UNEVENNESS * least {
         return Ok(even);
     }
     Err(InterfaceError::NoConvergence {

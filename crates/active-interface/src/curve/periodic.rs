@@ -44,7 +44,7 @@ pub fn wave(
         };
         Vec2::new(x, of(cosines, f64::cos) + of(sines, f64::sin))
     };
-    let mut markers = equidistant(point, Vec2::new(advance, 0.0), count)?;
+    let mut markers = equidistant(point, Vec2::new(advance, 0.0), count, false)?;
     let mean = area(&markers, advance) / advance;
     markers.iter_mut().for_each(|marker| marker.y += height + mean);
     Ok(markers)
@@ -59,7 +59,7 @@ pub fn wave(
 pub fn line_through(points: &[Vec2], advance: f64, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
     within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
     let curve = near_line(points, advance)?;
-    equidistant(|t| curve.spline.point(t), Vec2::new(advance, 0.0), count)
+    equidistant(|t| curve.spline.point(t), Vec2::new(advance, 0.0), count, true)
 }
 
 /// Largest distance of the curve of [`line_through`] from the polygon through its points (length).

@@ -346,7 +346,7 @@ fn a_step_restores_the_volume_of_a_body_of_revolution() {
     }
 }
 
-/// What the implicit part of the exchange gives to the interface it takes from inside.
+/// Implicit exchange takes from inside as many particles as it gives to the interface.
 #[test]
 fn implicit_exchange_keeps_the_number_of_particles() {
     let exchange = crate::Exchange::new(0.3, 0.7).unwrap();

@@ -83,7 +83,7 @@ fn the_nearest_image_is_the_nearest_of_all() {
             let found = nearest_image(difference, periods);
             let steps = (-9..=9).flat_map(|i| (-9..=9).map(move |j| (f64::from(i), f64::from(j))));
             let image = |(i, j): (f64, f64)| difference + Vec2::new(i * lengths[0] + j * tilt, j * lengths[1]);
-            let least = steps.map(image).map(|image| image.length()).fold(f64::INFINITY, f64::min);
+            let least = steps.map(image).map(Vec2::length).fold(f64::INFINITY, f64::min);
             assert!((found.length() - least).abs() < 1e-12, "{tilt} {difference}: {found} {least}");
         }
     }

@@ -70,7 +70,7 @@ fn bodies_without_droplets_leave_tables() {
     std::fs::remove_dir_all(&directory).unwrap();
 }
 
-/// What a droplet keeps is its area in the plane and its volume in three dimensions.
+/// A droplet keeps its area in the plane and its volume in three dimensions.
 #[test]
 fn droplets_of_revolution_have_a_volume() {
     let method = Method::Integral(IntegralMethod { nodes: 48, elements: 96 });

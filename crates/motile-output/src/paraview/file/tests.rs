@@ -30,8 +30,9 @@ fn wrong_lengths_names_and_corners_are_refused() {
 
 #[test]
 fn open_lines_do_not_return_to_their_start() {
-    let square = CORNERS.map(Vec2::from).to_vec();
-    let document = VtkFile::lines(&[square.clone()], &[square[..3].to_vec(), square]).document().unwrap();
+    let square = [CORNERS.map(Vec2::from).to_vec()];
+    let open = [square[0][..3].to_vec(), square[0].clone()];
+    let document = VtkFile::lines(&square, &open).document().unwrap();
     let corners = connectivity(&[0, 1, 2, 3, 0, 4, 5, 6, 7, 8, 9, 10], &[5, 8, 12]);
     assert!(document.contains(&corners), "{document}");
 }
