@@ -100,7 +100,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.integral.elements", nodes(64, usize::MAX)),
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
         ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
-        ("method.grid.spacing = 0.1: a length of 1000 would take 1.0e4 cells, 1.0e8 in all", {
+        ("method.grid.spacing = 0.1: a length of 1000 would take 10000 cells, 1.0e8 in all", {
             Setup { region: Region::Box { lengths: [1e3; 2] }, ..grid(coarse) }
         }),
         ("droplets[0].particles.start.perturbed.amplitude = 1: give a number from 0 to below 1", {

@@ -100,7 +100,7 @@ fn nodes_that_were_not_merged_are_refused() {
     };
     let error = |x| GmshMesh::from_text(&text(x)).unwrap_err();
     assert!(is_refused(&error(0.0), "points 0 and 3 coincide at (0.0000, 0.0000)"));
-    assert!(is_refused(&error(5e-4), "points 0 and 3 coincide at (0.0005, 0.0000)"));
+    assert!(is_refused(&error(5e-4), "points 0 and 3 coincide at (5e-4, 0.0000)"));
     assert!(is_refused(&error(2e-3), "points 2 and 4 coincide at (1.0000, 1.0000)"));
     assert!(error(0.0).to_string().ends_with("duplicate nodes)"));
 }
