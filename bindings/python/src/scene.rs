@@ -351,7 +351,6 @@ impl Scene {
                 other.set_tension(*index, law.clone())?;
             }
             other.scene.resume(&state.scene.checkpoint(self.description.fingerprint())).map_err(failed)?;
-            other.meters.clone_from(&state.meters);
             other.records.clone_from(&state.records);
             other.warnings.clone_from(&state.warnings);
         }

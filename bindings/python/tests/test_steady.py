@@ -14,7 +14,9 @@ def test_a_swimmer_in_a_channel() -> None:
     assert swimmer.setup == setup and swimmer.positions.shape == (72, 2)
     values, symmetries = swimmer.spectrum()
     assert symmetries[0] == "antisymmetric" and values[0].imag == pytest.approx(0.0336, abs=2e-4)
-    assert swimmer.is_stable() is True and 0 <= swimmer.growth_rate_error() < 1e-2 and "0.137" in repr(swimmer)
+    # The rate of the leading mode is within its error, so that nothing is decided.
+    error = swimmer.growth_rate_error()
+    assert swimmer.is_stable() is None and abs(values[0].real) < error < 1e-2 and "0.137" in repr(swimmer)
 
 
 def test_a_branch_and_how_it_ends() -> None:

@@ -215,18 +215,18 @@ class Scene:
 
         All observables of all droplets are recorded at multiples of `every` (time), after every step if None.
         `callback` is called with the scene at the same times (at the end alone if `every` is None), the start among
-        them, and may look at everything; what it raises ends the run. `step` is a step size as in a setup (`{"fixed": 0.01}`), the setup's
-        by default. With `progress` there is a bar in the terminal or notebook. `checkpoint` is saved with each call of
-        the callback and at the end.
+        them, and may look at everything; what it raises ends the run. `step` is a step size as in a setup
+        (`{"fixed": 0.01}`), the setup's by default. With `progress` there is a bar in the terminal or notebook.
+        `checkpoint` is saved after each call of the callback, except at the start, and at the end.
         """
-        first = len(self._scene.records())
+        first, start = len(self._scene.records()), self.time
         bar = _Bar(self.time, until) if progress else None
         try:
             for stop in self._stops(until, every if callback or checkpoint else None):
                 self._scene.advance(stop, every, dict(step) if step else None, bar)
                 if callback:
                     callback(self)
-                if checkpoint:
+                if checkpoint and self.time > start:
                     self.save(checkpoint)
         finally:
             if bar:

@@ -13,6 +13,8 @@ const MOST_UNEVEN: f64 = 3.0;
 const DISTANCES: [f64; 4] = [0.15, 0.05, 0.015, 0.005];
 /// Most halvings of sides; a side is then a millionth of a millionth of what it was.
 const HALVINGS: usize = 40;
+/// Most pieces of the curve: where round-off is larger than the distances that are allowed, no halving ends.
+const MOST_PIECES: usize = 1 << 14;
 /// Places on a piece at which its distance is measured.
 const SAMPLES: u32 = 8;
 
@@ -98,6 +100,9 @@ impl NearPolygon {
                 }
             }
             (places, sides) = (finer, owners);
+            if places.len() > MOST_PIECES.max(4 * count) {
+                break;
+            }
         }
         Err(InterfaceError::strays(sides.first().copied().unwrap_or_default()))
     }

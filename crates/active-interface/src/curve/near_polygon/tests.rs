@@ -108,3 +108,13 @@ fn a_traced_outline_has_markers() {
         assert!((crate::polygon_area(&markers).unwrap() / curve.area() - 1.0).abs() < 1e-9);
     }
 }
+
+/// Beside a far point round-off is larger than the distances that are allowed: an error, after little work.
+#[test]
+fn points_that_no_curve_is_near_are_refused() {
+    for far in [1e20, 1e30, 1e100] {
+        let mut octagon: Vec<Vec2> = (0..8).map(|k| Vec2::from_angle(TAU * f64::from(k) / 8.0)).collect();
+        octagon[3] = Vec2::new(-far, 0.7 * far);
+        assert!(Curve::through_points(&octagon).is_err(), "{far}");
+    }
+}
