@@ -72,10 +72,6 @@ struct TubeFlags {
     /// Radius of the droplets (R0)
     #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
     radius: f64,
-    /// Squeeze droplets that are wider than their tube to spheroids of their volume, at the start; without it they are
-    /// refused
-    #[arg(long)]
-    squeezed: bool,
     /// Place of the first droplet on the axis (R0) [default: 0; before a constriction two radii]
     #[arg(long, allow_hyphen_values = true)]
     start: Option<f64>,
@@ -149,7 +145,6 @@ impl TubeFlags {
         let first = self.start.unwrap_or_else(|| self.passage().map_or(0.0, |end| -end - 2.0 * self.radius));
         let mut droplet = setup.droplets[0].clone();
         droplet.shape = DropletShape::Round { radius: self.radius };
-        droplet.squeezed = self.squeezed;
         setup.droplets = (0..self.droplets)
             .map(|number| {
                 let mut droplet = droplet.clone();
