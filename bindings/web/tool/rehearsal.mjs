@@ -48,6 +48,17 @@ for (const { scene } of FIRST.map((name) => known.find((preset) => preset.name =
     }
   }
   run(engine, 4);
+  // A slider that is moved while it runs, and what follows.
+  for (const { name, least, value } of JSON.parse(engine.about()).knobs.filter(({ name }) => name === "activity")) {
+    try {
+      engine.turn(name, Math.max(least, 2 * value));
+      run(engine, engine.time() + 2);
+    } catch {
+      // Films may become too thin.
+    }
+    engine.warnings();
+    engine.turn(name, value);
+  }
   engine.speed(0);
   const text = engine.scene();
   for (const way of ["command", "python", "rust"]) engine.code(way, 20);
