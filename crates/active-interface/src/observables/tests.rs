@@ -151,19 +151,18 @@ fn spheroids_and_squirmers_in_three_dimensions() {
         };
         observe(&state, Convention::FarField).unwrap()
     };
-    let pi = std::f64::consts::PI;
     let spheroid = seen([1.5, 0.0], &|_| Vec2::new(0.2, 0.0));
     assert_relative_eq!(spheroid.aspect_ratio_moments, 1.5, max_relative = 1e-9);
-    assert_relative_eq!(spheroid.area, 2.0 * pi, max_relative = 1e-9);
+    assert_relative_eq!(spheroid.area, 2.0 * PI, max_relative = 1e-9);
     let eccentricity = (1.0 - 1.0 / 2.25_f64).sqrt();
-    let surface = 2.0 * pi * (1.0 + 1.5 / eccentricity * eccentricity.asin());
+    let surface = 2.0 * PI * (1.0 + 1.5 / eccentricity * eccentricity.asin());
     assert_relative_eq!(spheroid.perimeter, surface, max_relative = 1e-9);
     assert_relative_eq!(spheroid.centroid.x, 4.0, max_relative = 1e-12);
     assert_relative_eq!(spheroid.velocity.x, 0.2, max_relative = 1e-9);
 
     let lens = seen([0.7, 0.4], &|_| Vec2::new(0.2, 0.0));
     let integral = |of: &dyn Fn(f64, f64) -> f64| {
-        let parts = (1..1000).map(|k| f64::from(k) * pi / 1000.0);
+        let parts = (1..1000).map(|k| f64::from(k) * PI / 1000.0);
         parts.map(|t| of(0.7 * t.cos(), bulge(t, 0.4)) * 0.7 * t.sin()).sum::<f64>()
     };
     let ratio = integral(&|x, r| x * x * r * r) / integral(&|_, r| 0.25 * r.powi(4));
