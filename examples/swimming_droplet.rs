@@ -8,8 +8,8 @@
 //! * `trajectory.csv`, all observables over time, and `summary.json`, the results;
 //! * `vtk/fields.pvd` and `vtk/interface.pvd`, the flow and the interface for ParaView.
 //!
-//! Of a scene file whose first droplet has no particles, or that has none, it records all droplets, interfaces and other
-//! bodies, and the flow (`droplets.csv`, `interfaces.csv`, `bodies.csv`, `flow.csv`), and draws the end.
+//! Of a scene file whose first droplet has no particles, or that has none, it records all droplets, interfaces and
+//! other bodies, and the flow (`droplets.csv`, `interfaces.csv`, `bodies.csv`, `flow.csv`), and draws the end.
 //!
 //! `--help` lists the flags.
 

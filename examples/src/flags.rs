@@ -31,8 +31,8 @@ const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-gradient", "No mean pressure gradient, as in Cowley", Drive::ZeroGradient),
 ];
 
-/// The droplets of a scene: each flag changes all droplets that it can apply to. What is not given stays as it is in the
-/// scene, by default as listed.
+/// The droplets of a scene: each flag changes all droplets that it can apply to. What is not given stays as it is in
+/// the scene, by default as listed.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DropletFlags {
     /// Activity zeta delta-mu of all droplets with particles, negative: contractile [default: -2]

@@ -4,8 +4,8 @@
 const LATE: f64 = 0.5;
 
 /// Mean rate at which the direction of motion turns in the second half of a run (radians per time): the slope of the
-/// line nearest to it. Nothing of fewer than three points (time, heading in degrees); those without a heading, which are
-/// not numbers, do not count.
+/// line nearest to it. Nothing of fewer than three points (time, heading in degrees); those without a heading, which
+/// are not numbers, do not count.
 #[must_use]
 pub fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
     let (end, _) = *headings.last()?;

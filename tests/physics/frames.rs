@@ -16,7 +16,7 @@ fn integral() -> Method {
     Method::Integral(IntegralMethod { nodes: 48, elements: 192 })
 }
 
-/// What is seen of the first droplet at times, of a flow that is exact to round-off.
+/// Observables of the first droplet at several times, in a flow that is exact to round-off.
 fn seen(setup: &Setup, times: &[f64]) -> Vec<Observables> {
     let tolerance = (setup.method.kind() == MethodKind::Integral).then_some(1e-14);
     let Built { mut scene, droplets, .. } = Setup { tolerance, ..setup.clone() }.build().expect("a valid scene");
@@ -99,7 +99,7 @@ fn uniform_droplets_have_no_heading() {
     assert!(members[2].shape.angle.is_none() && members[0].shape.angle.is_some());
 }
 
-/// Whatever is not a place or a velocity of the whole motion is the same for an observer who is carried along.
+/// An observer who is carried along sees the same values, except for places and velocities of the whole motion.
 fn assert_same(one: &Observables, other: &Observables, about: &str) {
     let scale = |name: &str| -> f64 {
         // Moments of forces, in units of the tension.
@@ -126,7 +126,7 @@ fn assert_same(one: &Observables, other: &Observables, about: &str) {
     assert!((one.relative_velocity - other.relative_velocity).length() < 1e-10);
 }
 
-/// The same droplet elsewhere in a linear flow, in a frame that moves with it.
+/// A droplet is as it was if you shift it in a linear flow and look from a frame that moves with it.
 #[test]
 fn a_droplet_shifted_across_a_flow_is_the_same() {
     let active = DropletSetup::active(-3.0);
@@ -169,7 +169,7 @@ fn a_drop_in_a_parabolic_flow_slips_by_its_curvature() {
     assert!((seen.heading().expect("a slip").abs() - std::f64::consts::PI).abs() < 1e-6);
 }
 
-/// The same droplet in another image of a sheared box, at the start and after the images have moved.
+/// A droplet is as it was in another image of a sheared box, at the start and after the images have moved.
 #[test]
 fn a_droplet_moved_by_a_period_of_a_sheared_box_is_the_same() {
     let flow = FlowSetup { shear: 0.5, ..FlowSetup::default() };

@@ -277,8 +277,8 @@ impl Scene {
         self.lock()?.set_tension(droplet, law)
     }
 
-    /// Velocities (length per time), pressures (stress) with the mean pressure gradient, and velocity gradients (1/time)
-    /// at points, an array of shape (n, 2).
+    /// Velocities (length per time), pressures (stress) with the mean pressure gradient, and velocity gradients
+    /// (1/time) at points, an array of shape (n, 2).
     #[allow(clippy::type_complexity)]
     fn sample<'py>(
         &self,

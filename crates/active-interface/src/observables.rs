@@ -125,8 +125,8 @@ impl InterfaceState<'_> {
         Ok((rest * fastest).max(ROUND_OFF * forces / (size * (self.viscosities[0] + self.viscosities[1]))))
     }
 
-    /// Returns the force moments about the origin of `frame`, which must be the centroid, in the axes of `frame`, of the
-    /// droplet with the bodies inside it. Velocities are those relative to the imposed flow at the centroid.
+    /// Returns the force moments about the origin of `frame`, which must be the centroid, in the axes of `frame`, of
+    /// the droplet with the bodies inside it. Velocities are those relative to the imposed flow at the centroid.
     ///
     /// # Errors
     /// Returns an error if lists differ in length or a value is not finite.

@@ -40,8 +40,8 @@ pub fn told(value: f64) -> String {
     rounded(5, value)
 }
 
-/// Text of a number with so many decimals, or with a digit more than that where decimals would show fewer than two digits
-/// of it: a file may be in any unit.
+/// Text of a number with so many decimals, or with a digit more than that where decimals would show fewer than two
+/// digits of it: a file may be in any unit.
 ///
 /// ```
 /// use motile_base::internal::decimals;

@@ -26,6 +26,7 @@ pub struct SolveReport {
     pub iterations: usize,
     /// Relative residual; 0 for a direct solver, which is exact to round-off.
     pub residual: f64,
-    /// Mean pressure gradient (stress per length), the uniform part of grad p; in a periodic box the mean force density.
+    /// Mean pressure gradient (stress per length), the uniform part of grad p; in a periodic box the mean force
+    /// density.
     pub mean_pressure_gradient: [f64; 2],
 }

@@ -129,8 +129,8 @@ fn asters_and_vortices_turn_as_they_should() {
     }
 }
 
-/// The error around a core is told as it is found for the worst of the thresholds of asters and vortices; where there is
-/// no defect nothing is told.
+/// The error around a core is told as it is found for the worst of the thresholds of asters and vortices; where there
+/// is no defect nothing is told.
 #[test]
 fn cores_of_defects_that_are_not_resolved_are_told() {
     for cells in [40, 80, 160] {

@@ -255,7 +255,7 @@ pub fn cheapest(
 mod tests {
     use super::*;
 
-    /// What was measured to be cheaper at the same error is recommended.
+    /// The method that was measured to be cheaper at an error is recommended.
     #[test]
     fn the_cheaper_method_is_recommended() {
         let kind = |scene, droplets, error| cheapest(scene, droplets, 0, error).unwrap().method.kind();

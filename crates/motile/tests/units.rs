@@ -1,5 +1,5 @@
-//! Nothing depends on the units: scenes in other units of length, time and force take the same steps to the same places.
-//! What each key of a scene file changes by with the units is what its reference says in parentheses.
+//! Nothing depends on the units: scenes in other units of length, time and force take the same steps to the same
+//! places. What each key of a scene file changes by with the units is what its reference says in parentheses.
 #![cfg(feature = "toml")]
 
 mod dimensions;
@@ -264,7 +264,7 @@ fn all() -> Vec<(String, String)> {
     [reference].into_iter().chain(examples()).chain(others).collect()
 }
 
-/// What differs in other units, relative to the extent of the scene.
+/// Largest difference in other units, relative to the extent of the scene.
 fn difference(dimensions: &Dimensions, plain: &Value, expected: &Seen, units: Dimension) -> Result<f64, String> {
     let mut scaled = plain.clone();
     dimensions.scale(&mut scaled, units);

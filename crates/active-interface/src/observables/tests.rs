@@ -123,9 +123,9 @@ fn a_drop_without_particles_at_rest() {
     }
 }
 
-/// In three dimensions: a spheroid has its aspect ratio, volume and surface, a thick lens the ratio of its second moments
-/// `INT x^2 r^2 dx` and `INT r^4/4 dx`, and a sphere the projections of the flow on it, `sin^3` and `sin^3 cos` in its
-/// frame: 4/5 of the first on B1 and 4/7 of the second on B2.
+/// In three dimensions: a spheroid has its aspect ratio, volume and surface, a thick lens the ratio of its second
+/// moments `INT x^2 r^2 dx` and `INT r^4/4 dx`, and a sphere the projections of the flow on it, `sin^3` and `sin^3 cos`
+/// in its frame: 4/5 of the first on B1 and 4/7 of the second on B2.
 #[test]
 fn spheroids_and_squirmers_in_three_dimensions() {
     let bulge = |t: f64, more: f64| t.sin() * (1.0 + more * t.sin().powi(2));

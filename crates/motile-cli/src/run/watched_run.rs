@@ -234,8 +234,8 @@ impl WatchedRun {
     }
 }
 
-/// Title of pictures: the parameters of all droplets of a scene, and of their particles. Where droplets differ, it tells
-/// the least and the largest value.
+/// Title of pictures: the parameters of all droplets of a scene, and of their particles. Where droplets differ, it
+/// tells the least and the largest value.
 fn caption(setup: &Setup, region: &str) -> String {
     let droplets = || setup.droplets.iter();
     let particles = || droplets().filter_map(|droplet| droplet.particles);

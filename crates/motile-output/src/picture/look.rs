@@ -20,12 +20,12 @@ pub type Track = Vec<(f64, Vec2)>;
 
 /// Settings of pictures of scenes.
 ///
-/// A picture shows pressure in colour ([`motile::base::FlowSample::pressure`]), streamlines in the laboratory frame, the interfaces of all droplets coloured by
-/// their concentrations (black without particles), densities of particles that diffuse inside in place of the pressure,
-/// directors and defects of gels, solids and rigid walls, the time and a scale bar; between walls also the paths of the
-/// droplets. In periodic directions everything is drawn with its periodic images, so positions need not be wrapped.
-/// Lines are as wide as fits the size of the droplets on paper. Where the flow has a mirror line, so have the
-/// streamlines.
+/// A picture shows pressure in colour ([`motile::base::FlowSample::pressure`]), streamlines in the laboratory frame,
+/// the interfaces of all droplets coloured by their concentrations (black without particles), densities of particles
+/// that diffuse inside in place of the pressure, directors and defects of gels, solids and rigid walls, the time and a
+/// scale bar; between walls also the paths of the droplets. In periodic directions everything is drawn with its
+/// periodic images, so positions need not be wrapped. Lines are as wide as fits the size of the droplets on paper.
+/// Where the flow has a mirror line, so have the streamlines.
 ///
 /// A panel of a figure, a column wide, with pressures from -20 to 20 in colour:
 ///
@@ -175,8 +175,8 @@ impl Look {
     /// [`OutputError::Size`]: a width outside of 1 to 100 cm, type outside of 1 to 72 pt, a resolution outside of 10 to
     /// 1000 pixels per cm, or a PNG file with a side of more than 16384 pixels; [`OutputError::Range`]: a range of the
     /// pressure that is empty or not finite; [`OutputError::Write`]; [`OutputError::Streamlines`];
-    /// [`OutputError::Count`]: a snapshot with other than one sample for each cell; [`OutputError::Format`]: a name that
-    /// ends in neither `.svg` nor `.png`.
+    /// [`OutputError::Count`]: a snapshot with other than one sample for each cell; [`OutputError::Format`]: a name
+    /// that ends in neither `.svg` nor `.png`.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         OutputError::check_format(path.as_ref(), &["svg", "png"])?;
         self.picture(seen, tracks)?.write(path.as_ref(), 1.0)

@@ -7,8 +7,8 @@ use crate::drawing::axes::AxisScale;
 use crate::plot::{contents::Plot, figure::Figure, series::Series};
 use crate::{CsvTable, OutputError};
 
-/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap. Quantities are
-/// in the units of the scene.
+/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.
+/// Quantities are in the units of the scene.
 ///
 /// # Errors
 /// [`OutputError::Column`]: a table without these columns.

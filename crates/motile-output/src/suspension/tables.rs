@@ -54,16 +54,15 @@ const MEMBERS: [&str; 12] = [
 /// Observer of all droplets of a scene together, which writes `suspension.csv` and `members.csv`.
 ///
 /// The columns of `suspension.csv`, of which fields are empty where a quantity does not exist: `time`; `polar_order`
-/// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean relative to the imposed flow (length per time);
-/// `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start; `contacts`,
-/// pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below the reach
-/// (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`, the largest
-/// pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a droplet
-/// since the start; `stress_xx`, `stress_xy`, `stress_yy` of the droplets in a box, over its area, and
+/// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean relative to the imposed flow (length
+/// per time); `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start;
+/// `contacts`, pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below
+/// the reach (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`,
+/// the largest pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a
+/// droplet since the start; `stress_xx`, `stress_xy`, `stress_yy` of the droplets in a box, over its area, and
 /// `contact_stress`, the pressure that a repulsion transmits between them (force per length). The columns of
-/// `members.csv`: `time`, `droplet`, centroid, heading, velocity, deformation and inclination of the
-/// ellipse with its moments, and stresslet in the axes x and y of each droplet. A droplet whose particles are
-/// uniform has no heading.
+/// `members.csv`: `time`, `droplet`, centroid, heading, velocity, deformation and inclination of the ellipse with its
+/// moments, and stresslet in the axes x and y of each droplet. A droplet whose particles are uniform has no heading.
 ///
 /// ```
 /// use motile::prelude::*;

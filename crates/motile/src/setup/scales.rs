@@ -3,9 +3,9 @@
 use super::Setup;
 
 impl Setup {
-    /// Returns the length that the scene is about: the radius of its first droplet, or of its first rigid body or shell,
-    /// or a sixth of the smaller side of its region; 1 where it has none of these. Suspensions count once they are
-    /// placed ([`Setup::placed`]).
+    /// Returns the length that the scene is about: the radius of its first droplet, or of its first rigid body or
+    /// shell, or a sixth of the smaller side of its region; 1 where it has none of these. Suspensions count once they
+    /// are placed ([`Setup::placed`]).
     #[must_use]
     pub fn length_scale(&self) -> f64 {
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape);
@@ -24,8 +24,8 @@ impl Setup {
         if radius.is_some_and(is_unit) { "R_{0}" } else { "" }
     }
 
-    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures: that of particles
-    /// that diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's shape,
+    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures: that of
+    /// particles that diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's shape,
     /// `0.1 eta L/gamma`, or that of the imposed flow; 1 where it has none of these.
     #[must_use]
     pub fn time_scale(&self) -> f64 {

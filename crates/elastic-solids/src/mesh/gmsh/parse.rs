@@ -8,7 +8,8 @@ use motile_base::Vec2;
 use super::PhysicalGroup;
 use crate::SolidError;
 
-/// Distance of nodes from their plane up to which they lie in it, over the extent of the mesh (no dimension): round-off.
+/// Distance of nodes from their plane up to which they lie in it, over the extent of the mesh (no dimension):
+/// round-off.
 const FLAT: f64 = 1e-9;
 
 /// Contents of a file, as far as they belong to the mesh.

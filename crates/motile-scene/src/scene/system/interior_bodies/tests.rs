@@ -100,7 +100,8 @@ fn interior_bodies_change_the_whole_host_and_nothing_else() {
     assert_eq!(pushed, [0.0, 1.0, 1.0, 0.0, 0.0]);
 }
 
-/// At the end of each step an interior body has seen its host where the step has taken it, at the rate of 10 and its own 1.
+/// At the end of each step an interior body has seen its host where the step has taken it, at the rate of 10 and its
+/// own 1.
 #[test]
 fn interior_bodies_see_their_host_at_the_end_of_a_step() {
     let mut scene = Scene::new(DragBox::new(80.0, 1.0, 0.1));
