@@ -153,10 +153,13 @@ impl Body for ActiveDroplet {
         });
         let stresslet = self.stresslet_error(view).filter(|found| found.excess > 1.0).map(|found| {
             let StressletError { magnitude, error, excess } = found;
-            let message = format!(
-                "its stresslet, {magnitude:.2e}, may err by {error:.1e} (force times length): use a finer grid, or \
-                 boundary integrals"
-            );
+            let remedy = match (view.spacing, view.shape_modes) {
+                (Some(_), None) => "a finer grid, or boundary integrals",
+                (Some(_), Some(_)) => "a smaller grid spacing, or more nodes and elements",
+                _ => "more nodes and elements",
+            };
+            let message =
+                format!("its stresslet, {magnitude:.2e}, may err by {error:.1e} (force times length): use {remedy}");
             ("stresslet not resolved", excess, message)
         });
         let own = coarse.into_iter().chain(stresslet).map(|doubt| self.interface.warning(doubt));

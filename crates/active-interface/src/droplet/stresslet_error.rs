@@ -1,9 +1,10 @@
-//! Error of the stresslet on a grid.
+//! Error of the stresslet, on a grid and by boundary integrals.
 
 use std::f64::consts::TAU;
 
 use motile_base::Vec2;
 use motile_scene::FluidView;
+use num_complex::Complex64;
 
 use crate::ActiveDroplet;
 use crate::curve::polygon::edges;
@@ -18,11 +19,21 @@ const STEEP: f64 = 0.007;
 const BESIDE_IMAGES: f64 = 0.3;
 const BESIDE_WALLS: f64 = 0.07;
 const CORRECTED_MOST: f64 = 2.5;
+/// By boundary integrals: in units of the waves of the tension that the nodes cut off, over the mean tension and the
+/// number of nodes, and of the number of [`STEEP`] over the square of the elements.
+const OF_NODES: f64 = 4.0;
+const OF_ELEMENTS: f64 = 1.5;
+/// Waves of the tension that are looked at, from the shortest that nodes carry on.
+const WAVES: usize = 8;
+/// By layers beside solids: in units of the number of [`STEEP`] squared and of (h/R)^1.5, the order that was found with
+/// gaps of 0.16 R to elastic walls.
+const OF_SOLIDS: f64 = 0.004;
 /// Part of the stresslet that its error may be without a warning.
 const TOLERATED: f64 = 0.01;
-/// Stresslet over gamma R below which errors are compared with this instead: a stresslet that changes its sign has no
-/// relative error then.
-const SMALLEST: f64 = 0.05;
+/// Stresslet over gamma R below which errors are compared with this instead, on grids and without: a stresslet that
+/// changes its sign has no relative error then. Without a grid the error that is told is up to five times too large in
+/// wide regions.
+const SMALLEST: [f64; 2] = [0.05, 0.1];
 
 /// Stresslet of the tensions, and the error to be expected of it (both force times length).
 #[derive(Debug, Clone, Copy)]
@@ -36,25 +47,47 @@ pub(super) struct StressletError {
 }
 
 impl ActiveDroplet {
-    /// Error of the stresslet on the grid of `view`; `None` without a grid, and for droplets without particles, whose
-    /// shape and forces relax to none.
+    /// Error of the stresslet in the flow of `view`; `None` in three dimensions, and for droplets without particles,
+    /// whose shape and forces relax to none.
     ///
     /// The stresslet `-integral gamma (tt - 1/2) ds` is what remains of a mean tension that is an order of magnitude
     /// larger: its error is that of the shape times the mean tension, and speeds do not show it.
     pub(super) fn stresslet_error(&self, view: &FluidView) -> Option<StressletError> {
-        let spacing = grid_spacing(view).filter(|_| self.interface.carries())?;
+        if !self.interface.carries() || self.interface.is_axisymmetric() {
+            return None;
+        }
         let (tensions, lengths) = (self.tensions(), self.element_lengths());
         let perimeter = self.interface.geometry().perimeter;
         let radius = perimeter / TAU;
         let (mut mean, mut dipole) = (0.0, Vec2::ZERO);
         for (((a, b), tension), length) in edges(self.markers()).zip(tensions).zip(lengths) {
             let d = b - a;
-            mean += tension * length / perimeter;
+            mean += tension.abs() * length / perimeter;
             dipole -= tension / length * Vec2::new(0.5 * (d.x * d.x - d.y * d.y), d.x * d.y);
         }
         let unit = mean * radius;
+        let steepness = self.element_peclet() * lengths.len() as f64 / TAU;
+        let part = match (grid_spacing(view), view.shape_modes) {
+            (Some(spacing), _) => self.part_on_grid(view, spacing, radius, steepness),
+            (None, Some(nodes)) => {
+                let elements = lengths.len() as f64;
+                let beside_solids = view.spacing.map_or(0.0, |spacing| OF_SOLIDS * (spacing / radius).powf(1.5));
+                let of_shape = OF_NODES * cut_off(self.tensions(), nodes) / nodes as f64;
+                let of_concentration = OF_ELEMENTS * steepness / (elements * elements);
+                of_shape / mean + of_concentration + steepness * steepness * beside_solids
+            }
+            (None, None) => return None,
+        };
+        let (magnitude, error) = (dipole.length(), part * unit);
+        let smallest = SMALLEST[usize::from(view.shape_modes.is_some())];
+        let tolerated = TOLERATED * magnitude.max(smallest * unit);
+        Some(StressletError { magnitude, error, excess: error / tolerated })
+    }
+
+    /// Error over gamma R on a grid of that spacing.
+    fn part_on_grid(&self, view: &FluidView, spacing: f64, radius: f64, steepness: f64) -> f64 {
         let cells = spacing / radius;
-        let part = if view.second_order {
+        if view.second_order {
             let markers = || self.markers().iter();
             let gap = view.domain.walls.map_or(f64::INFINITY, |[bottom, top]| {
                 markers().fold(f64::INFINITY, |gap, x| gap.min(x.y - bottom).min(top - x.y))
@@ -67,15 +100,26 @@ impl ActiveDroplet {
             let to_image =
                 |period: Option<f64>, extent: f64| period.map_or(f64::INFINITY, |period| 0.5 * (period - extent));
             let half = to_image(x, wide).min(to_image(y, high)).max(0.5 * spacing);
-            let steepness = self.element_peclet() * lengths.len() as f64 / TAU;
             let open = STEEP * steepness * steepness * (1.0 + BESIDE_IMAGES * (radius / half).powf(1.5));
             let walls = BESIDE_WALLS * (radius / gap.max(spacing)).powi(3);
             (open + walls).min(CORRECTED_MOST) * cells * cells
         } else {
             UNCORRECTED * cells
-        };
-        let (magnitude, error) = (dipole.length(), part * unit);
-        let tolerated = TOLERATED * magnitude.max(SMALLEST * unit);
-        Some(StressletError { magnitude, error, excess: error / tolerated })
+        }
     }
+}
+
+/// Root mean square of the amplitudes of the waves of values along an interface that so many nodes do not carry.
+fn cut_off(values: &[f64], nodes: usize) -> f64 {
+    let count = values.len();
+    let first = (nodes / 2).min(count / 2);
+    let waves = first..(first + WAVES).min(count / 2 + 1);
+    let square = |wave: usize| {
+        let turn = Complex64::cis(TAU * wave as f64 / count as f64);
+        let start = (Complex64::ZERO, Complex64::ONE);
+        let (sum, _) = values.iter().fold(start, |(sum, at), &value| (sum + at * value, at * turn));
+        (2.0 / count as f64).powi(2) * sum.norm_sqr()
+    };
+    let number = waves.len() as f64;
+    (waves.map(square).sum::<f64>() / number).sqrt()
 }
