@@ -19,9 +19,8 @@ use clap::{Parser, ValueEnum};
 use motile::active_interface::Motion;
 use motile::base::{Drive, Region};
 use motile::setup::{DropletSetup, ElasticitySetup, InterfaceSetup, Particles, Setup, Side, Start};
-use motile_cli::run::{OutputFlags, SceneRun};
+use motile_cli::run::{OutputFlags, SceneRun, View};
 use motile_examples::{DropletFlags, MethodFlags, finite, pair, positive};
-use motile_output::Look;
 
 /// Body between the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -83,22 +82,20 @@ fn main() -> ExitCode {
 
 fn simulate(flags: &Flags) -> Result<()> {
     let setup = scene(flags)?;
-    let spacing = flags.method.spacing(&setup);
-    let look = Look::of(&setup);
-    let mut run = SceneRun::new(setup.build()?, &setup, flags.method.time, &flags.output, "active_walls", spacing)?;
-    run.go()?;
+    let view = View { spacing: flags.method.spacing(&setup), region: format!("gap = {}", flags.gap) };
+    let mut run = SceneRun::new(setup.build()?, &setup, flags.method.time, &flags.output, "active_walls", &view)?;
+    run.go(None)?;
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    if let Some(table) = run.droplets() {
-        let track = table.table().curve("time", "x")?;
+    let tables = [run.table().ok(), run.droplets().map(motile_output::DropletsCsv::table)];
+    if let Some(table) = tables.into_iter().flatten().next() {
+        let track = table.curve("time", "x")?;
         let late = track.iter().find(|(time, _)| *time >= 0.5 * run.scene.time()).zip(track.last());
         let mean = late.map(|(first, last)| (last.1 - first.1) / (last.0 - first.0));
         summary.put("droplet_speed_along", mean, "along the walls, mean over the second half (R0 per time)");
     }
-    let concentration = Some(Particles::default().concentration);
-    let caption = format!("wall activity {}, gap {}", flags.wall_activity, flags.gap).replace('-', "−");
-    run.finish(&summary, &Look { caption, concentration, ..look })
+    run.finish(&summary)
 }
 
 /// The scene that the flags describe.

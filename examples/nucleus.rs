@@ -140,7 +140,7 @@ fn swim(Flags { core: core_flags, scene: flags }: &Flags) -> Result<()> {
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let turning = turning_rate(&run.table().curve("time", "heading_degrees")?);
+    let turning = turning_rate(&run.table()?.curve("time", "heading_degrees")?);
     let speed = run.last()?.observables.speed();
     summary.put("turning_rate", turning, "of the heading, in the second half of the run (radians per time)");
     // Straight tracks turn by round-off alone.

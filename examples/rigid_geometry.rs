@@ -183,7 +183,7 @@ fn swim(flags: &Flags) -> Result<()> {
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let track: Vec<(f64, f64)> = run.track().iter().map(|(time, place)| (*time, place.x)).collect();
+    let track: Vec<(f64, f64)> = run.track()?.iter().map(|(time, place)| (*time, place.x)).collect();
     let mean = mean_speed(&track, length);
     summary.put("passed", mean.is_some(), "whether it has come by all of the geometry, a period");
     summary.put("mean_speed", mean, "over the last period (R0 per time), if it has passed");

@@ -8,8 +8,8 @@
 //! * `trajectory.csv`, all observables over time, and `summary.json`, the results;
 //! * `vtk/fields.pvd` and `vtk/interface.pvd`, the flow and the interface for ParaView.
 //!
-//! Of a scene file whose first droplet has no particles, or that has none, it records all droplets, interfaces and
-//! other bodies, and the flow (`droplets.csv`, `interfaces.csv`, `bodies.csv`, `flow.csv`), and draws the end.
+//! Of a scene file it records all droplets, interfaces and other bodies, and the flow (`droplets.csv`,
+//! `interfaces.csv`, `bodies.csv`, `flow.csv`), as the program `motile run` does.
 //!
 //! `--help` lists the flags.
 
@@ -18,9 +18,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile_cli::run::SceneRun;
 use motile_examples::{BoxFlags, SceneFlags, scene_file};
-use motile_output::Look;
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
@@ -43,17 +41,6 @@ fn swim(Flags { file, scene: flags }: &Flags) -> Result<()> {
     let file = file.as_deref().map(scene_file).transpose()?;
     let mut setup = flags.method.setup(&flags.droplet, file)?;
     flags.region.apply(&mut setup)?;
-
-    // A scene whose first droplet has no particles, or that has none, but interfaces across the period or nothing.
-    if setup.placed()?.droplets.first().is_none_or(|droplet| droplet.particles.is_none()) {
-        let (spacing, end) = (flags.method.spacing(&setup), flags.method.time);
-        let mut run = SceneRun::new(setup.build()?, &setup, end, &flags.output, "swimming_droplet", spacing)?;
-        run.go()?;
-        let summary = run.summary()?;
-        let concentration = setup.interfaces.iter().find_map(|interface| interface.particles);
-        let concentration = concentration.map(|particles| particles.concentration);
-        return run.finish(&summary, &Look { concentration, ..Look::of(&setup) });
-    }
 
     // The run, with all that watches it.
     let mut run = flags.watch(setup.build()?, &setup, "swimming_droplet")?;

@@ -8,7 +8,7 @@ use clap::Args;
 use motile::base::Drive;
 use motile::base::Region;
 use motile::setup::{Built, DropletSetup, ExcludedVolume, Setup, Start};
-use motile_cli::run::{OutputFlags, View, WatchedRun};
+use motile_cli::run::{OutputFlags, SceneRun, View};
 
 use crate::MethodFlags;
 use crate::parse::{finite, not_negative, one_of, pair, positive, seed};
@@ -280,9 +280,9 @@ impl<R: RegionFlags> SceneFlags<R> {
     /// by default to `out/<name>/`.
     ///
     /// # Errors
-    /// Those of [`WatchedRun::new`]; flags that do not fit together.
-    pub fn watch(&self, built: Built, setup: &Setup, name: &str) -> Result<WatchedRun> {
+    /// Those of [`SceneRun::new`]; flags that do not fit together.
+    pub fn watch(&self, built: Built, setup: &Setup, name: &str) -> Result<SceneRun> {
         let view = View { spacing: self.method.spacing(setup), region: self.region.caption()? };
-        WatchedRun::new(built, setup, self.method.time, &self.output, name, &view)
+        SceneRun::new(built, setup, self.method.time, &self.output, name, &view)
     }
 }

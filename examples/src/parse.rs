@@ -2,11 +2,12 @@
 
 use std::{fmt::Display, ops::RangeInclusive, path::Path, str::FromStr};
 
-use anyhow::{Context as _, ensure};
+use anyhow::Context as _;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::scene::StepSize;
 use motile::setup::{Distribution, IntegralMethod, Setup};
+use motile_cli::keys::scene_of;
 
 /// Automatic time steps, as a fraction of the stability limit.
 const OF_LIMIT: f64 = 0.5;
@@ -119,17 +120,7 @@ pub fn distribution(text: &str) -> Result<Distribution, String> {
 /// # Errors
 /// A file that cannot be read or describes no scene, or one in which nothing moves.
 pub fn scene_file(path: &Path) -> anyhow::Result<Setup> {
-    let read = || {
-        // A device could go on for ever.
-        ensure!(!path.exists() || path.is_file(), "it is no regular file");
-        let setup = Setup::from_toml(&std::fs::read_to_string(path)?)?;
-        let Setup { droplets, suspension, solids, rigid_bodies, shells, gels, interfaces, .. } = &setup;
-        let bodies = [suspension.len(), solids.len(), rigid_bodies.len(), shells.len(), gels.len(), interfaces.len()];
-        let moves = droplets.len() + bodies.iter().sum::<usize>() > 0;
-        ensure!(moves, "nothing in it moves: give it [[droplets]], a [[suspension]], [[interfaces]] or other bodies");
-        Ok(setup)
-    };
-    read().with_context(|| format!("--scene {}", path.display()))
+    scene_of(path, &[]).context("--scene")
 }
 
 /// A regularised delta function by its name.

@@ -6,15 +6,9 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
 
-use anyhow::Result;
 use clap::Parser;
-use motile_cli::run::{Summary, make_directory, say};
-use motile_output::CsvTable;
-use motile_output::plot::{AxisScale, Figure, Plot, Series};
 use motile_steady_examples::SteadyFlags;
-use motile_steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
 
 /// A steady swimmer and its stability, without a run.
 #[derive(Debug, Parser)]
@@ -33,81 +27,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    motile_examples::run(solve)
-}
-
-fn solve(flags: &Flags) -> Result<()> {
-    // The state, and whether it is stable.
-    let setup = flags.scene.setup()?;
-    let started = Instant::now();
-    let state = if flags.uniform { SteadyState::uniform(&setup)? } else { SteadyState::find(&setup)? };
-    let spectrum = state.spectrum()?;
-    let seconds = started.elapsed().as_secs_f64();
-
-    // The results.
-    let Measured { speed, stresslet, aspect_ratio, concentration, centroid, .. } = state.measured()?;
-    let leading = spectrum.leading();
-    let mut summary = Summary::default();
-    summary.put("speed", speed, "of the centroid (R0/T)");
-    summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid (R0/T)");
-    summary.put("turning_rate", state.turning_rate(), "of the droplet, counter-clockwise (radians/T)");
-    let core_offset = state.profile().nuclei.first().map(|place| (*place - centroid).to_array().to_vec());
-    summary.put("core_offset", core_offset, "of the nucleus from the centroid (R0)");
-    summary.put("stresslet", stresslet, "along the motion");
-    summary.put("aspect_ratio", aspect_ratio, "from area moments, along the motion over across");
-    summary.put("c_max", concentration[0], "largest concentration (c0)");
-    summary.put("c_min", concentration[1], "smallest concentration (c0)");
-    summary.put("stability", spectrum.stability().name(), "by the error of growth rates");
-    summary.put("stable", spectrum.stability().decided(), "no disturbance grows; not defined if that is undecided");
-    summary.put("leading_growth_rate", leading.map(|mode| mode.value.re), "of the leading mode (1/T)");
-    summary.put("leading_frequency", leading.map(|mode| mode.value.im), "of the leading mode (radians/T)");
-    summary.put("leading_symmetry", leading.map(|mode| mode.symmetry.name()), "at the x axis");
-    summary.put("unstable_modes", spectrum.unstable(), "growing disturbances");
-    summary.put("residual", state.residual(), "largest rate of change left (1/T)");
-    summary.put("iterations", state.iterations(), "of Newton's method");
-    summary.put("condition", state.condition(), "number of the linear equations");
-    summary.put("growth_rate_error", spectrum.error, "of growth rates (1/T); undecided: give more nodes");
-    summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/T)");
-    summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
-    summary.put("seconds", seconds, "on one core");
-    make_directory(&flags.out)?;
-    let mut table = CsvTable::create(flags.out.join("spectrum.csv"), &["growth_rate", "frequency", "antisymmetric"])?;
-    for Eigenmode { value, symmetry, .. } in &spectrum.modes {
-        table.push(&[value.re, value.im, f64::from(u8::from(*symmetry == Symmetry::Antisymmetric))])?;
-    }
-    table.flush()?;
-    summary.write(&flags.out.join("summary.json"))?;
-    say(summary.table().trim_end());
-    if !flags.no_pictures {
-        figure(&state, &spectrum)?.write(&flags.out, "steady_state")?;
-    }
-    say(format_args!("results in {}", flags.out.display()));
-    Ok(())
-}
-
-/// Shape, concentration over the arc length, leading mode.
-fn figure(state: &SteadyState, spectrum: &Spectrum) -> Result<Figure> {
-    let profile = state.profile();
-    let (lengths, concentrations) = profile.concentrations()?;
-    let mut shape: Vec<(f64, f64)> = profile.positions.iter().map(|x| (x.x, x.y)).collect();
-    shape.extend(shape.first().copied());
-    let over = |values: Vec<f64>| lengths.iter().copied().zip(values).collect::<Vec<_>>();
-    let plot =
-        |title: &str, x: &str, y: &str| Plot::new(title).x_axis(x, AxisScale::Linear).y_axis(y, AxisScale::Linear);
-    let mut figure = Figure::new(2)
-        .panel(plot("Shape", "x (R_{0})", "y (R_{0})").series(Series::line("", shape)))
-        .panel(plot("Concentration", "arc length (R_{0})", "c").series(Series::line("", over(concentrations))));
-    if let Some(mode) = spectrum.leading() {
-        let growing = state.mode_shape(mode)?;
-        let title = format!("Leading mode: {:.4} + {:.4} i, {}", mode.value.re, mode.value.im, mode.symmetry.name());
-        let parts = |values: &[motile_steady_states::Complex64]| {
-            let (re, im) = (values.iter().map(|z| z.re).collect(), values.iter().map(|z| z.im).collect());
-            [Series::line("real part", over(re)), Series::line("imaginary part", over(im)).dashed()]
-        };
-        for (name, values) in [("offset of the shape", &growing.offsets), ("change of c", &growing.concentrations)] {
-            let [re, im] = parts(values);
-            figure = figure.panel(plot(&title, "arc length (R_{0})", name).series(re).series(im));
-        }
-    }
-    Ok(figure)
+    motile_examples::run(|flags: &Flags| {
+        motile_cli::steady::solve(&flags.scene.setup()?, flags.uniform, !flags.no_pictures, &flags.out)
+    })
 }

@@ -2,9 +2,8 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | one droplet with all its observables | [`WatchedRun`] |
-//! | any droplets and interfaces | [`SceneRun`] |
-//! | any scene | [`Job`], with observers of your own |
+//! | any scene, with tables of all its bodies | [`SceneRun`] |
+//! | any scene, with observers of your own | [`Job`] |
 //! | results | [`Summary`] (`summary.json` and a table), [`write_results`] of many |
 //! | settings, as flags of a command line | [`OutputFlags`], [`CheckpointFlags`] |
 //!
@@ -16,14 +15,12 @@ mod places;
 mod scene_run;
 mod steady;
 mod summary;
-mod watched_run;
 mod words;
 
 pub use flags::{CheckpointFlags, LookFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
-pub use scene_run::SceneRun;
+pub use scene_run::{SceneRun, View};
 pub use steady::Steadiness;
 pub(crate) use summary::VERSION_KEY;
 pub use summary::{Summary, make_directory, write_results};
-pub use watched_run::{View, WatchedRun};
 pub use words::{explained, say};

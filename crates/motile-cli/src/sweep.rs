@@ -1,13 +1,12 @@
 //! Parameter sweeps: many runs of one scene, on all cores of a machine or on many machines.
 //!
-//! The program `motile-sweep` (`cargo install motile-cli`; in a clone of the repository `cargo run --release -p
-//! motile-cli -- plan.toml`) makes the runs of a [`Plan`]: a scene, a time, ranges of the scene's entries. Each run has
-//! a folder of its own with scene file, trajectory, checkpoint and summary. Finished runs are not repeated, unless
-//! scene, settings, time or the version of the program have changed; interrupted ones go on from their checkpoints;
-//! failed ones are listed and do not keep the others from running. Several processes may work on one sweep: a run
-//! belongs to the first that takes it. `--shard 2/4` makes the second of four shares. `motile-sweep plan.toml collect`
-//! writes one table of all results, byte for byte the same in whatever order they were made; `motile-sweep plan.toml
-//! status` lists how many runs are left.
+//! The command `motile sweep plan.toml` makes the runs of a [`Plan`]: a scene, a time, ranges of the scene's entries.
+//! Each run has a folder of its own with scene file, trajectory, checkpoint and summary. Finished runs are not
+//! repeated, unless scene, settings, time or the version of the program have changed; interrupted ones continue from
+//! their checkpoints; failed ones are listed and do not keep the others from running. Several processes may work on one
+//! sweep: a run belongs to the first that takes it. `--shard 2/4` makes the second of four shares. `motile sweep
+//! plan.toml collect` writes one table of all results, byte for byte the same in whatever order they were made; `motile
+//! sweep plan.toml status` lists how many runs are left.
 //!
 //! In a program, [`Plan::trials`] are the runs, [`Trial::run`] makes one, and a [`RunPool`] makes many.
 

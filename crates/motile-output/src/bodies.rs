@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use motile::elastic_solids::{RigidBody, Shell, Solid};
-use motile::interior::GelInBox;
+use motile::interior::{GelInBox, GelInDroplet};
 use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError};
@@ -12,7 +12,7 @@ use crate::{CsvTable, OutputError};
 /// Values of a row by the names of their columns.
 type Row = Vec<(&'static str, f64)>;
 
-/// Observer that measures all rigid bodies, shells, elastic solids and gels in boxes, and writes them to one CSV file,
+/// Observer that measures all rigid bodies, shells, elastic solids and gels, and writes them to one CSV file,
 /// at each call a row for each of them.
 ///
 /// The columns are `time`, `body` (the [`Handle::index`] of the body in its scene) and what the bodies of the scene
@@ -75,6 +75,15 @@ impl BodiesCsv {
             || system.bodies::<Shell>().next().is_some()
             || system.bodies::<Solid>().next().is_some()
             || system.bodies::<GelInBox>().next().is_some()
+            || system.bodies::<GelInDroplet>().next().is_some()
+    }
+
+    /// Names and values of the row of each body in the present state, the time and the body's number first.
+    ///
+    /// # Errors
+    /// Returns [`OutputError::Scene`] if a body cannot be measured.
+    pub fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Vec<(&'static str, f64)>>, OutputError> {
+        rows(system)
     }
 
     /// Table of all rows, in a resumed run also of those before.
@@ -149,15 +158,19 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
         ];
         rows.push(row(handle.index(), &values));
     }
-    for handle in all::<GelInBox, H>(system) {
-        let seen = system.observe(handle)?;
+    let gels = all::<GelInBox, H>(system).into_iter().map(|handle| Ok((handle.index(), system.observe(handle)?)));
+    let mut gels = gels.collect::<Result<Vec<_>, OutputError>>()?;
+    for handle in all::<GelInDroplet, H>(system) {
+        gels.push((handle.index(), system.observe(handle)?));
+    }
+    for (index, seen) in gels {
         let values = [
             ("polarisation_x", seen.polarisation[0]),
             ("polarisation_y", seen.polarisation[1]),
             ("defects", seen.defects.len() as f64),
             ("energy", seen.director_energy),
         ];
-        rows.push(row(handle.index(), &values));
+        rows.push(row(index, &values));
     }
     Ok(rows)
 }

@@ -37,6 +37,6 @@ fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
 fn flags_that_say_the_same_are_named() {
     let line = ["test", "--stiffness", "1e3", "--shear-modulus", "10"];
     let error = Flags::try_parse_from(line).unwrap_err();
-    let said = crate::command_line::sentence(&error, &<Flags as clap::CommandFactory>::command());
+    let said = motile_cli::command_line::sentence(&error, &<Flags as clap::CommandFactory>::command());
     assert_eq!(said, "--stiffness and --shear-modulus say the same in two ways: give one of them");
 }

@@ -24,12 +24,14 @@ const EVERY: usize = 500;
 const WRITTEN: &str = "# Written by a run of motile (--write-scene), which replaces this file without asking.";
 
 /// Files that runs leave in their directory.
-const RESULTS: [&str; 11] = [
+const RESULTS: [&str; 13] = [
     "summary.json",
     "summary.json.part",
     "trajectory.csv",
     "droplets.csv",
     "interfaces.csv",
+    "bodies.csv",
+    "flow.csv",
     "final.png",
     "swim.gif",
     "time_series.svg",
@@ -44,7 +46,7 @@ type FlowRun<'a> = Run<'a, AnyFlow>;
 /// Request of the user to stop the run.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Checkpoints of a run: where they are saved, how often, and from which one the run goes on.
+/// Checkpoints of a run: where they are saved, how often, and from which one the run continues.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct CheckpointFlags {
     /// File to save checkpoints to; Ctrl-C, SIGTERM and SIGHUP then save one and end the run
@@ -53,17 +55,17 @@ pub struct CheckpointFlags {
     /// Steps between checkpoints [default: 500]
     #[arg(long, value_name = "STEPS", value_parser = steps, requires = "checkpoint", allow_hyphen_values = true)]
     pub checkpoint_every: Option<usize>,
-    /// Checkpoint to go on from; give the flags of the run that saved it. Results are those of the whole run, the
-    /// animation shows what follows. Bit by bit they are those of a run without a break, but after the end of a run
-    /// with a shorter --time, whose last steps are shorter
+    /// Checkpoint to continue from; give the flags of the run that saved it. Tables and results cover the whole run,
+    /// the animation the rest. They are bitwise identical to a run without a break, except after the end of a run with
+    /// a shorter --time, whose last steps are shorter
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
 }
 
 impl CheckpointFlags {
-    /// Brings the scene to the state of the checkpoint to go on from, if one is given. If the checkpoint was saved with
-    /// other settings that may change ([`Setup::entries`]), which its description shows, the run continues with those
-    /// given now and a note is printed.
+    /// Brings the scene to the state of the checkpoint to continue from, if one is given. If the checkpoint was saved
+    /// with other settings that may change ([`Setup::entries`]), which its description shows, the run continues with
+    /// those given now and a note is printed.
     ///
     /// # Errors
     /// A checkpoint that cannot be read, is of another scene or other physics, or not before the time `end`; a file to
@@ -146,10 +148,10 @@ pub struct OutputFlags {
     /// (amplitude, period, mean speed) comes from them
     #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub rows: Option<u32>,
-    /// Directory of the results; without it that of the example in out/
+    /// Directory of the results [default: out/ and the name of the scene or example]
     #[arg(long, value_name = "DIRECTORY")]
     pub out: Option<PathBuf>,
-    /// Write the scene to this TOML file, for `swimming_droplet --scene`
+    /// Write the scene to this TOML file, for `motile run`
     #[arg(long, value_name = "FILE")]
     pub write_scene: Option<PathBuf>,
     /// Checkpoints of the run
@@ -162,7 +164,7 @@ pub struct OutputFlags {
 
 impl OutputFlags {
     /// Refuses two files of the run `name` that are one and the same, also by links; `scene` is the scene file that it
-    /// reads. A checkpoint may replace the one that the run goes on from.
+    /// reads. A checkpoint may replace the one from which the run continues.
     ///
     /// # Errors
     /// Two flags, or a flag and a result, that name the same file; sizes that no picture can have.
@@ -185,7 +187,7 @@ impl OutputFlags {
         })
     }
 
-    /// Writes the scene file, if one is asked for. It begins with a line that tells that it may be written anew.
+    /// Writes the scene file, if one is asked for. It begins with a line that says that it may be replaced.
     ///
     /// # Errors
     /// A file that cannot be written, or that no run has written.

@@ -45,7 +45,7 @@ pub struct Job {
     pub directory: PathBuf,
     /// Time at which the run ends.
     pub end: f64,
-    /// Computing time (seconds of wall clock), including that before the checkpoint that the run goes on from.
+    /// Computing time (seconds of wall clock), including the time before the checkpoint from which the run continues.
     pub seconds: f64,
     /// Warnings, each with the time at which it was worst.
     pub warnings: Vec<String>,
@@ -155,7 +155,7 @@ impl Job {
         output.checkpoints.save(scene, description, &self.outcome)
     }
 
-    /// True if the run was stopped by a signal: it can go on from its checkpoint.
+    /// True if the run was stopped by a signal: it can continue from its checkpoint.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         matches!(self.outcome, Err(SceneError::Stopped { .. }))

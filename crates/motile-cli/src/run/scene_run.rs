@@ -1,59 +1,101 @@
-//! Runs of any scene, all of whose droplets and interfaces are recorded.
+//! Runs of any scene, all of whose bodies are recorded.
+
+mod results;
+mod view;
 
 use std::collections::HashSet;
 
-use anyhow::Result;
-use motile::active_interface::observables::PeriodicObservables;
+use anyhow::{Context, Result};
+use motile::active_interface::observables::{ConcentrationProfile, Frame, PeriodicObservables, concentration_profile};
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
-use motile::base::{Region, Vec2};
-use motile::scene::{Handle, Scene};
-use motile::setup::{AnyFlow, Built, Setup};
+use motile::analysis::trajectory::TrajectoryRecord;
+use motile::base::{Region, Vec2, internal::decimals};
+use motile::scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
+use motile::setup::{AnyFlow, Built, MethodKind, Numbers, Particles, Setup};
 
-use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary};
-use motile_output::{BodiesCsv, DropletsCsv, FlowCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot};
+use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary, words::say};
+use motile_output::plot::{concentration_plot, time_series};
+use motile_output::{
+    Animation, BodiesCsv, CsvTable, DropletsCsv, FlowCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot, SolidColour,
+    Track, TrajectoryCsv,
+};
+pub use view::View;
+use view::{caption, view_of};
 
 /// Files for ParaView in a run.
 const FILES: f64 = 20.0;
-/// Most cells in a direction of the fields in pictures and files.
-const MOST_CELLS: usize = 512;
-/// Spacing of the fields in files over that of the picture: without a grid each point costs a sum over the interfaces.
+/// Time between the frames of the animation (over [`Setup::time_scale`]), and the smallest and largest number of
+/// frames.
+const FRAME_INTERVAL: f64 = 1.2;
+const FRAMES: [f64; 2] = [50.0, 150.0];
+/// Spacing of the fields in animations and files over the picture's if there is no grid, because each point then costs
+/// a sum over the interfaces.
 const COARSER: f64 = 2.0;
-/// Side of the square that pictures show of unbounded fluid (length scales of the scene).
-const VIEW: f64 = 12.0;
+/// Depth to which a droplet may enter an elastic solid before its run ends with an error (grid spacings).
+const SOLID_OVERLAP: f64 = 0.25;
+/// Distance of streamlines around droplets (radii).
+const STREAMLINES: f64 = 0.24;
 
 /// A body with its name in results, and what was seen of it at the start.
 type Recorded<B, O> = (String, Handle<B>, O);
 
-/// Run of any scene. Its droplets, its interfaces across the period, its other bodies and its flow are recorded
-/// (`droplets.csv`, `interfaces.csv`, `bodies.csv`, `flow.csv`), with files for ParaView and a picture of the end
-/// (`final.png`) unless pictures are not wanted.
+/// The first droplet of a scene, if it has particles: what is known of it at the start, and its trajectory.
+#[derive(Debug)]
+struct First {
+    droplet: Handle<ActiveDroplet>,
+    particles: Particles,
+    /// Dimensionless numbers of the droplet.
+    numbers: Option<Numbers>,
+    /// Radius of the droplet (length).
+    radius: f64,
+    start: ConcentrationProfile,
+    recorder: TrajectoryCsv,
+}
+
+/// Tables of the bodies that a scene has, and of its flow.
+#[derive(Debug)]
+struct Tables {
+    droplets: Option<DropletsCsv>,
+    interfaces: Option<InterfacesCsv>,
+    bodies: Option<BodiesCsv>,
+    flow: Option<FlowCsv>,
+}
+
+/// Run of any scene, with records of all of its bodies: `droplets.csv`, `interfaces.csv`, `bodies.csv` (rigid bodies,
+/// shells, solids, gels). If the first droplet has particles, its observables are in `trajectory.csv` (and in
+/// `droplets.csv` only if there are several), with plots over time. If it has none, or if a flow is imposed, there is
+/// `flow.csv`. Unless pictures are not wanted, there are
+/// files for ParaView, a picture of the end (`final.png`) and an animation (`swim.gif`).
 #[derive(Debug)]
 pub struct SceneRun {
     /// Scene in its present state.
     pub scene: Scene<AnyFlow>,
     job: Job,
     region: Region,
-    /// Spacing of the fields in the picture, and the length scale of the scene (length).
-    spacing: f64,
-    scale: f64,
+    method: MethodKind,
+    /// Raster of the picture.
+    raster: Raster,
+    /// Time between frames of the animation, before their number is bounded.
+    frame_interval: f64,
+    first: Option<First>,
     /// Droplets with their areas at the start (length squared, or volumes).
     droplets: Vec<Recorded<ActiveDroplet, f64>>,
     interfaces: Vec<Recorded<ActiveInterface, PeriodicObservables>>,
-    of_droplets: Option<DropletsCsv>,
-    of_interfaces: Option<InterfacesCsv>,
-    of_bodies: Option<BodiesCsv>,
-    of_flow: FlowCsv,
-    files: Option<ParaView>,
+    /// Names of all other bodies, with the numbers of their handles.
+    bodies: Vec<(String, usize)>,
+    tables: Tables,
+    pictures: Option<(Look, Animation, ParaView)>,
+    gap: SolidGap,
 }
 
 impl SceneRun {
-    /// Run to the time `end` of the scene that was built from `setup`, with fields of that spacing (length) in its
-    /// pictures. Its results go to the directory in `output`, by default to `out/<name>/`.
+    /// Run to the time `end` of the scene that was built from `setup`. Its results go to the directory in `output`, by
+    /// default to `out/<name>/`.
     ///
     /// # Errors
     /// Those of [`Job::new`]; a state that cannot be measured; files that cannot be written.
-    pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, spacing: f64) -> Result<Self> {
-        let Built { mut scene, droplets, interfaces, .. } = built;
+    pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, view: &View) -> Result<Self> {
+        let Built { mut scene, droplets: all_droplets, interfaces: all_interfaces, .. } = built;
         let (described, setup) = (setup, &setup.placed()?);
         let mut taken = HashSet::new();
         let mut key = |name: &str| {
@@ -62,165 +104,221 @@ impl SceneRun {
             std::iter::once(name.clone()).chain(numbered).find(|key| taken.insert(key.clone())).unwrap_or(name)
         };
         // At the start, also of a run that goes on from a checkpoint.
-        let of_droplets = droplets.iter().zip(&setup.droplets);
+        let first = all_droplets
+            .first()
+            .zip(setup.droplets.first())
+            .and_then(|(&handle, droplet)| Some((handle, droplet, droplet.particles?)));
+        let first = first.map(|(handle, droplet, particles)| -> Result<_> {
+            let (body, frame) = (scene.body(handle)?, Frame::new(Vec2::from(droplet.centre), droplet.angle)?);
+            let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+            Ok((handle, particles, setup.numbers(droplet)?, start))
+        });
+        let first = first.transpose()?;
+        let only = first.is_some() && all_droplets.len() == 1;
+        let of_droplets = all_droplets.iter().zip(&setup.droplets).filter(|_| !only);
         let droplets = of_droplets
-            .map(|(&handle, droplet)| Ok((key(&droplet.name), handle, area(&mut scene, setup.region, handle)?)))
+            .map(|(&handle, droplet)| {
+                Ok((key(&droplet.name), handle, results::area(&mut scene, setup.region, handle)?))
+            })
             .collect::<Result<Vec<_>>>()?;
-        let of_interfaces = interfaces.iter().zip(&setup.interfaces);
+        let of_interfaces = all_interfaces.iter().zip(&setup.interfaces);
         let interfaces = of_interfaces
             .map(|(&handle, interface)| Ok((key(&interface.name), handle, scene.observe(handle)?)))
             .collect::<Result<Vec<_>>>()?;
+        let mut known: HashSet<usize> = all_droplets.iter().map(Handle::index).collect();
+        known.extend(all_interfaces.iter().map(Handle::index));
+        let others = scene.system().all_bodies().filter(|(handle, _)| !known.contains(&handle.index()));
+        let bodies = others.map(|(handle, body)| (key(body.name()), handle.index())).collect();
 
         let job = Job::new(&mut scene, described, end, output, name)?;
+        let radius = setup.length_scale();
         let system = scene.system_mut();
         let path = |file: &str| job.directory.join(file);
-        let some = (!droplets.is_empty(), !interfaces.is_empty(), BodiesCsv::has_bodies(system));
-        let of_droplets = some.0.then(|| DropletsCsv::create(path("droplets.csv"), system)).transpose()?;
-        let of_interfaces = some.1.then(|| InterfacesCsv::create(path("interfaces.csv"), system)).transpose()?;
-        let of_bodies = some.2.then(|| BodiesCsv::create(path("bodies.csv"), system)).transpose()?;
-        let of_flow = FlowCsv::create(path("flow.csv"), system)?;
-        let centre = middle(&scene, droplets.first().map(|(_, handle, _)| *handle))?;
-        let scale = setup.length_scale();
-        let raster = view(setup.region, &scene, centre, COARSER * spacing, scale)?;
-        let files = job.draws().then(|| ParaView::create(path("vtk"), raster)).transpose()?;
-        let region = setup.region;
+        let first = first.map(|(droplet, particles, numbers, start)| -> Result<_> {
+            let recorder = TrajectoryCsv::create(path("trajectory.csv"), system, droplet)?;
+            Ok(First { droplet, particles, numbers, radius, start, recorder })
+        });
+        let first = first.transpose()?;
+        let system = scene.system_mut();
+        let (has_bodies, has_flow) = (BodiesCsv::has_bodies(system), first.is_none() || !setup.flow.is_none());
+        let tables = Tables {
+            droplets: (!droplets.is_empty()).then(|| DropletsCsv::create(path("droplets.csv"), system)).transpose()?,
+            interfaces: (!interfaces.is_empty())
+                .then(|| InterfacesCsv::create(path("interfaces.csv"), system))
+                .transpose()?,
+            bodies: has_bodies.then(|| BodiesCsv::create(path("bodies.csv"), system)).transpose()?,
+            // In a box a row costs as much as several steps, and a trajectory has the gradient and the gap.
+            flow: has_flow.then(|| FlowCsv::create(path("flow.csv"), system)).transpose()?,
+        };
+
+        let centre = Vec2::from(setup.droplets.first().map_or([0.0; 2], |droplet| droplet.centre));
+        let raster = |spacing: f64| view_of(setup.region, &scene, centre, spacing, radius);
+        let (method, spacing) = (setup.method.kind(), output.look.picture_spacing.unwrap_or(view.spacing));
+        let coarse = raster(if method == MethodKind::Integral { COARSER * spacing } else { spacing })?;
+        let still = raster(spacing)?;
+        let pictures = job.draws().then(|| -> Result<_> {
+            // Another unit would be wrong for bodies of another mean concentration.
+            let of_droplets = setup.droplets.iter().filter_map(|droplet| droplet.particles);
+            let means = of_droplets.chain(setup.interfaces.iter().filter_map(|interface| interface.particles));
+            let mut means = means.map(|particles| particles.concentration);
+            let concentration = means.next().filter(|first| means.all(|other| other == *first));
+            let internal = setup.solids.iter().any(|s| !s.relaxation.is_empty() || s.active_springs.is_some());
+            let solids = if internal { SolidColour::InternalStress } else { SolidColour::Stress };
+            let streamline_spacing = setup.droplets.first().map(|_| STREAMLINES * radius);
+            let caption = caption(setup, &view.region);
+            let look = job.look(Look { caption, concentration, streamline_spacing, solids, ..Look::of(setup) });
+            let files = ParaView::create(path("vtk"), coarse)?;
+            Ok((look.clone(), Animation::new(look, coarse), files))
+        });
+        let pictures = pictures.transpose()?;
         Ok(Self {
             scene,
             job,
-            region,
-            spacing,
-            scale,
+            region: setup.region,
+            method,
+            raster: still,
+            frame_interval: FRAME_INTERVAL * setup.time_scale(),
+            first,
             droplets,
             interfaces,
-            of_droplets,
-            of_interfaces,
-            of_bodies,
-            of_flow,
-            files,
+            bodies,
+            tables,
+            pictures,
+            gap: SolidGap::new(SOLID_OVERLAP * setup.method.spacing().unwrap_or(view.spacing)),
         })
     }
 
-    /// Runs to the end.
+    /// Runs to the end, or until the observer `end`, called at every step, returns the error [`super::Decided`]. The
+    /// last state is recorded even if the run fails.
     ///
     /// # Errors
     /// Files that cannot be written. The failure of the run itself is returned by [`SceneRun::finish`].
-    pub fn go(&mut self) -> Result<()> {
-        let (row, file) = (self.job.each_row(), self.job.each(FILES));
-        let mut observers: Vec<Watch<'_>> = vec![(row, &mut self.of_flow)];
-        if let Some(table) = &mut self.of_droplets {
+    pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
+        let (time, row) = (self.job.end, self.job.each_row());
+        let mut observers: Vec<Watch<'_>> = Vec::new();
+        if let Some(first) = &mut self.first {
+            observers.push((row, &mut first.recorder));
+        }
+        observers.push((Every::Steps(1), &mut self.gap));
+        if let Some(table) = &mut self.tables.flow {
             observers.push((row, table));
         }
-        if let Some(table) = &mut self.of_interfaces {
+        if let Some(table) = &mut self.tables.droplets {
             observers.push((row, table));
         }
-        if let Some(table) = &mut self.of_bodies {
+        if let Some(table) = &mut self.tables.interfaces {
             observers.push((row, table));
         }
-        if let Some(files) = &mut self.files {
-            observers.push((file, files));
+        if let Some(table) = &mut self.tables.bodies {
+            observers.push((row, table));
         }
-        self.job.go(&mut self.scene, observers)
+        if let Some(end) = end {
+            observers.push((Every::Steps(1), end));
+        }
+        if let Some((_, film, files)) = &mut self.pictures {
+            let frames = (time / self.frame_interval).clamp(FRAMES[0], FRAMES[1]);
+            observers.push((Every::StepAfter(time / frames), film));
+            observers.push((self.job.each(FILES), files));
+        }
+        self.job.go(&mut self.scene, observers)?;
+        match &mut self.first {
+            // The rows of a run that was stopped are to be those of a run that was not.
+            Some(first) if !self.job.is_stopped() => Ok(first.recorder.finish(self.scene.system_mut())?),
+            _ => Ok(()),
+        }
     }
 
-    /// Observables of all droplets over time; `None` where there are none.
-    #[must_use]
-    pub fn droplets(&self) -> Option<&DropletsCsv> {
-        self.of_droplets.as_ref()
-    }
-
-    /// Results: the end state of each droplet and interface, the change since the start, the cost of the run.
+    /// Outcome of the run, without summary and pictures.
     ///
     /// # Errors
-    /// A state that cannot be measured.
-    pub fn summary(&mut self) -> Result<Summary> {
-        let (mut summary, scene) = (Summary::default(), &mut self.scene);
-        for (name, handle, start) in &self.droplets {
-            let seen = scene.observe(*handle)?;
-            let mut put = |key: &str, value: f64, about: &str| summary.put(&format!("{name}_{key}"), value, about);
-            put("x", seen.centroid.x, "of its centroid, in the end (length)");
-            put("y", seen.centroid.y, "of its centroid, in the end (length)");
-            put("speed", seen.speed(), "of its centroid relative to the imposed flow, in the end (length per time)");
-            put("deformation", seen.shape.deformation(), "D = (L - B)/(L + B) by area moments");
-            let angle = seen.shape.angle.map_or(f64::NAN, f64::to_degrees);
-            put("angle", angle, "of the long axis by area moments (degrees)");
-            put("area_relative_change", area(scene, self.region, *handle)? / start - 1.0, "since the start");
-        }
-        for (name, handle, start) in &self.interfaces {
-            let seen = scene.observe(*handle)?;
-            let mut put = |key: &str, value: f64, about: &str| summary.put(&format!("{name}_{key}"), value, about);
-            put("height_change", seen.height - start.height, "of its mean height, since the start (length)");
-            put("length", seen.length, "over a period (length)");
-            put("height_mode", seen.height_modes.amplitude(1), "amplitude of the longest wave (length)");
-            let Some([most, least]) = seen.concentration_range else { continue };
-            put("particle_relative_change", seen.particle_number / start.particle_number - 1.0, "since the start");
-            let mean = start.particle_number / start.length;
-            put("concentration_max", most / mean, "in its mean at the start");
-            put("concentration_min", least / mean, "in its mean at the start");
-            put("concentration_mode", seen.concentration_modes.amplitude(1) / mean, "of the longest wave");
-            put("flux", seen.flux, "of particles along x (1/time)");
-        }
-        summary.put(
-            "minimum_gap",
-            scene.system().minimum_gap(),
-            "between interfaces and to walls, over the run (length)",
-        );
-        self.job.put_cost(&mut summary, &self.scene);
-        Ok(summary)
+    /// The failure of the run.
+    pub fn outcome(self) -> Result<(), SceneError> {
+        self.job.outcome()
     }
 
-    /// Writes and prints the results and draws the final state as `look` says.
+    /// Observables of all droplets over time; `None` for a scene without droplets, or with a single one that has
+    /// particles ([`SceneRun::table`]).
+    #[must_use]
+    pub fn droplets(&self) -> Option<&DropletsCsv> {
+        self.tables.droplets.as_ref()
+    }
+
+    /// Times and centroids of the first droplet (length), as [`TrajectoryCsv::track`].
+    ///
+    /// # Errors
+    /// A first droplet without particles.
+    pub fn track(&self) -> Result<Track> {
+        Ok(self.first()?.recorder.track())
+    }
+
+    /// Observables of the first droplet in the order of time, also from before the checkpoint from which the run
+    /// continues.
+    ///
+    /// # Errors
+    /// A first droplet without particles.
+    pub fn table(&self) -> Result<&CsvTable> {
+        Ok(self.first()?.recorder.table())
+    }
+
+    /// Number of particles of the first droplet at the start, on the interface and inside (no dimension).
+    ///
+    /// # Errors
+    /// A first droplet without particles; a run that has not begun.
+    pub fn totals(&self) -> Result<f64> {
+        let table = self.table()?;
+        let first =
+            |column| -> Result<f64> { Ok(table.curve("time", column)?.first().context("nothing was measured")?.1) };
+        Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
+    }
+
+    /// Last value in a column of the trajectory; `None` if it has no such column.
+    #[must_use]
+    pub fn last_of(&self, column: &str) -> Option<f64> {
+        Some(self.table().ok()?.curve("time", column).ok()?.last()?.1)
+    }
+
+    /// Last measurement of the first droplet.
+    ///
+    /// # Errors
+    /// A first droplet without particles; a run that has not begun.
+    pub fn last(&self) -> Result<&TrajectoryRecord> {
+        self.first()?.recorder.last().context("nothing was measured")
+    }
+
+    fn first(&self) -> Result<&First> {
+        self.first.as_ref().context("the first droplet of the scene has no particles")
+    }
+
+    /// Writes and prints the results; draws the final state (`final.png`), the run (`swim.gif`) and the plots of the
+    /// first droplet, unless pictures are not wanted.
     ///
     /// # Errors
     /// The failure of the run; files that cannot be written.
-    pub fn finish(self, summary: &Summary, look: &Look) -> Result<()> {
-        let Self { mut scene, job, region, spacing, scale, droplets, files, .. } = self;
-        let picture = job.directory.join("final.png");
-        let shown = job.look(look.clone());
+    pub fn finish(self, summary: &Summary) -> Result<()> {
+        let Self { mut scene, job, raster, first, pictures, .. } = self;
+        let directory = job.directory.clone();
         job.finish(summary, || {
-            if files.is_none() {
-                return Ok(());
+            let Some((look, film, _)) = pictures else { return Ok(()) };
+            let mut tracks = Vec::new();
+            if let Some(First { droplet, particles, start, recorder, .. }) = &first {
+                let Some(last) = recorder.last() else { return Ok(()) };
+                time_series(recorder.table())?.write(&directory, "time_series")?;
+                let body = scene.body(*droplet)?;
+                let frame = last.observables.frame();
+                let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+                concentration_plot(start, &profile, scene.time(), particles.concentration)
+                    .write(&directory, "concentration_profile")?;
+                tracks.push(recorder.track());
             }
-            let centre = middle(&scene, droplets.first().map(|(_, handle, _)| *handle))?;
-            let raster = view(region, &scene, centre, spacing, scale)?;
             let seen = Snapshot::take(scene.system_mut(), raster)?;
-            Ok(shown.write_picture(&seen, &[], picture)?)
+            look.write_picture(&seen, &tracks, directory.join("final.png"))?;
+            film.write(&tracks, directory.join("swim.gif"))?;
+            if let Some(begins) = film.begins().filter(|begins| *begins > 0.0) {
+                say(format_args!("swim.gif begins at t = {}, where the run was resumed", decimals(4, begins)));
+            }
+            Ok(())
         })
     }
-}
-
-/// Area of the smooth curve through a droplet's markers (length squared), or its volume (length cubed).
-fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<ActiveDroplet>) -> Result<f64> {
-    if region.is_axisymmetric() {
-        return Ok(scene.observe(droplet)?.area);
-    }
-    Ok(scene.system_mut().deformation(droplet)?.area)
-}
-
-/// The mean of a droplet's markers (length), or the origin.
-fn middle(scene: &Scene<AnyFlow>, droplet: Option<Handle<ActiveDroplet>>) -> Result<Vec2> {
-    let Some(handle) = droplet else { return Ok(Vec2::ZERO) };
-    let markers = scene.body(handle)?.markers();
-    Ok(markers.iter().sum::<Vec2>() / markers.len() as f64)
-}
-
-/// Raster of that spacing (length) over a region, or over the surroundings of a centre in unbounded fluid, for a scene
-/// of that length scale (length).
-pub(super) fn view(region: Region, scene: &Scene<AnyFlow>, centre: Vec2, spacing: f64, scale: f64) -> Result<Raster> {
-    let ([x, y], view) = (centre.to_array(), VIEW * scale);
-    Ok(match region {
-        Region::Tube { radius, .. } => {
-            let half = region.half_length().map_or(0.5 * view.max(4.0 * radius), |half| half);
-            let [_, height] = region.lengths();
-            let (middle, sides) = (if region.half_length().is_some() { 0.0 } else { x }, [2.0 * half, height]);
-            let cells = sides.map(|side| ((side / spacing).round() as usize).clamp(1, MOST_CELLS));
-            Raster::new([middle - half, -0.5 * height], sides, cells, [false; 2])?
-        }
-        Region::Plane | Region::Space => {
-            let cells = (view / spacing).round() as usize;
-            Raster::new([x - 0.5 * view, y - 0.5 * view], [view; 2], [cells.min(MOST_CELLS); 2], [false; 2])?
-        }
-        _ => Raster::of(scene.system(), spacing)?,
-    })
 }
 
 #[cfg(test)]

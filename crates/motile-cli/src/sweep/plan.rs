@@ -1,15 +1,14 @@
 //! Plans of sweeps.
 
 use std::collections::HashSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use motile::setup::Setup;
 use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::trial::Trial;
+use crate::keys::{self, setup_of, table_of, text_of};
 
 /// Most runs of a plan.
 const MOST: usize = 1_000_000;
@@ -124,7 +123,7 @@ impl Plan {
     pub fn trials(&self, runs: &Path) -> Result<Vec<Trial>> {
         let SceneEntry::Here(scene) = &self.scene else { bail!("a plan without a scene") };
         // With all entries written out, and without those that there are not.
-        let mut base: Table = toml::from_str(&Setup::from_toml(&scene.to_string())?.to_toml()?)?;
+        let mut base = table_of(&scene.to_string())?;
         let points = self.points(&mut base)?;
         let names = short_names(&points);
         let mut labels = HashSet::new();
@@ -132,10 +131,10 @@ impl Plan {
         for (number, point) in points.into_iter().enumerate() {
             let mut table = base.clone();
             for (path, value) in &point {
-                put(&mut table, path, value.clone()).with_context(|| format!("{path} = {value}"))?;
+                keys::set(&mut table, path, value.clone())?;
             }
             let shown: Vec<String> = point.iter().map(|(path, value)| format!("{path} = {value}")).collect();
-            let setup = Setup::from_toml(&table.to_string()).with_context(|| shown.join(", "))?;
+            let setup = setup_of(table).with_context(|| shown.join(", "))?;
             let label = label(&names, &point, number);
             ensure!(labels.insert(label.clone()), "{label} is there twice: {}", shown.join(", "));
             let values = point.into_iter().map(|(path, value)| Ok((path, serde_json::to_value(value)?)));
@@ -145,7 +144,7 @@ impl Plan {
         Ok(trials)
     }
 
-    fn points(&self, base: &mut Table) -> Result<Vec<Point>> {
+    fn points(&self, base: &mut Value) -> Result<Vec<Point>> {
         let lists: Vec<Point> = self.list.iter().map(|table| flat("", table, &|_| false)).collect();
         let mut points = if lists.is_empty() { vec![Point::new()] } else { lists };
         let mut zipped: Vec<Point> = Vec::new();
@@ -182,7 +181,7 @@ impl Plan {
 }
 
 /// Replaces the starts of all droplets with particles by perturbed ones, and returns the paths of their seeds.
-fn perturbed(base: &mut Table) -> Vec<String> {
+fn perturbed(base: &mut Value) -> Vec<String> {
     let Some(Value::Array(droplets)) = base.get_mut("droplets") else { return Vec::new() };
     let mut paths = Vec::new();
     for (k, droplet) in droplets.iter_mut().enumerate() {
@@ -195,12 +194,6 @@ fn perturbed(base: &mut Table) -> Vec<String> {
         paths.push(format!("droplets.{k}.particles.start.perturbed.seed"));
     }
     paths
-}
-
-fn text_of(path: &Path) -> Result<String> {
-    // A device could go on for ever.
-    ensure!(!path.exists() || path.is_file(), "it is no regular file");
-    Ok(fs::read_to_string(path)?)
 }
 
 /// All pairs of a point of `first` and one of `second`, joined.
@@ -249,42 +242,7 @@ fn values(value: Value) -> Result<Vec<Value>> {
     Ok((0..count).map(|k| Value::Float(at(k))).collect())
 }
 
-/// Sets the entry of a table at a path.
-fn put(table: &mut Table, path: &str, value: Value) -> Result<()> {
-    let (above, key) = path.rsplit_once('.').unwrap_or(("", path));
-    let mut place: Option<&mut Value> = None;
-    for (number, part) in above.split('.').filter(|part| !part.is_empty()).enumerate() {
-        let next = match place {
-            None => table.get_mut(part),
-            Some(Value::Array(list)) => part.parse().ok().and_then(|k: usize| list.get_mut(k)),
-            Some(Value::Table(table)) => table.get_mut(part),
-            Some(_) => None,
-        };
-        let so_far = || above.split('.').take(number + 1).collect::<Vec<_>>().join(".");
-        place = Some(next.with_context(|| format!("the scene has no {}: write it into the scene", so_far()))?);
-    }
-    let holder = match place {
-        None => table,
-        Some(Value::Table(table)) => table,
-        Some(Value::Array(list)) => {
-            let count = list.len();
-            let number = key.parse().ok().and_then(|k: usize| list.get_mut(k));
-            *number.with_context(|| format!("{above} has {count} entries, from 0"))? = value;
-            return Ok(());
-        }
-        Some(_) => bail!("the scene has no table {above}"),
-    };
-    // Numbers that a range made are whole where the scene has whole ones.
-    let value = match (holder.get(key), value) {
-        (Some(Value::Integer(_)), Value::Float(number)) if number.fract() == 0.0 => Value::Integer(number as i64),
-        (Some(Value::Float(_)), Value::Integer(number)) => Value::Float(number as f64),
-        (_, value) => value,
-    };
-    holder.insert(key.to_owned(), value);
-    Ok(())
-}
-
-/// Short names of the paths: their last parts, as many as tell them apart.
+/// Short names of the paths: as many of their last parts as make them different.
 fn short_names(points: &[Point]) -> Vec<(String, String)> {
     let mut paths: Vec<&str> = points.iter().flatten().map(|(path, _)| path.as_str()).collect();
     paths.sort_unstable();

@@ -9,12 +9,12 @@ use motile::setup::Setup;
 use serde_json::Value;
 
 use super::run_pool::made_again;
-use crate::run::{CheckpointFlags, OutputFlags, Summary, Taken, View, WatchedRun, explained, make_directory};
+use crate::run::{CheckpointFlags, OutputFlags, SceneRun, Summary, Taken, View, explained, make_directory};
 
 /// Entry of a summary with the [`Trial::fingerprint`] of its run.
 pub(super) const FINGERPRINT: &str = "fingerprint";
 
-/// Run of a sweep, told by the values of the swept entries.
+/// Run of a sweep, identified by the values of the swept entries.
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// Values of the swept entries in short, which is also the name of the folder.
@@ -37,9 +37,9 @@ pub enum State {
     Finished(Summary),
     /// Failed, for this reason.
     Failed(String),
-    /// Interrupted, with a checkpoint to go on from.
+    /// Interrupted, with a checkpoint to continue from.
     Cut,
-    /// Not begun, or without anything to go on from.
+    /// Not begun, or without anything to continue from.
     Left,
 }
 
@@ -57,7 +57,7 @@ impl Trial {
     }
 
     /// Fingerprint of scene, settings, time and version of the program ([`motile::VERSION`]), by which results of this
-    /// run are told from others.
+    /// run are recognised.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let (scene, step) = (self.setup.fingerprint(), self.setup.step);
@@ -121,7 +121,7 @@ impl Trial {
         format!("sweep, {}", self.fingerprint())
     }
 
-    /// Checkpoint to go on from: not one at the end, broken, or of another run.
+    /// Checkpoint to continue from: not one at the end, broken, or of another run.
     fn useful_checkpoint(&self) -> Option<PathBuf> {
         let saved = Checkpoint::read(&self.checkpoint()).ok()?;
         let own = saved.time() < self.time && saved.description().starts_with(&format!("{}:", self.name()));
@@ -133,7 +133,7 @@ impl Trial {
     /// # Errors
     /// [`Taken`]; the failure of the run, which is also written to the folder; a folder that has another scene.
     pub fn run(&self) -> Result<Summary> {
-        self.keep(Self::watched)
+        self.keep(Self::recorded)
     }
 
     /// Results of `make` with the fingerprint added; a failure is written to the folder.
@@ -156,14 +156,14 @@ impl Trial {
         })
     }
 
-    fn watched(&self) -> Result<Summary> {
+    fn recorded(&self) -> Result<Summary> {
         self.keep_scene()?;
         let (checkpoint, resume) = (Some(self.checkpoint()), self.useful_checkpoint());
         let checkpoints = CheckpointFlags { checkpoint, resume, ..CheckpointFlags::default() };
         let out = Some(self.folder.clone());
         let output = OutputFlags { no_pictures: true, quiet: true, out, checkpoints, ..OutputFlags::default() };
         let view = View::of(&self.setup);
-        let mut run = WatchedRun::new(self.setup.build()?, &self.setup, self.time, &output, &self.name(), &view)?;
+        let mut run = SceneRun::new(self.setup.build()?, &self.setup, self.time, &output, &self.name(), &view)?;
         run.go(None)?;
         let summary = run.measured()?;
         run.outcome()?;

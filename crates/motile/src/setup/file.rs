@@ -4,10 +4,12 @@ use super::Setup;
 use crate::SetupError;
 
 impl Setup {
+    /// Text of a scene file that has every key, with its dimension and its default.
+    pub const ANNOTATED: &str = include_str!("../../scene.toml");
+
     /// The description in a TOML text. What is left out is as in [`Setup::default`] and
     /// [`crate::setup::DropletSetup::default`], but droplets that are not named are not there. A droplet is active
-    /// unless it says `particles = "none"`. The file `scene.toml` of this crate shows every key with its dimension and
-    /// its default.
+    /// unless it says `particles = "none"`. [`Setup::ANNOTATED`] shows every key with its dimension and its default.
     ///
     /// ```
     /// use motile::setup::Setup;

@@ -985,7 +985,7 @@ mod file {
         }
     }
 
-    const ANNOTATED: &str = include_str!("../../scene.toml");
+    const ANNOTATED: &str = Setup::ANNOTATED;
 
     /// The annotated scene, and it with each of the other values that its lines name in their place.
     fn annotated() -> Vec<toml::Value> {

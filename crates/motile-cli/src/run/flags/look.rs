@@ -3,6 +3,8 @@
 use clap::Args;
 use motile_output::Look;
 
+use crate::command_line::positive;
+
 /// Settings of pictures and animations. What is not given stays as the run has it.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Pictures")]
@@ -13,6 +15,9 @@ pub struct LookFlags {
     /// Unit of length in the labels of pictures, as text; positions are not converted
     #[arg(long, value_name = "TEXT")]
     pub length_unit: Option<String>,
+    /// Spacing of the fields in pictures and files (length) [default: the grid's, or a twentieth of a radius]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub picture_spacing: Option<f64>,
     /// Width of the picture (cm), from 1 to 100 [default: 16]
     #[arg(long, value_name = "CM")]
     pub picture_width: Option<f64>,
@@ -25,7 +30,7 @@ pub struct LookFlags {
 }
 
 impl LookFlags {
-    /// The settings of a run with those of the flags in their place.
+    /// The settings of a run, replaced by the flags that were given.
     #[must_use]
     pub fn apply(&self, look: Look) -> Look {
         Look {

@@ -48,7 +48,7 @@ fn what_is_no_plan_is_refused_before_any_run() {
     for (text, wanted) in [
         ("[grid]\nviscosty = [1.0]\n", "viscosty"),
         ("[grid]\nviscosity = [-1.0, \"a\"]\n", "viscosity"),
-        ("[grid]\n\"droplets.3.angle\" = [1.0]\n", "has no droplets.3: write it"),
+        ("[grid]\n\"droplets.3.angle\" = [1.0]\n", "droplets has 1 entries"),
         ("[grid]\n\"droplets.0.centre.2\" = [1.0]\n", "2 entries"),
         ("[grid]\nviscosity = []\n", "give a list"),
         ("[grid]\nviscosity = 3.0\n", "give a list"),

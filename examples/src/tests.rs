@@ -1,6 +1,7 @@
-use super::*;
+//! Command lines of the examples.
+
 use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, Preset};
-use clap::CommandFactory as _;
+use clap::{CommandFactory as _, Parser};
 use motile::base::Region;
 use motile::ib_core::AnyKernel;
 use motile::scene::StepSize;
@@ -8,6 +9,7 @@ use motile::setup::{
     Distribution, DropletSetup, ExcludedVolume, GridMethod, LayersMethod, Method, MethodKind, Setup, Start,
     SuspensionSetup,
 };
+use motile_cli::command_line::sentence;
 use motile_cli::run::OutputFlags;
 
 #[derive(Debug, Parser)]
@@ -249,5 +251,36 @@ fn regions_that_do_not_fit_are_refused() {
         "--method grid --spacing 0.07",
     ] {
         assert!(channel(line).is_err(), "{line}");
+    }
+}
+
+/// The page on the program gives the key of each flag.
+#[test]
+fn every_flag_has_a_key() {
+    use crate::{AnyRegionFlags, ElasticFlags, GelFlags, RelaxationFlags, TwitchingFlags};
+    use clap::Args;
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/running.md");
+    let text = std::fs::read_to_string(page).unwrap();
+    let (_, table) = text.split_once("| flag | key").unwrap();
+    let mut flags = std::collections::BTreeSet::new();
+    for augment in [
+        DropletFlags::augment_args,
+        AnyRegionFlags::augment_args,
+        ChannelFlags::augment_args,
+        MethodFlags::augment_args,
+        ElasticFlags::augment_args,
+        RelaxationFlags::augment_args,
+        TwitchingFlags::augment_args,
+        GelFlags::augment_args,
+    ] {
+        let command = augment(clap::Command::new("some"));
+        flags.extend(command.get_arguments().filter_map(|flag| flag.get_long().map(str::to_owned)));
+    }
+    assert!(flags.remove("time") && flags.len() > 50, "{}", flags.len());
+    for flag in flags {
+        let is_end = |c: Option<char>| !c.is_some_and(|c| c.is_alphanumeric() || c == '-');
+        let name = format!("`--{flag}");
+        let mut places = table.match_indices(&name).map(|(k, found)| k + found.len());
+        assert!(places.any(|end| is_end(table[end..].chars().next())), "--{flag}");
     }
 }

@@ -1,4 +1,4 @@
-//! The frame of an example: reads the command line, runs, and ends with one sentence where something is wrong.
+//! The frame of a program: reads the command line, runs, and ends with one sentence if something is wrong.
 
 use std::{error::Error as _, process::ExitCode};
 
@@ -7,40 +7,25 @@ use clap::{
     Parser,
     error::{ContextKind, ContextValue, ErrorKind},
 };
-use motile_cli::run::explained;
+
+use crate::run::explained;
 
 /// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
 const MISUSE: u8 = 2;
 
-/// The main function of an example: parses the command line into `Flags` and runs. What goes wrong, in the flags or in
-/// the run, ends as one sentence on the error output and an exit code other than zero.
+/// The main function of a program: reads the command line into `Flags` and runs. If something is wrong, in the flags or
+/// in the run, it ends with one sentence on the error output and an exit code other than zero.
 ///
 /// ```no_run
-/// use motile_examples::{BoxFlags, DropletFlags, MethodFlags};
-/// use motile_cli::run::OutputFlags;
-///
-/// /// A droplet swims in a periodic box.
+/// /// A droplet swims.
 /// #[derive(clap::Parser)]
 /// struct Flags {
 ///     #[command(flatten)]
-///     droplet: DropletFlags,
-///     #[command(flatten)]
-///     region: BoxFlags,
-///     #[command(flatten)]
-///     method: MethodFlags,
-///     #[command(flatten)]
-///     output: OutputFlags,
-/// }
-///
-/// fn swim(flags: &Flags) -> anyhow::Result<()> {
-///     let mut setup = flags.method.setup(&flags.droplet, None)?;
-///     flags.region.apply(&mut setup)?;
-///     println!("{setup:?}");
-///     Ok(())
+///     output: motile_cli::run::OutputFlags,
 /// }
 ///
 /// fn main() -> std::process::ExitCode {
-///     motile_examples::run(swim)
+///     motile_cli::command_line::run(|flags: &Flags| Ok(println!("{:?}", flags.output)))
 /// }
 /// ```
 pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
@@ -66,7 +51,8 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
 }
 
 /// Fault of a command line, in one sentence.
-pub(crate) fn sentence(error: &clap::Error, command: &clap::Command) -> String {
+#[must_use]
+pub fn sentence(error: &clap::Error, command: &clap::Command) -> String {
     let context = |kind: ContextKind| match error.get(kind) {
         Some(ContextValue::String(text)) => text.clone(),
         Some(ContextValue::Strings(texts)) => texts.join(", "),
@@ -108,12 +94,14 @@ pub(crate) fn sentence(error: &clap::Error, command: &clap::Command) -> String {
             told.join(" ").trim_start_matches("error: ").to_string()
         }
     };
-    one_line(&text)
-}
-
-fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-#[cfg(test)]
-mod tests;
+/// Reads a number above 0.
+///
+/// # Errors
+/// The rule that the text breaks.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "must be a number above 0".to_owned())
+}

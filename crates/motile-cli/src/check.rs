@@ -1,0 +1,88 @@
+//! Checks of scenes: what would run, without running it.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use motile::scene::{Every, SceneError, StepSize, System};
+use motile::setup::{AnyFlow, DropletShape, Numbers, Setup};
+use motile_cli::run::{Decided, Summary, say};
+use toml::Value;
+
+/// Steps that are tried.
+const TRIED: usize = 10;
+/// Most bodies that are listed.
+const MOST_BODIES: usize = 20;
+
+/// Builds a scene, takes its first steps, and prints what a run to the time `end` would be: region, method, bodies with
+/// their sizes and dimensionless numbers, steps, cost, and the warnings at the start. Writes no files.
+///
+/// # Errors
+/// A scene that cannot be built, or whose first steps fail.
+pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
+    let mut scene = setup.build()?.scene;
+    let placed = setup.placed()?;
+    let text = |value: Result<Value, _>| value.map(|value| value.to_string());
+    let mut report = Summary::default();
+    report.put("region", text(Value::try_from(setup.region))?, "");
+    report.put("method", text(Value::try_from(setup.method))?, "");
+    report.put("step", text(Value::try_from(setup.step))?, "");
+    let markers: usize = scene.system().all_bodies().map(|(_, body)| body.marker_count()).sum();
+    report.put("markers", markers, &format!("of all {} bodies", scene.system().all_bodies().len()));
+    // In the order in which bodies are added.
+    let shapes = placed.droplets.iter().map(|body| Some(&body.shape)).chain(placed.solids.iter().map(|_| None));
+    let shapes = shapes.chain(placed.rigid_bodies.iter().map(|body| Some(&body.shape)));
+    let shapes: Vec<Option<&DropletShape>> = shapes.chain(placed.shells.iter().map(|body| Some(&body.shape))).collect();
+    for (handle, body) in scene.system().all_bodies().take(MOST_BODIES) {
+        let mut about = format!("{} markers", body.marker_count());
+        if let Some(Some(shape)) = shapes.get(handle.index()) {
+            about += &format!(", radius {:.4}", shape.radius()?);
+        }
+        let numbers = placed.droplets.get(handle.index()).map(|droplet| placed.numbers(droplet)).transpose()?;
+        if let Some(Numbers { peclet, bare_tension, viscosity_ratio, excluded_volume }) = numbers.flatten() {
+            let volume = excluded_volume.map_or(String::new(), |ratio| format!(", A/|ζΔμ| {ratio:.4}"));
+            about += &format!(", Péclet number {peclet:.4}{volume}, γ0/(|ζΔμ| c0) {bare_tension:.4}");
+            about += &format!(", ηin/ηext {viscosity_ratio:.4}");
+        }
+        report.put(&format!("body {}", handle.index()), body.name(), &about);
+    }
+    report.put("length_scale", placed.length_scale(), "that times and pictures refer to (length)");
+    if let Some(filled) = setup.filled()? {
+        report.put("area_fraction", filled, "of the droplets of suspensions");
+    }
+    for (key, distance) in setup.distances_from_points()? {
+        report.put(&key, distance, "largest distance of the curve from the polygon through its points (length)");
+    }
+    report.put("minimum_gap", scene.system().minimum_gap(), "between bodies and to walls (length)");
+    if let Some(error) = setup.expected_error() {
+        report.put(
+            "expected_error",
+            error,
+            "largest relative error of the speed that was measured with these settings",
+        );
+    }
+    scene.system_mut().evaluate()?;
+    let warnings = scene.system_mut().warnings();
+
+    // The first steps.
+    if let StepSize::Fixed(dt) = setup.step {
+        scene.check_step(dt)?;
+    }
+    if let Some((limit, reason, body)) = scene.step_limit() {
+        report.put("step_limit", limit, &format!("at the start (time), set by {reason} of {body}"));
+    }
+    let started = Instant::now();
+    let mut few = |system: &mut System<AnyFlow>| if system.steps() < TRIED { Ok(()) } else { Err(Decided) };
+    match scene.run(end).observe(Every::Steps(1), &mut few).go() {
+        Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => {}
+        outcome => outcome?,
+    }
+    let (tried, longest) = (scene.steps() as f64, scene.step_report().longest);
+    let seconds = started.elapsed().as_secs_f64() / tried;
+    report.put("steps", (end / longest).ceil(), &format!("to t = {end}, if all were as long as the first ones"));
+    report.put("seconds", seconds * end / longest, "for them on this machine, without pictures");
+    say(report.table().trim_end());
+    for warning in warnings {
+        say(format_args!("warning: {warning}"));
+    }
+    Ok(())
+}
