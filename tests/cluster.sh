@@ -20,8 +20,8 @@ trap cleanup EXIT
 
 cd "$root"
 cargo build --release --quiet -p motile-cli
-MOTILE_SWEEP=${CARGO_TARGET_DIR:-$root/target}/release/motile-sweep
-export MOTILE_SWEEP
+MOTILE=${CARGO_TARGET_DIR:-$root/target}/release/motile
+export MOTILE
 cat > "$work/plan.toml" << 'PLAN'
 time = 30.0
 seeds = 2
@@ -34,7 +34,7 @@ viscosity = [50.0, 100.0]
 name = "cell"
 PLAN
 # Runs of the plan are in 12 folders; `same ENGINE` compares its table with that of the runs in one process.
-sweep() { "$MOTILE_SWEEP" "$work/plan.toml" "$@"; }
+sweep() { "$MOTILE" sweep "$work/plan.toml" "$@"; }
 now() { date +%s.%N; }
 since() { echo "$(now) $1" | awk '{ printf "%.1f s", $1 - $2 }'; }
 same() {
@@ -77,11 +77,11 @@ with LocalCluster() as cluster:
     first = submitted()
     while not glob.glob(f"{out}/runs/*/checkpoint"):
         time.sleep(0.02)
-    tasks = subprocess.run(["pgrep", "-f", f"motile-sweep {plan} --out {out}"], capture_output=True, text=True).stdout.split()
+    tasks = subprocess.run(["pgrep", "-f", f"motile sweep {plan} --out {out}"], capture_output=True, text=True).stdout.split()
     os.kill(int(tasks[0]), signal.SIGKILL)
     print(f"killed one of {len(tasks)} tasks")
     client.wait_for_jobs([first], raise_on_error=False)
-    subprocess.run([os.environ["MOTILE_SWEEP"], plan, "status", "--out", out], check=False)
+    subprocess.run([os.environ["MOTILE"], "sweep", plan, "status", "--out", out], check=False)
     client.wait_for_jobs([submitted()])
 PYTHON
     start=$(now)

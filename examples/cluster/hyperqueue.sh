@@ -8,4 +8,4 @@
 # runs go on from their checkpoints.
 shares=$1
 shift
-exec "${MOTILE_SWEEP:-target/release/motile-sweep}" "$@" --quiet --threads 1 --shard "$HQ_TASK_ID/$shares"
+exec "${MOTILE:-target/release/motile}" sweep "$@" --quiet --threads 1 --shard "$HQ_TASK_ID/$shares"

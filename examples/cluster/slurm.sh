@@ -8,5 +8,5 @@
 #SBATCH --job-name=motile-sweep
 #SBATCH --cpus-per-task=1
 #SBATCH --output=motile-sweep-%A-%a.log
-exec "${MOTILE_SWEEP:-target/release/motile-sweep}" "$@" --quiet --threads "${SLURM_CPUS_PER_TASK:-1}" \
+exec "${MOTILE:-target/release/motile}" sweep "$@" --quiet --threads "${SLURM_CPUS_PER_TASK:-1}" \
     --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"

@@ -136,7 +136,7 @@ mod tests {
             let text = read(&name).expect("a scene");
             Setup::from_toml(&text).and_then(|setup| setup.build().map(drop)).expect(&name);
             assert!(end(&text).expect(&name) > 0.0);
-            assert!(text.contains(&format!("--scene examples/scenes/{name}.toml --time ")), "{name}: no command");
+            assert!(text.contains(&format!("run examples/scenes/{name}.toml --time ")), "{name}: no command");
             let lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
             assert!(lines.count() <= 14, "{name} is longer than what is read at a glance");
         }

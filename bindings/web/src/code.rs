@@ -38,14 +38,11 @@ impl Way {
         let scene = concise(setup)?;
         let mut text = String::new();
         let written = match self {
-            Self::Command => {
-                let example = if setup.suspension.is_empty() { "swimming_droplet" } else { "suspension" };
-                write!(
-                    text,
-                    "cat > scene.toml <<'END'\n{scene}END\ncargo run --release --example {example} -- \
-                     --scene scene.toml --time {until}\n"
-                )
-            }
+            Self::Command => write!(
+                text,
+                "cat > scene.toml <<'END'\n{scene}END\ncargo run --release --bin motile -- run scene.toml \
+                 --time {until}\n"
+            ),
             Self::Python => write!(
                 text,
                 "import motile\n\nsetup = motile.Setup.from_toml(\"\"\"\n{scene}\"\"\")\nscene = setup.build()\n\

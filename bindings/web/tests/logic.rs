@@ -67,7 +67,7 @@ fn programs_hold_the_scene() {
         let scene = concise(&setup).expect("a scene");
         assert!(text.contains(&scene), "{name}: {text}");
     }
-    assert!(Way::Command.text(&preset("sixteen"), 1.0).expect("a text").contains("--example suspension"));
+    assert!(Way::Command.text(&preset("sixteen"), 1.0).expect("a text").contains("motile -- run scene.toml"));
     assert!(Way::named("fortran").is_err());
 }
 
