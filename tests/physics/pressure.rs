@@ -1,6 +1,8 @@
 //! The constant of the pressure.
 
-use motile::base::FlowSample;
+use std::f64::consts::PI;
+
+use motile::base::{FlowSample, TubeShape};
 use motile::prelude::*;
 use motile::setup::GridSolver;
 
@@ -68,4 +70,42 @@ fn the_mean_over_the_walls_is_zero() {
         let [sum, most] = found.iter().fold([0.0_f64; 2], |[sum, most], p| [sum + p, most.max(p.abs())]);
         assert!((sum / 120.0).abs() < 1e-6 * most && most > 0.1, "{viscosity:?}: {} of {most}", sum / 120.0);
     }
+}
+
+/// The flow of Poiseuille past a droplet: the report has the gradient of the flux far from the droplet, and samples are
+/// without it, so that both together are the pressure there.
+#[test]
+fn tubes_have_the_pressure_gradient_of_poiseuille() {
+    let radius = 1.6_f64;
+    let [viscosity, flux] = [3.0, 0.7];
+    let exact = -8.0 * viscosity * flux / (PI * radius.powi(4));
+    let of = |drive, shape, length| {
+        let region = Region::Tube { radius, shape, drive, length };
+        let droplets = vec![DropletSetup::passive(10.0)];
+        let method = Method::Integral(IntegralMethod { nodes: 48, elements: 96 });
+        let mut scene = Setup { region, method, viscosity, droplets, ..Setup::default() }.build().unwrap().scene;
+        let points = [-4.0, 4.0].map(|x| Vec2::new(x, 0.0));
+        let mut samples = [FlowSample::default(); 2];
+        scene.system_mut().sample(&points, &mut samples).unwrap();
+        scene.system_mut().evaluate().unwrap();
+        (scene.system().report().mean_pressure_gradient, samples[1].pressure - samples[0].pressure)
+    };
+    // A droplet adds a jump of the pressure, which does not depend on the length of the tube.
+    let (infinite, jump) = of(Drive::Flux(flux), TubeShape::Straight, None);
+    assert!((infinite[0] / exact - 1.0).abs() < 1e-12 && infinite[1] == 0.0, "{infinite:?} {exact}");
+    let length = 12.0;
+    let (mean, rest) = of(Drive::Flux(flux), TubeShape::Straight, Some(length));
+    assert!((mean[0] - exact - jump / length).abs() < 1e-6 * exact.abs(), "{mean:?} {exact} {jump}");
+    assert!((rest + mean[0] * 8.0 - jump - exact * 8.0).abs() < 1e-9, "{rest} {jump}");
+    let (prescribed, _) = of(Drive::Gradient(-0.4), TubeShape::Straight, Some(length));
+    assert!((prescribed[0] + 0.4).abs() < 1e-12, "{prescribed:?}");
+    let (still, _) = of(Drive::ZeroFlux, TubeShape::Straight, None);
+    assert_eq!(still, [0.0; 2]);
+
+    // Where the wall is not straight there is none, and samples are the pressure: beyond the throat it falls by more
+    // than in a straight tube of the same radius.
+    let throat = TubeShape::Constriction { throat: 1.4, throat_length: 2.0, ramp: 2.0 };
+    let (none, drop) = of(Drive::Flux(flux), throat, Some(20.0));
+    assert!(none[0].is_nan(), "{none:?}");
+    assert!(drop < jump + 8.0 * exact, "{drop} {jump}");
 }

@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use motile::active_interface::Flux;
+use motile::active_interface::{Flux, Tension};
 use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::{Every, Warnings};
 use motile::setup::{
-    Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Particles, Setup, SolidOutline, WallSetup,
+    Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup,
+    SolidOutline, WallSetup,
 };
 
 /// The causes that a run of `setup` warns of, in the order of their names.
@@ -114,6 +115,96 @@ fn thin_films_edges_and_small_droplets_are_told() {
     assert_eq!(but_stresslets(&small, 0.2), ["droplet not resolved"]);
     let unbalanced = Setup { droplets: vec![DropletSetup::contractile(-10.0, 9.0)], ..Setup::default() };
     assert!(but_stresslets(&unbalanced, 0.1).contains(&"tension without a plateau".to_owned()));
+}
+
+/// A law of the test: gamma = 10 + slope c.
+#[derive(Debug)]
+struct Linear(f64);
+
+impl Tension for Linear {
+    fn value(&self, c: f64) -> f64 {
+        10.0 + self.0 * c
+    }
+
+    fn slope(&self, _c: f64) -> f64 {
+        self.0
+    }
+}
+
+/// A law of the test that levels off: gamma = 10 + 400 c/(c + 100).
+#[derive(Debug)]
+struct Saturating;
+
+impl Tension for Saturating {
+    fn value(&self, c: f64) -> f64 {
+        10.0 + 400.0 * c / (c + 100.0)
+    }
+
+    fn slope(&self, c: f64) -> f64 {
+        4e4 / (c + 100.0).powi(2)
+    }
+}
+
+/// Where an activity lowers the tension below zero, by any method and in any region, the start says so.
+#[test]
+fn negative_tension_is_told() {
+    let of = |region, method, activity| {
+        let droplets = vec![DropletSetup::active(activity)];
+        let Built { mut scene, .. } = Setup { region, method, droplets, ..Setup::default() }.build().unwrap();
+        let warnings = scene.system_mut().warnings();
+        warnings.into_iter().find(|warning| warning.cause == "tension negative")
+    };
+    let integral = Method::Integral(IntegralMethod { nodes: 48, elements: 192 });
+    let layers = Method::Layers(LayersMethod { spacing: 0.1, ..LayersMethod::default() });
+    let channel = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
+    let square = Region::Box { lengths: [6.0, 6.0] };
+    let cases = [
+        (Region::Plane, integral),
+        (Region::Space, integral),
+        (Region::tube(2.0), integral),
+        (square, integral),
+        (channel, integral),
+        (square, grid(0.1)),
+        (channel, layers),
+    ];
+    for (region, method) in cases {
+        let warning = of(region, method, 0.5).expect("a warning");
+        // Half is covered, at twice the mean concentration of 100: 10 - 0.5 200 - Pi(200), Pi(200) = 100 ln 2.
+        assert!(warning.message.starts_with("its tension is -1.59"), "{warning}");
+        assert!((warning.excess - 16.9).abs() < 0.1, "{warning}");
+        // 10 + 0.5 200 - 100 ln 2 is 41.
+        assert!(of(region, method, -0.5).is_none(), "{region:?}");
+    }
+}
+
+/// Laws that do not say so themselves are looked at too.
+#[test]
+fn laws_of_your_own_are_looked_at() {
+    let of = |law: Box<dyn Tension>| {
+        let built = Setup { region: Region::Plane, ..Setup::default() }.build().unwrap();
+        let (mut scene, droplet) = (built.scene, built.droplets[0]);
+        scene.body_mut(droplet).unwrap().set_tension(law);
+        let warnings = scene.system_mut().warnings();
+        warnings.into_iter().map(|warning| warning.cause.to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(of(Box::new(Linear(2.0))), ["tension without a plateau"]);
+    assert_eq!(of(Box::new(Linear(-0.5))), ["tension negative"]);
+    assert!(of(Box::new(Saturating)).is_empty());
+    assert!(of(Box::new(Linear(0.0))).is_empty());
+}
+
+/// Bending holds the waves of an interface under compression that are shorter than those it buckles in.
+#[test]
+fn bending_makes_a_negative_tension_meaningful() {
+    let of = |bending: f64| {
+        let droplet = DropletSetup { bending, ..DropletSetup::active(0.5) };
+        let setup = Setup { region: Region::Plane, droplets: vec![droplet], ..Setup::default() };
+        let warnings = setup.build().unwrap().scene.system_mut().warnings();
+        warnings.iter().any(|warning| warning.cause == "tension negative")
+    };
+    // 36 waves around a circle of radius 1: B 36^2 is 259 and 26, next to a tension of -159.
+    assert!(!of(0.2));
+    assert!(of(0.02));
 }
 
 /// A film between droplets is seen before the first step and after one was moved by hand.

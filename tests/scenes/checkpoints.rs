@@ -4,13 +4,13 @@
 use std::path::PathBuf;
 
 use motile::base::Drive;
-use motile::base::{Region, TubeShape};
+use motile::base::{ImposedFlow, Region, TubeShape};
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::AnyKernel;
 use motile::interior::{Anchoring, DirectorStart};
 use motile::scene::{
-    Body, Hydrodynamics, Scene, SceneError, StepSize,
+    Body, Hydrodynamics, Imposed, Scene, SceneError, StepSize,
     checkpoint::{Checkpoint, CheckpointError},
     integrator::{Dynamics as _, RungeKuttaChebyshev},
 };
@@ -295,11 +295,11 @@ fn a_file_that_is_not_whole_is_refused() {
     let longer = [bytes.as_slice(), &[0]].concat();
     assert!(refused(&Checkpoint::from_bytes(&longer).expect_err("too long"), INCOMPLETE));
     let mut later = bytes.clone();
-    for version in [1, 5, 7] {
+    for version in [1, 6, 8] {
         later[8] = version;
         let error = Checkpoint::from_bytes(&later).expect_err("another version");
         let expected = u32::from(version);
-        assert!(matches!(error, CheckpointError::Version { found, supported: 6 } if found == expected), "{error}");
+        assert!(matches!(error, CheckpointError::Version { found, supported: 7 } if found == expected), "{error}");
     }
     assert!(refused(&Checkpoint::from_bytes(b"some other file").expect_err("another file"), NO_CHECKPOINT));
 }
@@ -655,4 +655,47 @@ fn handles_stay_valid() {
     scene.resume(&saved).expect("the same scene");
     assert_eq!(scene.body(droplet).unwrap().markers(), markers);
     assert_eq!(scene.body(droplet).unwrap().marker_count(), markers.len());
+}
+
+/// Functions of time cannot be compared, but their values can, from the time of the state on.
+#[test]
+fn imposed_flows_of_time_are_compared() {
+    let of = |flow: Option<Imposed>| {
+        let droplets = vec![DropletSetup { centre: [0.0, 0.3], ..DropletSetup::passive(1000.0) }];
+        let method = Method::Integral(IntegralMethod { nodes: 16, elements: 32 });
+        let mut scene = scene(&Setup { region: Region::Plane, method, droplets, ..Setup::default() });
+        flow.into_iter().for_each(|flow| scene.impose(flow).expect("a flow"));
+        scene
+    };
+    let shear = |rate: f64| Some(Imposed::from(ImposedFlow::shear(rate)));
+    let wave = |rate: f64| Some(Imposed::of_time(move |time| ImposedFlow::shear(0.1 * (rate * time).cos())));
+    let late = |time: f64| {
+        Some(Imposed::of_time(move |now| ImposedFlow::shear(if now < time { 0.1 * (2.0 * now).cos() } else { 0.0 })))
+    };
+    let saved = |flow: Option<Imposed>| {
+        let mut scene = of(flow);
+        scene.run(0.5).go().expect("a run");
+        scene.checkpoint("")
+    };
+    let (still, steady, moving) = (saved(None), saved(shear(0.1)), saved(wave(2.0)));
+    for (checkpoint, flow) in [(&still, None), (&steady, shear(0.1)), (&moving, wave(2.0))] {
+        of(flow).resume(checkpoint).expect("the same flow");
+    }
+    let at = "the gradient du/dy of the imposed flow";
+    let cases = [
+        (&moving, None, "is 0.05403023058681398 in it and not given here"),
+        (&moving, shear(0.1), "is 0.05403023058681398 in it and 0.1 here"),
+        (&moving, wave(3.0), "is 0.05403023058681398 in it and 0.0070737201667"),
+        (&moving, late(0.6), "in it and not given here"),
+        (&steady, None, "is 0.1 in it and not given here"),
+        (&steady, shear(0.2), "is 0.1 in it and 0.2 here"),
+        (&steady, wave(2.0), "in it and"),
+        (&still, shear(0.1), "is not given in it and 0.1 here"),
+        (&still, wave(2.0), "is not given in it and"),
+    ];
+    for (checkpoint, flow, expected) in cases {
+        let error = of(flow).resume(checkpoint).expect_err(expected).to_string();
+        assert!(error.contains(at) && error.contains(expected), "{expected}: {error}");
+        assert!(error.contains("`Scene::take_over`"), "{error}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use motile::base::{Drive, Region, Vec2};
 use motile::elastic_solids::ChannelShape;
-use motile::scene::{Handle, SceneError, StepSize};
+use motile::scene::{SceneError, StepSize};
 use motile::setup::{
     Built, DropletSetup, FlowSetup, IntegralMethod, LayersMethod, Material, Method, RigidBodySetup, Setup,
     SolidOutline, SolidSetup,
@@ -77,18 +77,36 @@ fn other_bodies_are_refused_and_nothing_is_changed() {
     let before = scene.checkpoint("");
     let refused = scene.take_over(&other.scene.checkpoint("")).expect_err("two droplets").to_string();
     assert!(refused.contains("it has 2 bodies, this scene 1"), "{refused}");
-    // Another number of markers, which the bodies find out themselves, and a box that does not hold the droplets.
-    let finer = Setup { method: Method::Integral(IntegralMethod { nodes: 32, elements: 96 }), ..small(-2.0) };
-    let finer = finer.build().expect("a scene").scene.checkpoint("");
-    assert!(scene.take_over(&finer).is_err() || scene.body(scene_droplet(&scene)).expect("it").markers().len() == 96);
     scene.take_over(&before).expect("the state before");
     assert_eq!((scene.time(), scene.steps()), (0.0, 0));
 }
 
-fn scene_droplet(
-    scene: &motile::scene::Scene<motile::setup::AnyFlow>,
-) -> Handle<motile::active_interface::ActiveDroplet> {
-    scene.system().bodies().next().expect("a droplet").0
+/// A finer or coarser description would be of no effect, and not that of the state that follows.
+#[test]
+fn another_number_of_markers_is_refused() {
+    let of = |nodes, elements| {
+        let method = Method::Integral(IntegralMethod { nodes, elements });
+        let mut built = Setup { method, ..small(-2.0) }.build().expect("a scene");
+        built.scene.run(0.1).go().expect("a run");
+        built.scene
+    };
+    let saved = of(32, 64).checkpoint("");
+    for elements in [96, 48] {
+        let mut scene = of(32, elements);
+        let before = scene.checkpoint("");
+        let refused = scene.take_over(&saved).expect_err("another number of markers").to_string();
+        let words = format!("the number of markers at the start is 64 in it and {elements} here");
+        assert!(refused.contains(&words) && refused.contains("Build the scene with as many"), "{refused}");
+        assert_eq!(scene.checkpoint("").to_bytes().expect("bytes"), before.to_bytes().expect("bytes"));
+    }
+    // With other nodes for the same markers it goes on, and what it saves is of its own description.
+    let mut scene = of(48, 64);
+    scene.take_over(&saved).expect("the same markers");
+    scene.run(0.2).go().expect("a run");
+    let after = scene.checkpoint("");
+    let mut resumed = of(48, 64);
+    resumed.resume(&after).expect("the same description");
+    assert_eq!(resumed.checkpoint(""), after);
 }
 
 #[test]

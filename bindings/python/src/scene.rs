@@ -291,7 +291,9 @@ impl Scene {
             let mut state = self.lock()?;
             let system = state.scene.system_mut();
             system.sample(&points, &mut samples).map_err(failed)?;
-            let gradient = Vec2::from(system.report().mean_pressure_gradient);
+            // Tubes that are not straight have no mean one: their samples are complete.
+            let gradient = system.report().mean_pressure_gradient.map(|slope| if slope.is_finite() { slope } else { 0.0 });
+            let gradient = Vec2::from(gradient);
             for (sample, point) in samples.iter_mut().zip(&points) {
                 sample.pressure += gradient.dot(*point);
             }

@@ -30,7 +30,9 @@ pub trait Tension: Debug + Send + Sync {
         }
     }
 
-    /// Warning, with its remedy, of a flaw of this law that no resolution mends ([`motile_scene::Warning`]).
+    /// Warning, with its remedy, of a flaw of this law that no resolution mends ([`motile_scene::Warning`]). You need
+    /// not implement it: interfaces look at the values of every law, and warn of a tension that grows in proportion to
+    /// the concentration without leveling off, and of a negative one.
     fn warning(&self) -> Option<String> {
         None
     }

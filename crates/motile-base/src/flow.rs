@@ -28,5 +28,9 @@ pub struct SolveReport {
     pub residual: f64,
     /// Mean pressure gradient (stress per length), the uniform part of grad p; in a periodic box the mean force
     /// density.
+    ///
+    /// In a straight tube it is the mean over the length of the tube, or if it has none the gradient far from all
+    /// bodies, `-8 viscosity flux/(pi radius^4)`. In a tube of another shape there is none: its x component is not a
+    /// number, and you get the pressure drop from samples near both ends, whose pressures are complete.
     pub mean_pressure_gradient: [f64; 2],
 }

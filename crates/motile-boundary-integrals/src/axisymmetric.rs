@@ -50,6 +50,14 @@ impl AxisymmetricIntegral {
         Ok(Self { flow, region, work: FlowWork::default(), stiffness, walls })
     }
 
+    /// Mean pressure gradient along x (stress per length) in the last solution: of a straight tube over its length, or
+    /// if it has none far from the surfaces; zero in unbounded fluid. In a tube of another shape it is not a number,
+    /// since the pressure there falls mostly where it is narrow.
+    fn pressure_gradient(&self) -> f64 {
+        let unbounded = if matches!(self.region, Region::Tube { .. }) { f64::NAN } else { 0.0 };
+        self.flow.pressure_gradient().unwrap_or(unbounded)
+    }
+
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let mut shortest = f64::INFINITY;
         for group in markers.groups() {
@@ -111,14 +119,19 @@ impl Hydrodynamics for AxisymmetricIntegral {
         for (surface, range) in ranges.into_iter().enumerate() {
             self.flow.velocities(surface, &mut markers.velocities_mut()[range]).map_err(of_layers)?;
         }
-        Ok(SolveReport::default())
+        Ok(SolveReport { mean_pressure_gradient: [self.pressure_gradient(), 0.0], ..SolveReport::default() })
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         all_points_finite("the points to sample", points)?;
         self.load(markers)?;
         self.flow.solve().map_err(of_layers)?;
-        self.flow.sample(points, out).map_err(of_layers)
+        self.flow.sample(points, out).map_err(of_layers)?;
+        let gradient = self.pressure_gradient();
+        if gradient.is_finite() {
+            out.iter_mut().zip(points).for_each(|(sample, point)| sample.pressure -= gradient * point.x);
+        }
+        Ok(())
     }
 
     fn work(&self) -> FlowWork {

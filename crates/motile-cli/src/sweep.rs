@@ -33,7 +33,7 @@ pub struct SweepFlags {
     /// Plan: a scene, a time, and ranges of the scene's entries (TOML)
     #[arg(value_name = "FILE")]
     plan: PathBuf,
-    /// Task: make the runs, write one table of their results, or list how many are left
+    /// Task, after the file: make the runs, write one table of their results, or list how many are left
     #[arg(value_enum, default_value_t = Action::Run)]
     action: Action,
     /// Share of the runs to make, such as 2/4 for the second of four

@@ -177,7 +177,8 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
 
 /// Observer that writes what there is of the whole flow to a CSV file, a row at each call.
 ///
-/// The columns are `time`, `pressure_gradient_x` and `pressure_gradient_y` (the mean one, stress per length),
+/// The columns are `time`, `pressure_gradient_x` and `pressure_gradient_y` (the mean one, stress per length;
+/// empty in a tube that is not straight),
 /// `smallest_gap` of the run so far between bodies and to walls (length), and in a periodic box the mean particle
 /// stress `stress_xx`, `stress_xy`, `stress_yy` (stress; [`motile::scene::Stress`]) and the `effective_viscosity` in a
 /// shear. Fields are empty for what does not exist.

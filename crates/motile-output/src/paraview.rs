@@ -179,7 +179,10 @@ impl<H: Hydrodynamics> Observer<H> for ParaView {
             }
         }
         self.write(system)?;
-        system.record_mut(RECORD).numbers.push(time);
+        let files = &mut system.record_mut(RECORD).numbers;
+        if files.last() != Some(&time) {
+            files.push(time);
+        }
         Ok(())
     }
 }

@@ -10,9 +10,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, scene::Findings, step_report::StepReport};
+use crate::{
+    Body, Domain, Hydrodynamics, MarkerKind, Scene, SceneError, System,
+    scene::{Findings, flow_properties},
+    step_report::StepReport,
+};
 use motile_base::{
-    SolveReport, Vec2,
+    ImposedFlow, SolveReport, Vec2,
     internal::{told, told_apart},
 };
 
@@ -58,6 +62,8 @@ pub struct Checkpoint {
     /// Of the grid, if there was one (length).
     spacing: Option<f64>,
     properties: Vec<(String, f64)>,
+    /// The imposed flow at the time of the state, and if it is a function of time at some later times (time).
+    imposed: Vec<(f64, ImposedFlow)>,
     bodies: Vec<Part>,
     flow: SavedState,
     /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
@@ -88,6 +94,49 @@ impl Part {
 
 /// Numbers that were computed in the same way differ by less than this part of them on any machine.
 const ROUND_OFF: f64 = 1e-9;
+
+/// Later times at which an imposed flow that is a function of time is compared, in mean steps so far, or in units of
+/// time before the first step.
+const LATER: [f64; 5] = [0.0, 1.0, 10.0, 100.0, 1000.0];
+
+/// Names of the counts of a body that the length of its state follows from, or its resolution ([`Body::properties`]).
+const COUNTS: [&str; 5] = [
+    "the number of markers",
+    "the number of markers at the start",
+    "the number of points",
+    "the number of free points",
+    "the number of nodes",
+];
+
+/// The imposed flow at the present time, and if it is a function of time at later times (time).
+fn imposed_from_now<H: Hydrodynamics>(system: &System<H>) -> Vec<(f64, ImposedFlow)> {
+    let (time, steps) = (system.time(), system.steps());
+    let unit = if steps > 0 && time > 0.0 { time / steps as f64 } else { 1.0 };
+    let count = if system.is_flow_of_time() { LATER.len() } else { 1 };
+    LATER[..count].iter().map(|later| time + later * unit).map(|time| (time, system.imposed_at(time))).collect()
+}
+
+/// Refuses another imposed flow than the saved one, at any of the times at which either is known to change.
+fn compare_flows<H: Hydrodynamics>(system: &System<H>, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+    let numbers = |flow: ImposedFlow, time: Option<f64>| {
+        let at = time.map_or_else(String::new, |time| format!(" at the time {time}"));
+        flow_properties(flow).map(|(name, value)| (format!("{name}{at}"), value)).collect::<Vec<_>>()
+    };
+    let compare = |time: Option<f64>, here: ImposedFlow, saved: ImposedFlow| {
+        compare_properties("the scene", &numbers(here, time), &numbers(saved, time))
+    };
+    let changes = system.is_flow_of_time();
+    match checkpoint.imposed[..] {
+        // A steady one goes on at later times.
+        [(now, saved)] => {
+            let later = if changes { &LATER[..] } else { &LATER[..1] };
+            let unit = if checkpoint.steps > 0 && now > 0.0 { now / checkpoint.steps as f64 } else { 1.0 };
+            let times = later.iter().map(|later| now + later * unit);
+            times.into_iter().try_for_each(|time| compare(changes.then_some(time), system.imposed_at(time), saved))
+        }
+        ref flows => flows.iter().try_for_each(|(time, saved)| compare(Some(*time), system.imposed_at(*time), *saved)),
+    }
+}
 
 /// First length that a saved domain has otherwise than the present one, in words.
 fn difference(saved: Domain, present: Domain) -> String {
@@ -128,6 +177,9 @@ fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)])
     Ok(())
 }
 
+/// Values of entries that say least.
+const EMPTY: [&str; 6] = ["0.0", "0", "false", "\"\"", "a list of 0", "[]"];
+
 /// The first entry of a description ([`Scene::described_by`]) that is not the same here and in what was saved, in
 /// words. A scene that was put together by hand has no entries, and none that is different.
 #[must_use]
@@ -135,7 +187,13 @@ pub fn other_entry(here: &BTreeMap<String, String>, saved: &BTreeMap<String, Str
     if here.is_empty() || saved.is_empty() {
         return None;
     }
-    let key = here.keys().chain(saved.keys()).find(|key| here.get(*key) != saved.get(*key))?;
+    // Where a part is given on one side alone, such as a flow, its entries that are not zero tell more than the others.
+    let telling = |key: &&String| match (here.get(*key), saved.get(*key)) {
+        (Some(_), Some(_)) => 0,
+        (one, other) => 1 + usize::from(one.or(other).is_some_and(|value| EMPTY.contains(&value.as_str()))),
+    };
+    let different = here.keys().chain(saved.keys()).filter(|key| here.get(*key) != saved.get(*key));
+    let key = different.min_by_key(telling)?;
     let shown = |entries: &BTreeMap<String, String>| entries.get(key).map_or("not given", String::as_str).to_owned();
     Some(format!("{key} is {} in it and {} here", shown(saved), shown(here)))
 }
@@ -199,6 +257,7 @@ impl<H: Hydrodynamics> Scene<H> {
             domain: system.hydrodynamics().fluid_view().domain,
             spacing: system.hydrodynamics().fluid_view().spacing,
             properties: system.properties(),
+            imposed: imposed_from_now(system),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
             known: system.is_evaluated().then(|| (velocities.collect(), *system.report())),
@@ -216,7 +275,9 @@ impl<H: Hydrodynamics> Scene<H> {
     /// # Errors
     /// A checkpoint of another domain, of other bodies, or of a state that a body refuses; [`SceneError::Refused`] if
     /// another version of the program wrote it ([`Checkpoint::version`]), or if an entry of the description
-    /// ([`Scene::described_by`]), a body or the fluid is different, with its name and both values.
+    /// ([`Scene::described_by`]), a body, the fluid or the imposed flow is different, with its name and both values. An
+    /// imposed flow that is a function of time is compared at the time of the state and at four later times, up to a
+    /// thousand mean steps later.
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare(checkpoint)?;
         let before = self.checkpoint("");
@@ -233,11 +294,18 @@ impl<H: Hydrodynamics> Scene<H> {
     /// as it was.
     ///
     /// # Errors
-    /// [`SceneError::Refused`] for other bodies or another number of them, [`SceneError::Body`] for a state
-    /// that a body refuses, such as one of another number of markers; places at which bodies overlap, or lie beyond
+    /// [`SceneError::Refused`] for other bodies, another number of them, or bodies of another number of markers or
+    /// points; [`SceneError::Body`] for a state that a body refuses; places at which bodies overlap, or lie beyond
     /// walls, here.
     pub fn take_over(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare_bodies(checkpoint)?;
+        for ((_, body), part) in self.system().all_bodies().zip(&checkpoint.bodies) {
+            let counts = |list: &[(String, f64)]| {
+                list.iter().filter(|(name, _)| COUNTS.contains(&name.as_str())).cloned().collect::<Vec<_>>()
+            };
+            compare_properties(body.name(), &counts(&body.properties()), &counts(&part.properties))
+                .map_err(SceneError::of_other_resolution)?;
+        }
         let before = self.checkpoint("");
         let taken = self.take_bodies(checkpoint, &before);
         taken.inspect_err(|_| {
@@ -300,9 +368,10 @@ impl<H: Hydrodynamics> Scene<H> {
         // The strain of a sheared box is part of the state.
         let unstrained = |domain: Domain| Domain { periods: (*domain.periods).into(), ..domain };
         if unstrained(domain) != unstrained(checkpoint.domain) {
-            return foreign(difference(checkpoint.domain, domain));
+            return Err(SceneError::other_domain(difference(checkpoint.domain, domain)));
         }
         compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
+        compare_flows(system, checkpoint)?;
         self.compare_bodies(checkpoint)?;
         for ((_, body), part) in system.all_bodies().zip(&checkpoint.bodies) {
             let here = body.name();

@@ -70,8 +70,8 @@ pub enum FlowError {
     /// A gap between a wall and a rigid body that the nodes of the body do not resolve.
     #[error(
         "the gap between rigid body {body} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
-         so narrow a gap, and its speed would be off by more than 1 %. Use {needed} nodes or more, or keep the body \
-         away from the wall",
+         so narrow a gap. Its speed may be off by 1 %, and by more the narrower the gap. Use {needed} nodes or \
+         more, or keep the body away from the wall",
         told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
     )]
     NarrowGap {
@@ -337,13 +337,7 @@ pub enum SceneError {
         body: String,
     },
     /// Adaptive steps have become shorter than the bound that was set.
-    #[error(
-        "at time {time} the time step would have to fall to {}, below the minimum of {}: use a larger \
-         tolerance, or refine the grid and the markers{}",
-        told_apart([*dt, *least])[0], told_apart([*dt, *least])[1],
-        source.as_ref().map_or_else(String::new, |source| format!("; the last attempt ended because {source}")),
-        time = told(*time)
-    )]
+    #[error("{}", stagnation(*time, [*dt, *least], source.as_deref()))]
     Stagnation {
         /// Time of the state.
         time: f64,
@@ -407,6 +401,9 @@ pub enum SceneError {
 
 motile_base::debug_as_explanation!(SceneError);
 
+/// Remedy of a refused checkpoint.
+const GO_ON: &str = "start from its state with other values by `Scene::take_over`";
+
 impl SceneError {
     /// Neighbouring interfaces that are periodic along x, the lower one and the upper one or an image of the lower, and
     /// give the fluid between them two viscosities (stress times time).
@@ -452,11 +449,29 @@ impl SceneError {
         Self::refused("the checkpoint is of another scene", difference, "Resume with the scene that wrote it")
     }
 
+    /// A checkpoint of another domain: the difference in words.
+    pub(crate) fn other_domain(difference: String) -> Self {
+        let remedy = format!("Resume with the scene that wrote it, or {GO_ON}");
+        Self::refused("the checkpoint is of another scene", difference, remedy)
+    }
+
+    /// The refusal of bodies of another resolution, from the one of another property.
+    pub(crate) fn of_other_resolution(self) -> Self {
+        match self {
+            Self::Refused { value, .. } => {
+                let remedy = "Build the scene with as many markers and points as the checkpoint has";
+                Self::refused("the checkpoint has another resolution", value, remedy)
+            }
+            other => other,
+        }
+    }
+
     /// A checkpoint of a scene whose fluid or bodies are made of something else: the body or the scene, its property,
     /// and the values of the property in the checkpoint and here.
     pub(crate) fn other_property(of: &str, property: &str, saved: Option<f64>, present: Option<f64>) -> Self {
         let value = format!("for {of}, {property} is {} in it and {} here", shown(saved), shown(present));
-        Self::refused("the checkpoint is of other physics", value, "Resume with the values it was saved with")
+        let remedy = format!("Resume with the values it was saved with, or {GO_ON}");
+        Self::refused("the checkpoint is of other physics", value, remedy)
     }
 
     /// A checkpoint of a program that may compute other numbers.
@@ -468,7 +483,7 @@ impl SceneError {
 
     /// A checkpoint of a scene with another description: the key, and its values in the checkpoint and here, in words.
     pub(crate) fn other_entry(entry: &str) -> Self {
-        let remedy = "Resume with the values it was saved with, or start a new run";
+        let remedy = format!("Resume with the values it was saved with, start a new run, or {GO_ON}");
         Self::refused("the checkpoint is of another description", entry, remedy)
     }
 
@@ -506,6 +521,23 @@ impl SceneError {
     #[must_use]
     pub fn explanation(&self) -> String {
         motile_base::internal::explanation(self)
+    }
+}
+
+/// Sentence of [`SceneError::Stagnation`]: of an attempt that ended in an error the error, which has the remedy, first.
+fn stagnation(time: f64, steps: [f64; 2], source: Option<&SceneError>) -> String {
+    let [dt, least] = told_apart(steps);
+    match source {
+        Some(source) => format!(
+            "{source} (steps as short as the minimum of {least} do not avoid it: the next one would be {dt}, at time \
+             {})",
+            told(time)
+        ),
+        None => format!(
+            "at time {} the time step would have to fall to {dt}, below the minimum of {least}: use a larger \
+             tolerance, or refine the grid and the markers",
+            told(time)
+        ),
     }
 }
 

@@ -161,6 +161,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// The flow at `points` for the positions and forces in `markers` (whose velocities must be those of
     /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. For pictures and files, not for stepping.
+    /// Points beyond a wall get the continuation of the flow by the method, which means nothing.
     ///
     /// # Errors
     /// As [`Hydrodynamics::velocities`], and slices of different length.

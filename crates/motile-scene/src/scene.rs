@@ -14,6 +14,7 @@ pub use run::{Every, Observer, Run};
 pub(crate) use step_control::StepControl;
 pub use step_control::StepSize;
 pub(crate) use system::Findings;
+pub(crate) use system::flow_properties;
 pub use system::{Imposed, System};
 pub use warnings::Warnings;
 

@@ -71,8 +71,8 @@ pub enum LayerError {
     /// A film between a wall and a rigid body that the nodes of the body do not resolve.
     #[error(
         "the gap between rigid body {curve} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
-         so narrow a gap, and its speed would be off by more than 1 %. Use {needed} nodes or more, or keep the body \
-         away from the wall",
+         so narrow a gap. Its speed may be off by 1 %, and by more the narrower the gap. Use {needed} nodes or \
+         more, or keep the body away from the wall",
         told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
     )]
     NarrowGap {

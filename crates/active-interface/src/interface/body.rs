@@ -163,14 +163,11 @@ impl Body for ActiveInterface {
             push("the reference curvature", bending.reference);
         }
         push("the number of markers at the start", self.account.markers as f64);
-        let mut length = self.advance().abs();
-        if length > 0.0 {
-            push("the period", length);
-        } else {
-            let radius = self.radius_at_start();
-            length = if self.state.shape.axisymmetric { 2.0 * radius } else { 1.0 } * TAU * radius;
+        let period = self.advance().abs();
+        if period > 0.0 {
+            push("the period", period);
         }
-        let mean = self.account.number / length;
+        let mean = self.mean_concentration();
         for sample in LAW_SAMPLES {
             let name = format!("the tension at {sample} times the mean concentration at the start");
             push(&name, self.law.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
@@ -288,9 +285,9 @@ impl ActiveInterface {
                 return Err(BodyError::NotConserved { what, change, bound });
             }
         }
-        if total > 0.0 && self.law.tension.warning().is_some() {
+        if total > 0.0 {
             let most = self.particle_numbers().iter().fold(0.0_f64, |a, &b| a.max(b));
-            if most > COLLAPSED * total {
+            if most > COLLAPSED * total && self.collapse().is_some() {
                 return Err(InterfaceError::Collapse { part: most / total }.into());
             }
         }
@@ -321,7 +318,7 @@ impl ActiveInterface {
     }
 
     /// Radius of the circle or sphere of the size at the start (length).
-    fn radius_at_start(&self) -> f64 {
+    pub(super) fn radius_at_start(&self) -> f64 {
         let size = self.account.area / PI;
         if self.state.shape.axisymmetric { (0.75 * size).cbrt() } else { size.sqrt() }
     }

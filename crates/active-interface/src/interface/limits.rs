@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::internal::told_apart;
+use motile_base::{Vec2, internal::told_apart};
 use motile_scene::{FluidView, StepCause, StepLimit};
 
 use super::{ActiveInterface, Motion};
+use crate::Tension;
 use crate::concentration::{Flux, element_peclet};
 
 /// Element Peclet number `ds max|V_t - W| / D` (no dimension) above which the edge of the concentration is not
@@ -30,6 +31,20 @@ pub(crate) fn grid_spacing(view: &FluidView) -> Option<f64> {
 /// and viscosity, which makes that length a half over the stiffness.
 pub(super) fn finest_response(view: &FluidView) -> f64 {
     grid_spacing(view).unwrap_or(0.5 / view.interface_stiffness)
+}
+
+/// Multiple of the mean concentration beyond which a tension law is not looked at: that of all particles on one of a
+/// thousand segments.
+const MOST_CONCENTRATED: f64 = 1024.0;
+
+/// True for a tension that grows in proportion to the concentration, or faster, up to the largest one looked at: then
+/// the flow that the particles drive grows as fast as the diffusion that spreads them, however densely they lie. Its
+/// mean slopes between concentrations at ratios of two are compared.
+fn grows_without_bound(tension: &dyn Tension, mean: f64) -> bool {
+    let slope = |c: f64| (tension.value(c) - tension.value(0.5 * c)) / (0.5 * c);
+    let last = slope(MOST_CONCENTRATED * mean);
+    let steepest = (0..10).map(|k| slope(mean * f64::from(1 << k))).fold(0.0, f64::max);
+    last > 0.0 && last >= 0.5 * steepest
 }
 
 impl ActiveInterface {
@@ -115,9 +130,83 @@ impl ActiveInterface {
         }
     }
 
+    /// Mean concentration at the start (particles per length, or area in three dimensions), on a circle or sphere of the
+    /// size at the start, or on a straight line.
+    pub(super) fn mean_concentration(&self) -> f64 {
+        let length = match self.advance().abs() {
+            0.0 => {
+                let radius = self.radius_at_start();
+                if self.state.shape.axisymmetric { 2.0 * TAU * radius * radius } else { TAU * radius }
+            }
+            period => period,
+        };
+        self.account.number / length
+    }
+
+    /// Warning of a tension law that lets the particles collapse towards a point: its own, or one of its values.
+    pub(super) fn collapse(&self) -> Option<String> {
+        let tension = self.law.tension.as_ref();
+        tension.warning().or_else(|| {
+            let mean = self.mean_concentration();
+            (self.carries() && grows_without_bound(tension, mean)).then(|| {
+                let most = MOST_CONCENTRATED * mean;
+                format!(
+                    "the tension still grows in proportion to the concentration at {most:.2e}, {MOST_CONCENTRATED} \
+                     times the mean one, so that the particles collapse towards a point: use a law that levels off \
+                     (an excluded volume does)"
+                )
+            })
+        })
+    }
+
+    /// Doubt about a negative tension: waves of an interface under compression grow faster the shorter they are, unless
+    /// its bending holds the shortest of them.
+    fn negative_tension(&self, view: &FluidView) -> Option<(&'static str, f64, String)> {
+        let tensions = &self.derived.tensions;
+        let count = tensions.len();
+        let mut totals = tensions.clone();
+        if let Some(elasticity) = &self.law.elasticity {
+            let stretched: Vec<f64> = elasticity.tensions().collect();
+            let middles = stretched.iter().zip(stretched.iter().cycle().skip(1)).map(|(a, b)| 0.5 * (a + b));
+            totals.iter_mut().zip(middles).for_each(|(total, stretched)| *total += stretched);
+        }
+        let place = (0..count).min_by(|&a, &b| totals[a].total_cmp(&totals[b]))?;
+        let lowest = totals[place];
+        let wave = self.shortest_wave(view);
+        let modulus = self.law.bending.as_ref().map(|bending| bending.modulus);
+        let modulus = modulus.or_else(|| self.law.elasticity.as_ref().map(|elasticity| elasticity.moduli()[1]));
+        let held = modulus.unwrap_or(0.0) * wave * wave;
+        if lowest + held >= 0.0 {
+            return None;
+        }
+        let markers = self.markers();
+        // The last segment of an open interface ends at the image of the first marker.
+        let next = if place + 1 == count { markers[0] + Vec2::new(self.advance(), 0.0) } else { markers[place + 1] };
+        let at = 0.5 * (markers[place] + next);
+        let bare = self.law.tension.value(0.0).abs();
+        let crowd = if self.carries() {
+            let [c, mean] = [self.derived.concentrations[place], self.mean_concentration()];
+            format!(", where the concentration is {c:.3e}, {:.3} times its mean", c / mean)
+        } else {
+            String::new()
+        };
+        let bends =
+            if held > 0.0 { ", and its bending does not hold the shortest of them that is resolved" } else { "" };
+        let finer = if held > 0.0 { ", or more bending or nodes" } else { "" };
+        let message = format!(
+            "its tension is {lowest:.3e} (force) near ({:.3}, {:.3}){crowd}: a line under compression has waves that \
+             grow faster the shorter they are{bends}, so that there is no solution to converge to; use an activity \
+             nearer to zero or a higher tension without particles{finer}",
+            at.x, at.y
+        );
+        let excess = 1.0 - (lowest + held) / bare;
+        Some(("tension negative", if excess.is_nan() { f64::INFINITY } else { excess }, message))
+    }
+
     /// Doubts about the present state, as cause, excess and message.
     pub(super) fn doubts(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
-        let law = self.law.tension.warning().map(|message| ("tension without a plateau", f64::INFINITY, message));
+        let law = self.collapse().map(|message| ("tension without a plateau", f64::INFINITY, message));
+        let negative = self.negative_tension(view);
         let peclet = self.element_peclet();
         let edge = (peclet > PECLET_LIMIT).then(|| {
             let spacing = self.geometry().mean_length() * PECLET_LIMIT / peclet;
@@ -147,7 +236,7 @@ impl ActiveInterface {
                            use the flux weno5";
             ("edge of the concentration smeared", UPWIND_ERROR, message.to_owned())
         });
-        law.into_iter().chain(edge).chain(few).chain(smeared)
+        law.into_iter().chain(negative).chain(edge).chain(few).chain(smeared)
     }
 }
 

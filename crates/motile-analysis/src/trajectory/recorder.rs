@@ -24,7 +24,7 @@ pub struct TrajectoryRecord {
     pub observables: Observables,
     /// Distance of the droplet's nearest marker from a wall (length, see [`wall_gap`]); `None` without walls.
     pub gap: Option<f64>,
-    /// Mean pressure gradient dp/dx (stress per length).
+    /// Mean pressure gradient dp/dx (stress per length); not a number in a tube that is not straight.
     pub pressure_gradient: f64,
     /// Fluxes past the droplet; `None` unless asked for by [`TrajectoryRecorder::with_gap_flow`].
     pub flow: Option<GapFlow>,
@@ -38,7 +38,7 @@ impl TrajectoryRecord {
         let mut entries = vec![("time", Some(self.time))];
         entries.extend(self.observables.entries());
         entries.push(("gap", self.gap));
-        entries.push(("pressure_gradient", Some(self.pressure_gradient)));
+        entries.push(("pressure_gradient", Some(self.pressure_gradient).filter(|gradient| gradient.is_finite())));
         entries.push(("net_flux", self.flow.map(|flow| flow.net())));
         entries.push(("retrograde_flow", self.flow.and_then(|flow| flow.retrograde())));
         entries

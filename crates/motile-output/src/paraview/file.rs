@@ -303,12 +303,15 @@ impl VtkSeries {
     }
 
     /// Writes the next file, at a time, and the list anew: the series can be opened during a run and after it broke
-    /// off.
+    /// off. A file of the last time again replaces that file, so that runs one after the other list each time once.
     ///
     /// # Errors
     /// As [`VtkFile::write`].
     pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), OutputError> {
         let name = |number: usize| format!("{}_{number:04}.{}", self.name, file.extension);
+        if self.times.last() == Some(&time) {
+            self.times.pop();
+        }
         file.write(self.directory.join(name(self.times.len())))?;
         self.times.push(time);
         let mut entries = String::new();

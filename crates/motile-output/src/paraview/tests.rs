@@ -38,3 +38,25 @@ fn each_droplet_has_its_own_forces_and_velocities() {
         .cell_scalars("droplet", [0.0, 1.0]);
     assert_eq!(interfaces(scene.system(), &seen).unwrap(), expected);
 }
+
+/// Runs one after the other, each of which shows its first state: every time is listed once.
+#[test]
+fn runs_in_a_row_list_each_time_once() {
+    let method = Method::Grid(GridMethod::of_spacing(0.25));
+    let Built { mut scene, .. } = Setup { method, ..Setup::default() }.build().unwrap();
+    let directory = std::env::temp_dir().join(format!("motile-runs-in-a-row-{}", std::process::id()));
+    let mut files = ParaView::create(&directory, Raster::of(scene.system(), 0.25).unwrap()).unwrap();
+    for until in [0.2, 0.5, 0.8] {
+        scene.run(until).observe(Every::Time(0.3), &mut files).go().unwrap();
+    }
+    for name in ["fields.pvd", "interface.pvd"] {
+        let list = std::fs::read_to_string(directory.join(name)).unwrap();
+        let times: Vec<f64> =
+            list.split("timestep=\"").skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+        assert!(times.len() >= 4 && times.windows(2).all(|pair| pair[0] < pair[1]), "{name}: {times:?}");
+        assert!(times.contains(&0.2) && times.contains(&0.5), "{name}: {times:?}");
+    }
+    let record = &scene.system_mut().record_mut(RECORD).numbers;
+    assert!(record.windows(2).all(|pair| pair[0] < pair[1]), "{record:?}");
+    std::fs::remove_dir_all(&directory).unwrap();
+}

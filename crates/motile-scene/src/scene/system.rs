@@ -23,6 +23,7 @@ use contacts::Contacts;
 pub(crate) use findings::Findings;
 use imposed::Background;
 pub use imposed::Imposed;
+pub(crate) use imposed::flow_properties;
 use motile_base::{FlowSample, SolveReport, Vec2};
 use resistance::Resistance;
 
@@ -186,7 +187,6 @@ impl<H: Hydrodynamics> System<H> {
             let gradient = ("the imposed pressure gradient", drive.gradient());
             drive.flux().map_or(gradient, |flux| ("the imposed flux", flux))
         }));
-        properties.extend(self.flow_properties());
         properties.extend(self.hydrodynamics.walls().into_iter().flat_map(wall_properties));
         if let Some(repulsion) = &self.contacts.repulsion {
             properties.push(("the strength of the repulsion", repulsion.strength()));
@@ -273,7 +273,8 @@ impl<H: Hydrodynamics> System<H> {
         Ok(&self.bodies.markers)
     }
 
-    /// The flow at `points` in the present state; see [`Hydrodynamics::sample`].
+    /// The flow at `points` in the present state; see [`Hydrodynamics::sample`]. Points beyond a wall are not refused:
+    /// they get a continuation of the flow that means nothing.
     ///
     /// # Errors
     /// Those of [`System::evaluate`] and of the sampling.

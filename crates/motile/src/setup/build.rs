@@ -189,12 +189,21 @@ impl Setup {
         })
     }
 
-    /// So many markers of a body's outline. In an imposed flow, which deforms bodies as precisely as it is known, and
-    /// in three dimensions, the area of the smooth curve through them is that of the outline; otherwise, as on grids,
-    /// that of the polygon is.
+    /// So many markers of a droplet's outline. In an imposed flow, which deforms bodies as precisely as it is known, and
+    /// in three dimensions, they are those of [`Setup::true_outline`]; otherwise the area of their polygon is that of
+    /// the outline, as on grids.
     pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
+        if self.flow.is_none() && !self.region.is_axisymmetric() {
+            return Ok(curve.markers(count)?);
+        }
+        self.true_outline(curve, count)
+    }
+
+    /// So many markers of a body's outline, so that the area of the smooth curve through them is that of the outline,
+    /// except on grids, where that of their polygon is: thin films beside rigid bodies see a difference of the radius.
+    pub(super) fn true_outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         let mut markers = curve.markers(count)?;
-        if !self.flow.is_none() || self.region.is_axisymmetric() {
+        if !matches!(self.method, Method::Grid(_)) {
             let still = vec![Vec2::ZERO; markers.len()];
             let Deformation { area, centroid, .. } =
                 Deformation::of(&markers, &still).map_err(motile_scene::FlowError::from)?;

@@ -74,7 +74,7 @@ impl BodySetup for RigidBodySetup {
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
         let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
-        let markers = setup.outline(&curve, setup.marker_count(&curve, &self.name)?)?;
+        let markers = setup.true_outline(&curve, setup.marker_count(&curve, &self.name)?)?;
         Ok(Planned::of(RigidBody::new(&markers)?.named(&self.name).with_load(Vec2::from(self.force), self.torque)?))
     }
 

@@ -70,11 +70,11 @@ impl BodySetup for ShellSetup {
             Ok(shape.curve()?.0.rotated(self.angle).translated(self.centre.into()))
         };
         let curve = placed(&self.shape)?;
-        let markers = setup.outline(&curve, setup.membrane_count(&curve, &self.name)?)?;
+        let markers = setup.true_outline(&curve, setup.membrane_count(&curve, &self.name)?)?;
         let mut shell = match &self.rest {
             None => Shell::new(&markers, self.stretching, self.bending)?,
             Some(rest) => {
-                let at_rest = setup.outline(&placed(rest)?, markers.len())?;
+                let at_rest = setup.true_outline(&placed(rest)?, markers.len())?;
                 Shell::new(&at_rest, self.stretching, self.bending)?.deformed(&markers)?
             }
         };

@@ -1076,6 +1076,17 @@ mod file {
         scene(here).resume(&scene(saved).checkpoint("")).err().map(|error| error.to_string())
     }
 
+    /// Of a flow that is given on one side alone the error names what is not zero.
+    #[test]
+    fn the_key_of_a_new_flow_is_named() {
+        let of = |shear: f64| Setup { flow: FlowSetup { shear, ..FlowSetup::default() }, ..Setup::default() };
+        let refused = refusal_of_resuming(&of(0.0), &of(0.1)).unwrap();
+        assert!(refused.contains("flow.shear is not given in it and 0.1 here"), "{refused}");
+        assert!(refused.contains("`Scene::take_over`"), "{refused}");
+        let refused = refusal_of_resuming(&of(0.1), &of(0.0)).unwrap();
+        assert!(refused.contains("flow.shear is 0.1 in it and not given here"), "{refused}");
+    }
+
     /// Each key of the annotated scene, changed in a scene that resumes: refused with both values, or free to change.
     #[test]
     fn every_key_is_compared_by_resumed_runs_or_free_to_change() {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{Known, System, findings::lower};
 use crate::{
-    Body, FluidView, Handle, Hydrodynamics, SceneError, Warning,
+    Body, FluidView, Handle, Hydrodynamics, MarkerKind, SceneError, Warning,
     gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, RepulsionLoad, Surfaces, wall_gap},
 };
 use motile_base::{Drive, Vec2, internal::told_apart};
@@ -32,13 +32,24 @@ impl<H: Hydrodynamics> System<H> {
         let bounded = self.hydrodynamics.fluid_view().domain.walls.is_some() || self.hydrodynamics.walls().is_some();
         if bounded {
             self.place_markers();
-            let found = self.contacts.nearest_wall.unwrap_or_else(|| self.find_nearest_wall());
+            let found = self.contacts.nearest_wall.unwrap_or_else(|| self.find_nearest_wall(true));
             self.contacts.nearest_wall = Some(found);
         }
         self.contacts.nearest_wall.flatten()
     }
 
-    fn find_nearest_wall(&self) -> Option<(f64, usize, Vec2)> {
+    /// The like without the films of rigid bodies at straight walls, if the flow resolves interfaces by modes: such a
+    /// flow refuses a film in which the speed of a rigid body would be off by a per cent.
+    fn unrefused_wall_gap(&mut self) -> Option<f64> {
+        let (gap, body, _) = self.nearest_wall()?;
+        let refuses = self.hydrodynamics.fluid_view().shape_modes.is_some();
+        if refuses && self.bodies.list[body].kind() == MarkerKind::Rigid {
+            return self.find_nearest_wall(false).map(|(gap, ..)| gap);
+        }
+        Some(gap)
+    }
+
+    fn find_nearest_wall(&self, films_of_rigid: bool) -> Option<(f64, usize, Vec2)> {
         let (domain, others) = (self.hydrodynamics.fluid_view().domain, self.hydrodynamics.walls());
         // Keeps what is not a number.
         let nearer = |least: (f64, _, _), gap: (f64, _, _)| if gap.0 < least.0 || gap.0.is_nan() { gap } else { least };
@@ -46,7 +57,8 @@ impl<H: Hydrodynamics> System<H> {
         let gaps = groups.filter(|(_, group)| group.kind.is_curve()).flat_map(|(body, group)| {
             let places = &self.bodies.markers.positions[group.range.clone()];
             let of_straight = |walls| places.iter().map(move |place| (wall_gap(&[*place], walls), body, *place));
-            let straight = domain.walls.and_then(|walls| of_straight(walls).reduce(nearer));
+            let walls = domain.walls.filter(|_| films_of_rigid || self.bodies.list[body].kind() != MarkerKind::Rigid);
+            let straight = walls.and_then(|walls| of_straight(walls).reduce(nearer));
             let others = others.and_then(|walls| walls.smallest(places, domain.periods));
             [straight, others.map(|(gap, marker)| (gap, body, places[marker]))].into_iter().flatten()
         });
@@ -135,7 +147,7 @@ impl<H: Hydrodynamics> System<H> {
             .gaps
             .narrowest
             .map(|gap| (gap.width, self.bodies.name_of(gap.body), self.bodies.name_of(gap.other)));
-        let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
+        let walls = self.unrefused_wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
             let [gap_text, resolved_text] = told_apart([gap, resolved]);

@@ -145,18 +145,28 @@ impl<H: Hydrodynamics> System<H> {
         if flow == self.imposed() { Ok(()) } else { self.set_flow(flow, self.hydrodynamics.strain()) }
     }
 
-    /// Numbers of a steady flow by their names, for [`System::properties`].
-    pub(super) fn flow_properties(&self) -> impl Iterator<Item = (&'static str, f64)> + use<H> {
-        let steady = self.background.imposed.is_steady();
-        let ImposedFlow { velocity: [u, v], gradient: [[ux, uy], [vx, _]], bend } = self.imposed();
-        let numbers = [
-            ("the velocity along x of the imposed flow", u),
-            ("the velocity along y of the imposed flow", v),
-            ("the gradient du/dx of the imposed flow", ux),
-            ("the gradient du/dy of the imposed flow", uy),
-            ("the gradient dv/dx of the imposed flow", vx),
-            ("the curvature d2u/dy2 of the imposed flow", bend),
-        ];
-        numbers.into_iter().filter(move |(_, value)| steady && *value != 0.0)
+    /// The imposed flow at another time (time) than that of the present state; a steady one is what the flow has.
+    pub(crate) fn imposed_at(&self, time: f64) -> ImposedFlow {
+        let imposed = &self.background.imposed;
+        if imposed.is_steady() { self.imposed() } else { imposed.at(time) }
     }
+
+    /// True for an imposed flow that is a function of time.
+    pub(crate) fn is_flow_of_time(&self) -> bool {
+        !self.background.imposed.is_steady()
+    }
+}
+
+/// Numbers of an imposed flow by their names, without those that are zero.
+pub(crate) fn flow_properties(flow: ImposedFlow) -> impl Iterator<Item = (&'static str, f64)> {
+    let ImposedFlow { velocity: [u, v], gradient: [[ux, uy], [vx, _]], bend } = flow;
+    let numbers = [
+        ("the velocity along x of the imposed flow", u),
+        ("the velocity along y of the imposed flow", v),
+        ("the gradient du/dx of the imposed flow", ux),
+        ("the gradient du/dy of the imposed flow", uy),
+        ("the gradient dv/dx of the imposed flow", vx),
+        ("the curvature d2u/dy2 of the imposed flow", bend),
+    ];
+    numbers.into_iter().filter(|(_, value)| *value != 0.0)
 }
