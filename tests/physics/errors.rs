@@ -104,7 +104,7 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
 #[test]
 fn errors_of_runs_print_no_more_digits_than_needed() {
     let time = (0..86).map(|_| 0.3).sum();
-    let what = "the solution for a viscosity contrast";
+    let what = "the iteration for the velocities of interfaces and rigid bodies";
     let residual = FlowError::NoConvergence { what, iterations: 40, residual: 2e-7 / 3.0, tolerance: 1e-9 };
     let (x, y, depth) = (1.0 / 3.0, 1.5, 2e-9 / 3.0);
     let depth = FlowError::BeyondWall { body: 0, marker: 3, x, y, depth, allowed: 1e-11 };

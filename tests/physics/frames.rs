@@ -1,9 +1,11 @@
 //! Directions of droplets at rest, and observables in other frames of reference.
 
-use motile::active_interface::observables::Observables;
+use motile::active_interface::observables::{FourierModes, Observables, gap_flow};
 use motile::analysis::suspension::Member;
 use motile::prelude::*;
-use motile::setup::{DropletShape, MethodKind, PoiseuilleSetup, Start};
+use motile::setup::{
+    DropletShape, FlowSetup, InterfaceSetup, InterfaceShape, MethodKind, PoiseuilleSetup, Side, Start,
+};
 
 /// A droplet below the threshold that relaxes from an ellipse.
 fn relaxing(half_axes: [f64; 2], angle: f64) -> DropletSetup {
@@ -205,4 +207,72 @@ fn stresslets_in_laboratory_axes_are_those_of_the_stress() {
     let error = Vec2::new(found[0] + xx, found[1] + xy).length() / xx.hypot(xy);
     assert!(error < 2e-3, "{found:?} {xx} {xy}");
     assert!((found[0] - along[0]).abs() > 0.5 * xx.hypot(xy), "{found:?} {along:?}");
+}
+
+/// Both walls of a channel slide faster by the same: the fluid passes a droplet on the same side.
+#[test]
+fn retrograde_flow_does_not_depend_on_the_frame() {
+    let passing = |faster: f64| {
+        let droplet = |x: f64, y: f64, activity: f64| DropletSetup { centre: [x, y], ..DropletSetup::active(activity) };
+        let setup = Setup {
+            region: Region::Channel { length: 8.0, width: 5.0, drive: Drive::ZeroGradient },
+            method: integral(),
+            flow: FlowSetup { wall_velocity: Some([faster - 0.5, faster + 0.5]), ..FlowSetup::default() },
+            droplets: vec![droplet(-1.0, 0.4, -2.0), droplet(1.6, -0.4, -1.0)],
+            ..Setup::default()
+        };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let flows =
+            droplets.into_iter().map(|droplet| gap_flow(scene.system_mut(), droplet).unwrap().retrograde().unwrap());
+        flows.collect::<Vec<_>>()
+    };
+    let [still, moving, back] = [0.0, 0.8, -0.8].map(passing);
+    println!("{still:?}");
+    for (k, flow) in still.iter().enumerate() {
+        assert!(flow.abs() > 0.05, "{still:?}");
+        for other in [moving[k], back[k]] {
+            assert!((flow - other).abs() < 1e-8, "{k}: {flow} {other}");
+        }
+    }
+}
+
+/// Waves and particles of an interface turn together in a frame in which they move along.
+#[test]
+fn modes_of_heights_and_concentrations_have_one_origin() {
+    let phases = |faster: f64| {
+        let particles =
+            Particles { activity: -1.0, start: Start::Perturbed { amplitude: 0.1, seed: 1 }, ..Particles::default() };
+        let wavy = |height: f64, inside: Side| InterfaceSetup {
+            height,
+            inside,
+            shape: InterfaceShape::Waves { cosines: vec![0.1], sines: vec![0.0, 0.05] },
+            particles: Some(particles),
+            ..InterfaceSetup::default()
+        };
+        let setup = Setup {
+            region: Region::Channel { length: 6.0, width: 5.0, drive: Drive::ZeroGradient },
+            method: integral(),
+            flow: FlowSetup { wall_velocity: Some([faster - 0.5, faster + 0.5]), ..FlowSetup::default() },
+            droplets: Vec::new(),
+            interfaces: vec![wavy(-1.2, Side::Below), wavy(1.2, Side::Above)],
+            ..Setup::default()
+        };
+        let Built { mut scene, interfaces, .. } = setup.build().unwrap();
+        scene.run(0.5).go().unwrap();
+        let angles = interfaces.into_iter().map(|interface| {
+            let seen = scene.observe(interface).unwrap();
+            let angle = |modes: &FourierModes| modes.sines[0].atan2(modes.cosines[0]);
+            [angle(&seen.height_modes), angle(&seen.concentration_modes)]
+        });
+        angles.collect::<Vec<_>>()
+    };
+    let (still, moving) = (phases(0.0), phases(0.8));
+    let turned = std::f64::consts::TAU * 0.8 * 0.5 / 6.0;
+    for (still, moving) in still.iter().zip(&moving) {
+        println!("{still:?} {moving:?} {turned}");
+        for k in 0..2 {
+            let off = (moving[k] - still[k] - turned).rem_euclid(std::f64::consts::TAU);
+            assert!(off.min(std::f64::consts::TAU - off) < 1e-3, "{k}: {still:?} {moving:?} {turned}");
+        }
+    }
 }

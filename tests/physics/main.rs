@@ -3,6 +3,7 @@
 mod allocation;
 mod bending;
 mod channel;
+mod coarse_gaps;
 mod contact;
 mod contrast;
 mod curved_walls;

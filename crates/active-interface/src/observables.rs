@@ -104,13 +104,18 @@ const REST: f64 = 1e-6;
 const REST_ON_GRID: f64 = 1e-4;
 /// Speed of a droplet at rest over that of an interface with its forces: round-off.
 const ROUND_OFF: f64 = 1e-11;
+/// As [`ROUND_OFF`] on a grid, to whose points a round interface of constant tension moves: at spacings of 0.1 and 0.2
+/// radii at most 2.4e-8 and 5.7e-7 of that speed, without and with correction, by both solvers.
+const NOISE_OF_GRID: f64 = 1e-6;
+/// Deformation below which a grid makes it: that of a round interface of constant tension grows to 5e-7 by t = 1.3.
+const ROUND_ON_GRID: f64 = 2e-6;
 
 impl InterfaceState<'_> {
     /// Returns the speed up to which the droplet is at rest relative to the imposed flow (length per time), so that the
     /// direction of its motion is round-off.
     ///
     /// This is a millionth of the largest speed on its interface, relative to the imposed flow at its centroid, on a
-    /// grid 1e-4 of it, or 1e-11 of the speed that its forces can cause, whichever is larger.
+    /// grid 1e-4 of it, or 1e-11 of the speed that its forces can cause, on a grid 1e-6 of that, whichever is larger.
     ///
     /// # Errors
     /// Returns an error if the markers enclose no area or are not finite.
@@ -121,8 +126,8 @@ impl InterfaceState<'_> {
         let forces: f64 = self.forces.iter().map(|force| force.length()).sum();
         // Forces are those per length in the plane.
         let size = if self.axisymmetric { (area.area.abs() / PI).sqrt() } else { 1.0 };
-        let rest = if self.on_grid { REST_ON_GRID } else { REST };
-        Ok((rest * fastest).max(ROUND_OFF * forces / (size * (self.viscosities[0] + self.viscosities[1]))))
+        let [rest, noise] = if self.on_grid { [REST_ON_GRID, NOISE_OF_GRID] } else { [REST, ROUND_OFF] };
+        Ok((rest * fastest).max(noise * forces / (size * (self.viscosities[0] + self.viscosities[1]))))
     }
 
     /// Returns the force moments about the origin of `frame`, which must be the centroid, in the axes of `frame`, of
@@ -174,7 +179,8 @@ pub struct Observables {
     pub inside: Option<(f64, f64)>,
     /// Largest and smallest concentration (particles per length); `None` without particles.
     pub concentration_range: Option<[f64; 2]>,
-    /// The ellipse with the moments of the area: deformation and inclination of the droplet, in laboratory axes.
+    /// The ellipse with the moments of the area: deformation and inclination of the droplet, in laboratory axes. On a
+    /// grid it has no angle if the deformation is below 2e-6, which the grid makes of a circle.
     pub shape: MomentEllipse,
     /// Aspect ratio from area moments, along the motion over across it; along x over along y at rest.
     pub aspect_ratio_moments: f64,
@@ -218,6 +224,10 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     let frame = Frame::of_motion(area.centroid, velocity, rest)?;
 
     let polar = PolarMarkers::new(markers, &frame);
+    let mut shape = MomentEllipse::of(markers)?;
+    if state.on_grid && shape.deformation() < ROUND_ON_GRID {
+        shape.angle = None;
+    }
     let moments = state.moments(convention, &frame)?;
     let surface = axisymmetric.then(|| revolution::surface(markers)).transpose()?;
     // In three dimensions the numbers that segments would have in the plane at the same concentrations.
@@ -236,7 +246,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         particle_number: 0.0,
         inside,
         concentration_range: None,
-        shape: MomentEllipse::of(markers)?,
+        shape,
         aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
         ellipse: raw_ellipse(markers, &area, &frame).ok(),
         active_region: None,

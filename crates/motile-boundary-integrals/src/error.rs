@@ -14,7 +14,8 @@ pub(crate) fn of_layers(error: LayerError) -> FlowError {
             FlowError::BeyondWall { body: curve, marker: node, x, y, depth, allowed }
         }
         LayerError::NoConvergence { iterations, residual, tolerance } => {
-            FlowError::NoConvergence { what: "the solution for a viscosity contrast", iterations, residual, tolerance }
+            let what = "the iteration for the velocities of interfaces and rigid bodies";
+            FlowError::NoConvergence { what, iterations, residual, tolerance }
         }
         LayerError::Count { kind: "curve", curve, what, found, least, most } => {
             FlowError::Count { body: curve, what, found, least, most }

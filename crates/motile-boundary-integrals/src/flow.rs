@@ -37,6 +37,8 @@ pub struct BoundaryIntegral {
     interfaces: InterfaceGroups,
     work: FlowWork,
     walls: Boundary,
+    /// Distance of the nodes of the walls at each side of their boundary (length).
+    wall_spacings: Vec<f64>,
     /// Largest angle by which a wall turns within the distance of two nodes (radians).
     sharpest_turn: f64,
     /// Least distance of the sides of a channel of rigid walls (length).
@@ -54,6 +56,7 @@ impl BoundaryIntegral {
             interfaces,
             work: FlowWork::default(),
             walls: Boundary::default(),
+            wall_spacings: Vec::new(),
             sharpest_turn: 0.0,
             narrowest: f64::INFINITY,
         })
@@ -79,10 +82,15 @@ impl BoundaryIntegral {
     pub fn with_walls(mut self, walls: &[RigidWall]) -> Result<Self, LayerError> {
         self.interfaces.flow = self.interfaces.flow.with_walls(walls.iter().map(RigidWall::curve))?;
         let mut boundary = Boundary::default();
-        walls.iter().for_each(|wall| wall.add_to(&mut boundary));
+        let mut wall_spacings = Vec::new();
+        for wall in walls {
+            let before = boundary.sides().len();
+            wall.add_to(&mut boundary);
+            wall_spacings.extend(wall.spacings(&boundary.sides()[before..]));
+        }
         boundary.sort();
         let sharpest_turn = walls.iter().map(RigidWall::sharpest_turn).fold(0.0, f64::max);
-        Ok(Self { walls: boundary, sharpest_turn, narrowest: narrowest(walls), ..self })
+        Ok(Self { walls: boundary, wall_spacings, sharpest_turn, narrowest: narrowest(walls), ..self })
     }
 
     /// Forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
@@ -187,6 +195,10 @@ impl Hydrodynamics for BoundaryIntegral {
 
     fn walls(&self) -> Option<&Boundary> {
         if self.walls.is_empty() { None } else { Some(&self.walls) }
+    }
+
+    fn wall_spacings(&self) -> &[f64] {
+        &self.wall_spacings
     }
 
     fn warnings(&self) -> Vec<Warning> {

@@ -278,6 +278,13 @@ impl RigidWall {
         LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }
     }
 
+    /// Distances of the nodes at the sides that [`RigidWall::add_to`] adds (length): nodes and corners are equally
+    /// spaced in the same parameter.
+    pub(crate) fn spacings(&self, sides: &[[Vec2; 2]]) -> impl Iterator<Item = f64> {
+        let per_node = sides.len() as f64 / self.nodes as f64;
+        sides.iter().map(move |[start, end]| start.distance(*end) * per_node)
+    }
+
     /// Adds the sides of the wall to a boundary, whose inside on their left is the rigid part.
     pub fn add_to(&self, boundary: &mut Boundary) {
         let stride = (self.points.len() / (CORNERS * self.nodes)).max(1);

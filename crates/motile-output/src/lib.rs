@@ -52,6 +52,7 @@ mod solids;
 mod streamlines;
 pub mod suspension;
 mod table;
+mod time_label;
 mod trajectory;
 
 pub use animation::Animation;

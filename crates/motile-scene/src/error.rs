@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motile_base::{
     InputError,
-    internal::{place, refusal, told, told_apart},
+    internal::{decimals, place, refusal, told, told_apart},
 };
 
 use crate::checkpoint::CheckpointError;
@@ -89,8 +89,8 @@ pub enum FlowError {
     /// An iteration did not converge.
     #[error(
         "{what} stopped at a relative residual of {} after {iterations} iterations, above {}: \
-         if a gap between different viscosities has become too narrow, use more nodes, a finer grid or a repulsion \
-         of longer range",
+         if a gap has become too narrow, or a body is too slender for its nodes, use more nodes, a finer grid or a \
+         repulsion of longer range",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
@@ -511,6 +511,15 @@ impl SceneError {
     pub(crate) fn not_evaluated(body: &str) -> Self {
         let what = format!("the flow at {body} is not known in the present state");
         Self::refused(what, "", "Call `evaluate` first, or `observe`, which does it for you")
+    }
+
+    /// Body so close to a rigid wall that nodes of that spacing make nothing of the flow between them; all but the time
+    /// are lengths.
+    pub(crate) fn coarse_wall(time: f64, body: &str, gap: f64, spacing: f64, resolved: f64) -> Self {
+        let [gap, spacing, resolved] = [gap, spacing, resolved].map(|length| decimals(4, length));
+        let what = format!("at time {} the gap between {body} and a rigid wall is {gap}", told(time));
+        let value = format!("the nodes of the wall are {spacing} apart there, with which the flow comes out wrong");
+        Self::refused(what, value, format!("Give the wall a spacing of {resolved}, or keep {body} away from it"))
     }
 
     fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {

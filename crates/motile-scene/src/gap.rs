@@ -5,6 +5,7 @@ mod films;
 mod load;
 mod overlap;
 mod repulsion;
+mod resolution;
 mod solid_gap;
 mod strata;
 mod surface_curve;
@@ -14,6 +15,7 @@ pub(crate) use films::{Films, Surroundings};
 pub use load::RepulsionLoad;
 pub use overlap::Overlap;
 pub use repulsion::Repulsion;
+pub(crate) use resolution::CoarseGap;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use surface_curve::{SurfaceCurve, SurfacePoint};
 

@@ -146,6 +146,12 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
+    /// Distance of the nodes of [`Hydrodynamics::walls`] at each of their sides (length), by which gaps beside the walls
+    /// are known to be resolved; by default empty, so that nothing is known.
+    fn wall_spacings(&self) -> &[f64] {
+        &[]
+    }
+
     /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror
     /// image, with the forces on halves of rings; by default false.
     fn axisymmetric(&self) -> bool {
@@ -213,6 +219,10 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn walls(&self) -> Option<&Boundary> {
         self.as_ref().walls()
+    }
+
+    fn wall_spacings(&self) -> &[f64] {
+        self.as_ref().wall_spacings()
     }
 
     fn axisymmetric(&self) -> bool {

@@ -90,7 +90,8 @@ impl<H: Hydrodynamics> Scene<H> {
     /// Bounds gaps from below (length): a step after which an interface is closer to another body, to its
     /// own image or to a wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that
     /// they drain as the kernel and not as the fluid has it. By default gaps are measured ([`System::minimum_gap`],
-    /// [`System::minimum_wall_gap`]) and only overlaps are errors.
+    /// [`System::minimum_wall_gap`]) and only overlaps are errors. Two solids may be closer than that, because they may
+    /// touch: of them a warning tells ([`System::warnings`]).
     ///
     /// # Errors
     /// A bound that is not finite.

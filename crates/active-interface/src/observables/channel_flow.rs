@@ -46,8 +46,12 @@ pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64,
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct GapFlow {
-    /// Velocity of the droplet along the channel (length per time); zero if it is at rest to round-off.
+    /// Velocity of the droplet along the channel (length per time); that of the imposed flow at its centroid if the
+    /// droplet is at rest in it to round-off.
     pub velocity: f64,
+    /// Velocity of the droplet along the channel relative to the imposed flow at its centroid (length per time); zero
+    /// if the droplet is at rest in it to round-off.
+    pub relative_velocity: f64,
     /// Flux through the gap below and the one above, in the frame of the walls (area per time).
     pub gaps: [f64; 2],
     /// Flux inside the droplet, in the frame of the walls (area per time).
@@ -74,13 +78,15 @@ impl GapFlow {
 
     /// Retrograde flow: flux of the fluid that passes the droplet backwards through both gaps, in the frame of the
     /// droplet (area per time); negative for a droplet that the fluid overtakes, `None` for a droplet at rest.
+    /// Backwards is against the motion of the droplet relative to the imposed flow at its centroid, so that it does not
+    /// depend on the frame in which walls slide.
     ///
     /// In a steady state it is `|V| w - Q` at every cross-section, w the width of the channel and Q the net flux in the
     /// droplet's direction.
     #[must_use]
     pub fn retrograde(&self) -> Option<f64> {
         let relative: f64 = self.relative_gaps().iter().sum();
-        (self.velocity != 0.0).then(|| -self.velocity.signum() * relative)
+        (self.relative_velocity != 0.0).then(|| -self.relative_velocity.signum() * relative)
     }
 }
 
@@ -103,16 +109,19 @@ pub fn gap_flow<H: Hydrodynamics>(
     let state = InterfaceState::of(system, droplet)?;
     let markers = state.markers;
     let moving = polygon_moments(markers).and_then(|area| {
+        let drift = state.imposed.velocity_at(area.centroid).x;
         let velocity = centroid_velocity(markers, state.velocities)?.x;
-        let moves = velocity.abs() > state.rest_speed()?;
-        Ok((area.centroid.x, if moves { velocity } else { 0.0 }))
+        let relative = velocity - drift;
+        let moves = relative.abs() > state.rest_speed()?;
+        Ok((area.centroid.x, if moves { [velocity, relative] } else { [drift, 0.0] }))
     });
-    let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
+    let (x, [velocity, relative_velocity]) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
     let line = Line::new(&view, &[bottom, low, high, top], &kinks(system, &view, x)?);
     let [below, inside, above] = line.integrals(system, x)?;
     Ok(GapFlow {
         velocity,
+        relative_velocity,
         gaps: [below, above],
         inside,
         gap_heights: [low - bottom, top - high],

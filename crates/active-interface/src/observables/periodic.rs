@@ -23,10 +23,12 @@ pub struct PeriodicObservables {
     /// Fourier modes of the height (length) in the angle 2 pi x/L, L the period: the mean of y cos over x, twice, and
     /// so on; where the interface overhangs as integrals along it.
     pub height_modes: FourierModes,
-    /// Fourier modes of the concentration (particles per length) in the angle 2 pi s, s the fraction of the length of
-    /// the interface from x = -L/2 on along x, where that is at its first marker; zero without particles.
+    /// Fourier modes of the concentration (particles per length) in the angle 2 pi (s + x1/L), with the fraction s of the
+    /// length of the interface from its first marker on along x, and the place x1 of that marker. The angle of a flat
+    /// interface is that of the height modes, wherever the first marker has drifted. Zero without particles.
     pub concentration_modes: FourierModes,
-    /// Flux of particles along x (1/time), its mean over the period: that of a pattern at rest in moving fluid.
+    /// Flux of particles along x (1/time), its mean over the period, in the frame of the laboratory: a pattern at rest
+    /// in fluid that moves as a whole has the flux of its particles with the fluid.
     pub flux: f64,
     /// Mean velocity of the fluid on the interface (length per time).
     pub velocity: Vec2,
@@ -90,13 +92,14 @@ impl Observe for ActiveInterface {
         let height_modes = FourierModes::sum(MODES, heights);
         let velocity: Vec2 = geometry.weights.iter().zip(flow.velocities).map(|(weight, u)| *weight * *u).sum();
         let forward = if advance < 0.0 { -1.0 } else { 1.0 };
+        let first = self.markers().first().map_or(0.0, |marker| TAU * marker.x / period);
         let mut start = 0.0;
         let cells = self.particle_numbers().iter().zip(&geometry.lengths);
         let concentration_modes = FourierModes::sum(
             MODES,
             cells.map(|(number, length)| {
                 let width = TAU * length / geometry.perimeter;
-                let angle = forward * (start + 0.5 * width - 0.5 * TAU);
+                let angle = first + forward * (start + 0.5 * width);
                 start += width;
                 (Vec2::from_angle(angle), width, number / length)
             }),

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::contents::{Legends, Picture};
 use super::sides::sides;
 use super::smooth::{between, smooth};
+use crate::time_label::time_label;
 use crate::{
     ColourScale, OutputError, Rgb, Samples,
     drawing::{
@@ -15,7 +16,7 @@ use crate::{
     },
     streamlines,
 };
-use motile::base::{Vec2, internal::decimals};
+use motile::base::Vec2;
 
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);
@@ -62,7 +63,7 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, OutputError> {
         painter.legends();
     }
     let (area, em) = (painter.layout.frame.area, painter.layout.em);
-    let title = format!("t = {}   {}", decimals(1, picture.seen.time), picture.look.caption);
+    let title = format!("t = {}   {}", time_label(picture.seen.time), picture.look.caption);
     // A long title is set smaller.
     let size = 1.05 * em * (area.width / text_width(&title, 1.05 * em)).min(1.0);
     let y = area.top - 1.15 * em;

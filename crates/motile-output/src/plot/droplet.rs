@@ -1,10 +1,10 @@
 //! Plots of the observables of a droplet.
 
 use motile::active_interface::observables::ConcentrationProfile;
-use motile::base::internal::decimals;
 
 use crate::drawing::axes::AxisScale;
 use crate::plot::{contents::Plot, figure::Figure, series::Series};
+use crate::time_label::time_label;
 use crate::{CsvTable, OutputError};
 
 /// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.
@@ -56,7 +56,7 @@ pub fn concentration_plot(
         .x_axis("arc length from the front, in perimeters (rear: 0.5)", AxisScale::Linear)
         .x_range(0.0, 1.0)
         .y_axis("c/c_{0}", AxisScale::Linear)
-        .series(line(&format!("t = {}", decimals(1, time)), end))
+        .series(line(&format!("t = {}", time_label(time)), end))
         .series(line("t = 0", start).dashed())
         .horizontal(1.0, "mean at the start");
     Figure::new(1).panel(plot)

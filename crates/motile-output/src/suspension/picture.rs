@@ -5,13 +5,14 @@ use std::path::Path;
 
 use motile::active_interface::ActiveDroplet;
 use motile::analysis::suspension::Member;
-use motile::base::{Vec2, internal::decimals};
+use motile::base::Vec2;
 use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::animation::Frames;
 use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle};
 use crate::picture::smooth::{between, smooth};
 use crate::snapshot::at_markers;
+use crate::time_label::time_label;
 use crate::{ColourScale, OutputError, Rgb};
 
 /// Colours of paper between droplets, of walls, and of droplets where the interface is coloured.
@@ -173,7 +174,7 @@ impl SuspensionPicture {
         for x in [left, right] {
             drawing.stroke(&[[x, area.top], [x, area.bottom()]], &Pen::new(Rgb::GREY, 1.0));
         }
-        let text = format!("t = {}   {} droplets", decimals(1, self.time), self.droplets.len());
+        let text = format!("t = {}   {} droplets", time_label(self.time), self.droplets.len());
         drawing.text([left, 2.1 * em], &text, &TextStyle::new(1.2 * em, Anchor::Start));
         match (colour, scale) {
             (SuspensionColour::Concentration, Some(scale)) => {

@@ -43,6 +43,8 @@ pub struct Built {
 const LAYER_TOLERANCE: f64 = 1e-6;
 /// Film that is left beside a droplet squeezed to fit, over its radius.
 const FILM: f64 = 0.05;
+/// Part of its radius by which a circle may miss a wall that it touches: round-off of positions.
+const TOUCHING: f64 = 1e-12;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
 
@@ -352,8 +354,9 @@ impl Setup {
         inside.any(|viscosity| viscosity.is_some_and(|inside| inside != self.viscosity))
     }
 
-    /// The shape of a droplet at the start: its own, or that of a circle that is squeezed between walls, by a film if
-    /// it is as wide as they leave it, and by more only if it is [`DropletSetup::squeezed`].
+    /// The shape of a droplet at the start: its own, or the shape of a circle that is squeezed between walls. The walls
+    /// squeeze a circle by a film if it is just as wide as the place between them, so that it touches both. They squeeze
+    /// it by more only if it is [`DropletSetup::squeezed`]. A circle with a gap, however narrow, stays a circle.
     ///
     /// # Errors
     /// A circle that is wider than its surroundings.
@@ -365,30 +368,40 @@ impl Setup {
         // layers.
         let sides = || self.solids.iter().filter_map(SolidSetup::side);
         let exact = self.method.kind() != MethodKind::Grid;
-        let film = if exact { FILM } else { 0.0 };
-        let beside = sides().map(|side| (if side < 0.0 { y - side } else { side - y }, film));
-        let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), self.region) {
-            (Some((room, film)), _) => (room, film, Squeezed::Stadium),
-            (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
+        let beside = sides().map(|side| if side < 0.0 { y - side } else { side - y });
+        let (room, to) = match (beside.reduce(f64::min), self.region) {
+            (Some(room), _) => (room, Squeezed::Stadium),
+            (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), Squeezed::Ellipse),
             (None, Region::Tube { radius, shape, .. }) => {
                 let half = self.region.half_length().unwrap_or(f64::INFINITY);
-                (shape.radius(radius, half, droplet.centre[0]), FILM, Squeezed::Ellipse)
+                (shape.radius(radius, half, droplet.centre[0]), Squeezed::Ellipse)
             }
             _ => return Ok(droplet.shape.clone()),
         };
         let below = sides().filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);
         let above = sides().filter(|side| *side > 0.0).fold(0.5 * width, f64::min);
-        let least = radius * (1.0 - 1e-12);
+        let [least, touching] = [radius * (1.0 - TOUCHING), radius * (1.0 + TOUCHING)];
         // Rigid walls of any shape leave what they leave around the middle of the droplet.
-        let centre = Vec2::new(droplet.centre[0], y);
-        let (room, film, to) = match self.room(centre)? {
-            Some(nearest) => (nearest.min(room), FILM, Squeezed::Ellipse),
-            None => (room, film, to),
-        };
-        // Where the circle has room elsewhere in the channel it is misplaced, which is not for this to mend.
-        let misplaced = self.walls.is_empty() && room < least && 0.5 * (above - below) >= least + film * radius;
-        if room >= least + film * radius || misplaced {
+        let of_walls = |above: f64| self.room(Vec2::new(droplet.centre[0], y + above));
+        let nearest = of_walls(0.0)?;
+        let (room, to) = nearest.map_or((room, to), |nearest| (nearest.min(room), Squeezed::Ellipse));
+        // A grid keeps a droplet and a solid apart by itself.
+        let touches = room <= touching && (exact || sides().next().is_none());
+        if room >= least && !touches {
             return Ok(droplet.shape.clone());
+        }
+        // If the circle has room elsewhere in the channel, it is misplaced, and its shape stays.
+        let beside = || Ok::<_, SetupError>([of_walls(FILM * radius)?, of_walls(-FILM * radius)?]);
+        let misplaced = match nearest {
+            _ if self.region.is_axisymmetric() => false,
+            None => 0.5 * (above - below) > touching,
+            Some(_) if room < least => false,
+            Some(_) => beside()?.into_iter().flatten().any(|other| other > touching),
+        };
+        match (misplaced, touches && room >= least) {
+            (true, true) => return Err(SetupError::NoRoom { length, width, hint: self.mixed_units(droplet) }),
+            (true, false) => return Ok(droplet.shape.clone()),
+            (false, _) => {}
         }
         let half_height = room - FILM * radius;
         if half_height <= FLATTEST * radius {

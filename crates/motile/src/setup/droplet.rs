@@ -279,10 +279,11 @@ pub enum Start {
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 #[non_exhaustive]
 pub enum DropletShape {
-    /// A circle. If it is as wide as the walls leave it, it starts as an ellipse, or between elastic walls as a
+    /// A circle. If it touches the walls on both sides, it starts as an ellipse, or between elastic walls as a
     /// stadium, that leaves a film of a twentieth of the radius, with the area and the particles of the circle. If it
-    /// is wider, it is refused, unless it is [`DropletSetup::squeezed`] to such a shape. In a tube, a sphere, which
-    /// starts as a spheroid of its volume there. [`Setup::shape`] is the shape at the start.
+    /// is wider, it is refused, unless it is [`DropletSetup::squeezed`] to such a shape. With a gap, however narrow, it
+    /// stays a circle. In a tube, a sphere, which starts as a spheroid of its volume there. [`Setup::shape`] returns
+    /// the shape at the start.
     Round {
         /// Radius of the circle (length).
         radius: f64,

@@ -41,7 +41,8 @@ pub struct GelSetup {
     pub anchoring: Anchoring,
     /// Its director at the start; a uniform one has its angle to the direction of the droplet.
     pub start: DirectorStart,
-    /// Spacing of its mesh inside (length); `None` for that of the grid.
+    /// Spacing of its mesh inside (length); `None` for that of the grid. The mesh has whole rings, so that coarse
+    /// spacings such as 0.3 and 0.4 of the radius give the same one.
     pub spacing: Option<f64>,
 }
 

@@ -118,7 +118,7 @@ impl Default for IntegralMethod {
 /// Resolution of layers, and of the grid beside them.
 ///
 /// The points of solids on a surface are its nodes, 16 or more; inner points are two or more grid spacings apart. A
-/// round droplet that would start in contact with walls starts squeezed a little, beside a film.
+/// round droplet that touches the walls on both sides starts squeezed a little, beside a film.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LayersMethod {

@@ -592,8 +592,8 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
         // The area of the circle, but for what a polygon of 128 and more corners misses.
         assert!((area / std::f64::consts::PI - 1.0).abs() < 1e-3, "{area}");
     }
-    // The film is in proportion to the radius: 0.05 of it.
-    for (width, half_height) in [(1.0, 0.475), (1.04, 0.495), (1.06, 0.5)] {
+    // The film is in proportion to the radius: 0.05 of it. A circle with a gap stays one.
+    for (width, half_height) in [(1.0, 0.475), (1.01, 0.5), (1.04, 0.5), (1.06, 0.5)] {
         let droplets = vec![DropletSetup::default().with_radius(0.5)];
         let (area, height) = area_and_height(&Setup { region: channel(width), droplets, ..Setup::default() });
         assert!((height - half_height).abs() < 5e-4, "{width}: {height}");
@@ -663,8 +663,26 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
         elastic.solids.clear();
         assert!(elastic.build().is_ok());
     }
+    // A circle next to a wall stays one, and may not touch the wall.
+    for method in [Method::default(), layers(), plain()] {
+        let near = Setup { method, ..at(3.0, 0.47) };
+        assert_eq!(near.shape(&near.droplets[0]).unwrap(), DropletShape::Round { radius: 1.0 });
+        let Built { mut scene, .. } = near.build().unwrap();
+        // The polygon through the markers has the area of the circle, and corners outside of it.
+        let gap = scene.system_mut().wall_gap().unwrap();
+        assert!((gap - 0.03).abs() < 5e-4, "{gap}");
+    }
+    let touching = refused(&at(3.0, 0.5));
+    assert!(touching.starts_with("droplets[0]: the body does not fit into the region of 6 x 3"), "{touching}");
+    let post = |x: f64, y: f64| {
+        let disc = SolidOutline::Disc { centre: [x, y], radius: 0.5 };
+        Setup { walls: vec![WallSetup::new(disc, 0.05)], ..at(6.0, 0.0) }
+    };
+    assert!(refused(&post(0.0, -1.5)).starts_with("droplets[0]: the body does not fit"));
+    for setup in [post(1.53, 0.0), post(0.0, -1.53)] {
+        assert_eq!(setup.shape(&setup.droplets[0]).unwrap(), DropletShape::Round { radius: 1.0 });
+    }
     // Where no place has room for the circle it may be squeezed wherever it is.
-    assert!(at(3.0, 0.5).build().is_ok());
     let mut aside = at(2.0, 0.3);
     let error = refused(&aside);
     assert!(error.contains("a round droplet of radius 1 does not fit between the walls: they leave 0.7"), "{error}");

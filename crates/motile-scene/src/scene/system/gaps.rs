@@ -5,9 +5,12 @@ use std::borrow::Cow;
 use super::{Known, System, findings::lower};
 use crate::{
     Body, FluidView, Handle, Hydrodynamics, MarkerKind, SceneError, Warning,
-    gap::{Boundary, Gap, NearestSolid, Outline, Overlap, Repulsion, RepulsionLoad, Surfaces, wall_gap},
+    gap::{Boundary, CoarseGap, Gap, NearestSolid, Outline, Overlap, Repulsion, RepulsionLoad, Surfaces, wall_gap},
 };
-use motile_base::{Drive, Vec2, internal::told_apart};
+use motile_base::{
+    Drive, Vec2,
+    internal::{decimals, told_apart},
+};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
@@ -89,11 +92,12 @@ impl<H: Hydrodynamics> System<H> {
         self.findings.wall_gap
     }
 
-    /// The smallest gap between an interface and another body, its own image in a periodic domain, or a wall (length):
-    /// of the present state, and of the states at the ends of steps where it was so narrow that a step looks for it,
-    /// below four grid spacings (without a grid four times the distance of markers); of walls as
-    /// [`System::minimum_wall_gap`]. Negative where bodies overlap; `None` where there is no such gap. Needs no
-    /// evaluation, but memory and time.
+    /// Returns the smallest gap between an interface and another body, its own image in a periodic domain, or a wall
+    /// (length) over the run: over the states at the start and at the ends of steps, and the present state. Of a body
+    /// and its own image the states count in which the gap is below four grid spacings (without a grid four times the
+    /// distance of markers), and the present one; of walls those of [`System::minimum_wall_gap`]. Gaps between two
+    /// solids do not count. Negative where bodies overlap; `None` where there is no such gap. Needs no evaluation, but
+    /// memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         let present = self.surfaces().narrowest(&self.hydrodynamics.fluid_view()).map(|gap| gap.width);
@@ -146,6 +150,8 @@ impl<H: Hydrodynamics> System<H> {
             .contacts
             .gaps
             .narrowest
+            // Those between rigid bodies are judged by the nodes beside them.
+            .filter(|gap| on_grid(&view).is_some() || ![gap.body, gap.other].iter().all(|&body| self.is_rigid(body)))
             .map(|gap| (gap.width, self.bodies.name_of(gap.body), self.bodies.name_of(gap.other)));
         let walls = self.unrefused_wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
@@ -163,7 +169,59 @@ impl<H: Hydrodynamics> System<H> {
                 message,
             });
         }
+        let coarse = [self.coarse_pair(), self.coarse_wall()].into_iter().flatten();
+        warnings.extend(coarse.map(|gap| self.coarse_warning(&gap, &view)));
+        warnings.extend(self.solids_below_bound());
         warnings
+    }
+
+    fn is_rigid(&self, body: usize) -> bool {
+        self.bodies.markers.groups()[body].kind == MarkerKind::Rigid
+    }
+
+    /// The gap between a rigid body and another body that the nodes resolve worst.
+    fn coarse_pair(&self) -> Option<CoarseGap> {
+        let view = self.hydrodynamics.fluid_view();
+        self.contacts.surfaces.coarse_pair(&view.domain, view.shape_modes?)
+    }
+
+    /// The gap between a body and a rigid wall that the nodes resolve worst.
+    fn coarse_wall(&self) -> Option<CoarseGap> {
+        let (view, spacings) = (self.hydrodynamics.fluid_view(), self.hydrodynamics.wall_spacings());
+        let walls = self.hydrodynamics.walls().filter(|_| !spacings.is_empty())?;
+        self.contacts.surfaces.coarse_wall(&view.domain, view.shape_modes?, walls, spacings)
+    }
+
+    /// Refuses a body so close to a rigid wall that the nodes of the wall make nothing of the flow between them.
+    fn check_wall_nodes(&self) -> Result<(), SceneError> {
+        match self.coarse_wall().filter(CoarseGap::is_of_no_use) {
+            None => Ok(()),
+            Some(CoarseGap { body, width, spacings: [_, spacing], resolved, .. }) => {
+                let body = self.bodies.name_of(body);
+                Err(SceneError::coarse_wall(self.clock.time, &body, width, spacing, resolved))
+            }
+        }
+    }
+
+    /// The warning of a gap that nodes do not resolve.
+    fn coarse_warning(&self, gap: &CoarseGap, view: &FluidView) -> Warning {
+        let &CoarseGap { body, other, width, spacings: [own, others], resolved, .. } = gap;
+        let [widest, resolved_text] = told_apart([own.max(others), resolved]);
+        let nodes = finer(view, own.max(if other.is_some() { others } else { 0.0 }) / resolved);
+        let spacing = format!("a wall spacing of {} there", decimals(4, resolved));
+        let remedy = match (other, own > resolved, others > resolved) {
+            (Some(_), ..) | (None, true, false) => nodes,
+            (None, false, _) => spacing,
+            (None, true, true) => format!("{nodes} and {spacing}"),
+        };
+        let other = other.map_or_else(|| "the rigid walls".to_owned(), |other| self.bodies.name_of(other));
+        let message = format!(
+            "the gap from {other} is {} (length), and nodes beside it are {widest} apart, more than {resolved_text}: \
+             they do not resolve the flow next to a rigid surface in so narrow a gap, and speeds may be off by a per \
+             cent and more; use {remedy}",
+            decimals(4, width),
+        );
+        Warning { body: self.bodies.name_of(body), cause: "thin film".into(), excess: gap.excess().min(1e3), message }
     }
 
     /// The narrowest film in which velocities are within about a per cent (length).
@@ -220,6 +278,7 @@ impl<H: Hydrodynamics> System<H> {
             let [body, other] = [body, other].map(|index| self.bodies.name_of(index));
             return Err(SceneError::Overlap { time: self.clock.time, body, x, y, other, depth, allowed });
         }
+        self.check_wall_nodes()?;
         self.record_gap();
         self.known = Known::Apart;
         Ok(())
@@ -237,6 +296,7 @@ impl<H: Hydrodynamics> System<H> {
             let [body, other] = names([body, other]);
             return Err(SceneError::Crossing { time, body, x, y, other, depth, allowed });
         }
+        self.check_wall_nodes()?;
         if let Some(bound) = self.contacts.least_gap {
             let wall = self.nearest_wall();
             let names = |bodies: [usize; 2]| bodies.map(|index| self.bodies.name_of(index));
@@ -260,9 +320,28 @@ impl<H: Hydrodynamics> System<H> {
         self.contacts.find_gaps(&mut self.bodies, &self.hydrodynamics.fluid_view());
     }
 
-    /// Records the gap that was found last.
+    /// Records the gap that was found last, and if steps do not look so far, the narrowest one between two bodies if it
+    /// is below all before.
     pub(super) fn record_gap(&mut self) {
-        lower(&mut self.findings.gap, self.contacts.gaps.narrowest.map(|gap| gap.width));
+        let found = self.contacts.gaps.narrowest.map(|gap| gap.width);
+        let (domain, least) = (self.hydrodynamics.fluid_view().domain, self.findings.gap.unwrap_or(f64::INFINITY));
+        let found = found.or_else(|| self.contacts.surfaces.narrower(&domain, least));
+        lower(&mut self.findings.gap, found);
+    }
+
+    /// The warning of solids that are closer than the bound on gaps, which is not theirs.
+    fn solids_below_bound(&self) -> Option<Warning> {
+        let bound = self.contacts.least_gap?;
+        let domain = self.hydrodynamics.fluid_view().domain;
+        let (gap, [other, body]) = self.contacts.surfaces.between_solids(&domain, bound)?;
+        let [gap_text, bound_text] = told_apart([gap, bound]);
+        let message = format!(
+            "the gap from {} is {gap_text} (length), below the bound on gaps of {bound_text}: the bound is for gaps \
+             beside interfaces, and does not end a run in which two solids come closer, because solids may touch",
+            self.bodies.name_of(other)
+        );
+        let excess = (bound / gap.max(1e-3 * bound)).min(1e3);
+        Some(Warning { body: self.bodies.name_of(body), cause: "gap between solids".into(), excess, message })
     }
 
     /// Records the present gap to walls.

@@ -339,3 +339,34 @@ fn layers_of_two_viscosities_are_refused() {
     let error = built(Some(30.0), false).unwrap_err();
     assert!(refused(&error, "the fluid between") && error.to_string().contains("30 and 10"), "{error}");
 }
+
+/// Two rings that pass each other at 0.4, eight times the distance of their markers and four grid spacings, and are far
+/// apart again at the end.
+#[test]
+fn the_smallest_gap_is_known_however_wide() {
+    let mut scene = scene();
+    scene.add(ring("left", Vec2::new(-1.0, 0.0), 0.3, None, Vec2::ZERO));
+    let start = Vec2::new(0.05, -0.6);
+    scene.add(ring("right", start, 0.3, None, Vec2::new(0.0, 0.5)));
+    // Until it is as far above as it was below.
+    scene.run(2.4).go().unwrap();
+    let (least, end) = (scene.system().minimum_gap().unwrap(), f64::hypot(1.05, 0.6) - 0.6);
+    // The corners of the polygons are on the circles, their sides are not.
+    assert!((0.45 - 1e-9..0.453).contains(&least) && least < end - 0.1, "{least} {end}");
+}
+
+/// A bound on gaps does not end a run for two solids, which is told.
+#[test]
+fn solids_below_the_bound_are_told() {
+    let causes = |bound: f64| {
+        let mut scene = scene().with_least_gap(bound).unwrap();
+        scene.add(Disc(circle(Vec2::new(-0.6, 0.0), 0.5)));
+        scene.add(Disc(circle(Vec2::new(0.6, 0.0), 0.5)));
+        scene.run(0.1).go().unwrap();
+        let warnings = scene.system_mut().warnings();
+        warnings.iter().map(|warning| (warning.cause.to_string(), warning.excess)).collect::<Vec<_>>()
+    };
+    assert!(causes(0.19).is_empty());
+    let told = causes(0.3);
+    assert!(told.len() == 1 && told[0].0 == "gap between solids" && (told[0].1 - 1.5).abs() < 0.01, "{told:?}");
+}
