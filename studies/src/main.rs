@@ -7,7 +7,6 @@
 
 mod animations;
 mod book;
-mod elastic_step;
 mod exchange;
 mod gel;
 mod hard_cases;
@@ -16,11 +15,9 @@ mod many;
 mod nucleus;
 mod pages;
 mod pictures;
-mod scaling;
 mod shared_benchmark;
 mod site;
 mod steady_states;
-mod step_cost;
 mod sums;
 mod suspensions;
 mod tables;
@@ -48,16 +45,13 @@ struct Flags {
 enum Study {
     Validation(validation::Flags),
     WorkPrecision(work_precision::Flags),
-    StepCost(step_cost::Flags),
     SteadyStates(steady_states::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
     HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
-    Scaling(scaling::Flags),
     Threads(threads::Flags),
     Tubes(tubes::Flags),
-    ElasticStep(elastic_step::Flags),
     Gel(gel::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
@@ -79,16 +73,13 @@ fn main() -> ExitCode {
     motile_examples::run(|flags: &Flags| match &flags.study {
         Study::Validation(flags) => validation::run(flags),
         Study::WorkPrecision(flags) => work_precision::run(flags),
-        Study::StepCost(flags) => step_cost::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
         Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),
-        Study::Scaling(flags) => scaling::run(flags),
         Study::Threads(flags) => threads::run(flags),
         Study::Tubes(flags) => tubes::run(flags),
-        Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),

@@ -1,6 +1,6 @@
 //! Bending of fluid interfaces, and shells that start deformed.
 
-use motile::active_interface::{ActiveDroplet, Curve, Motion};
+use motile::active_interface::{ActiveDroplet, Motion};
 use motile::base::{Region, Vec2};
 use motile::boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, Settings};
 use motile::elastic_solids::Shell;

@@ -17,10 +17,10 @@ fn disc(radius: f64, centre: [f64; 2], force: [f64; 2]) -> RigidBodySetup {
 
 /// The velocities of the rigid bodies, and how many gaps are warned of.
 fn solved(setup: &Setup) -> (Vec<Vec2>, usize) {
-    let Built { mut scene, rigid_bodies, .. } = setup.build().unwrap();
+    let Built { mut scene, rigid_bodies, .. } = setup.build().expect("a scene");
     let warnings = scene.system_mut().warnings();
     let films = warnings.iter().filter(|warning| warning.cause == "thin film").count();
-    let velocities = rigid_bodies.iter().map(|&body| scene.observe(body).unwrap().velocity).collect();
+    let velocities = rigid_bodies.iter().map(|&body| scene.observe(body).expect("a body").velocity).collect();
     (velocities, films)
 }
 

@@ -1402,3 +1402,21 @@ fn places_of_a_grading_increase() {
     let error = of(vec![[0.0, 1.0], [0.5, 2.0], [0.5, 3.0]]).unwrap_err();
     assert!(error.starts_with("solids[0].grading.along.factors") && error.contains("places increasing"), "{error}");
 }
+
+#[test]
+fn obstacles_that_touch_or_cross_the_straight_walls_are_refused() {
+    let region = Region::Channel { length: 8.0, width: 6.0, drive: Drive::ZeroGradient };
+    let built = |y: f64| {
+        let outline = SolidOutline::Disc { centre: [2.0, y], radius: 0.5 };
+        let walls = vec![WallSetup::new(outline, 0.1)];
+        Setup { region, walls, ..Setup::default() }.build().map(drop)
+    };
+    assert!(built(2.4).is_ok());
+    for y in [2.5, 2.6, 9.0, -2.5] {
+        let error = built(y).unwrap_err().to_string();
+        assert!(
+            error.starts_with("walls[0].outline = ") && error.contains("straight walls at y = -3.000e0"),
+            "{error}"
+        );
+    }
+}

@@ -59,6 +59,9 @@ fn uniform() -> f64 {
     1.0
 }
 
+/// Part of the width by which a wall may be beyond the straight walls, and an obstacle must be away from them.
+const ROUND_OFF: f64 = 1e-9;
+
 impl WallSetup {
     /// The wall along a smooth outline, with nodes at that distance (length).
     #[must_use]
@@ -180,7 +183,33 @@ impl Setup {
     fn even_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
         let walls = self.walls.iter().enumerate();
-        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&wall_key(k)))).collect()
+        let built = walls.map(|(k, wall)| {
+            let built = wall.build(period).and_then(|built| self.check_between_sides(wall, &built).map(|()| built));
+            built.map_err(|error| error.of(&wall_key(k)))
+        });
+        built.collect()
+    }
+
+    /// Refuses a wall that leaves the channel, and an obstacle that touches the channel's own walls: no flow passes
+    /// between them, and their images coincide.
+    fn check_between_sides(&self, wall: &WallSetup, built: &RigidWall) -> Result<(), SetupError> {
+        let [_, width] = self.region.lengths();
+        let beyond = |point: &Vec2| point.y.abs() - 0.5 * width;
+        let Some(farthest) = built.points().iter().max_by(|a, b| beyond(a).total_cmp(&beyond(b))) else {
+            return Ok(());
+        };
+        let least = if wall.outline.is_wall() { -ROUND_OFF } else { ROUND_OFF };
+        if beyond(farthest) < -least * width {
+            return Ok(());
+        }
+        Err(SetupError::Value {
+            key: "outline".to_owned(),
+            value: format!("a wall through ({:.3e}, {:.3e})", farthest.x, farthest.y),
+            remedy: format!(
+                "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move it",
+                0.5 * width
+            ),
+        })
     }
 
     /// Refuses a droplet that starts beyond a rigid wall.

@@ -1,6 +1,8 @@
 //! The solvers of this crate against the discrete equations, direct solutions, exact solutions and each other.
 
 #[cfg(test)]
+mod allocation;
+#[cfg(test)]
 mod channel;
 #[cfg(test)]
 mod common;

@@ -1,6 +1,6 @@
 //! Boundary integrals against layers beside a grid.
 
-mod scenes;
+use crate::scenes;
 
 use ib_core::BSpline;
 use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};

@@ -1,6 +1,6 @@
 //! Flow, gradient and pressure away from, close to and on the interfaces.
 
-mod scenes;
+use crate::scenes;
 
 use std::f64::consts::TAU;
 

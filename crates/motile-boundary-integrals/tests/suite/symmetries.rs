@@ -1,6 +1,6 @@
 //! Properties that hold for any shape and force.
 
-mod scenes;
+use crate::scenes;
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Interfaces inside one another.
 
-mod scenes;
+use crate::scenes;
 
 use motile_base::{FlowSample, Region, Vec2};
 use motile_boundary_integrals::{BoundaryIntegral, Settings};

@@ -1,6 +1,6 @@
 //! Bad input ends in an error that says what to do.
 
-mod scenes;
+use crate::scenes;
 
 use motile_base::{Drive, FlowSample, InputError, Region, Vec2};
 use motile_boundary_integrals::{

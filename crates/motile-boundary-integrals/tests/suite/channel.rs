@@ -1,6 +1,6 @@
 //! Walls, drives and what is measured in channels.
 
-mod scenes;
+use crate::scenes;
 
 use motile_base::{Drive, FlowSample, Region, SolveReport, Vec2};
 use motile_boundary_integrals::{BoundaryIntegral, Settings};

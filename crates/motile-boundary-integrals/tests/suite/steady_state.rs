@@ -1,6 +1,6 @@
 //! Cost of an evaluation in steady state: no memory, few iterations.
 
-mod scenes;
+use crate::scenes;
 
 use allocation_counter::measure;
 use motile_base::{Drive, Region};

@@ -1,6 +1,6 @@
 //! Several interfaces: gaps, seams, contrasts.
 
-mod scenes;
+use crate::scenes;
 
 use motile_base::{Region, Vec2};
 use motile_boundary_integrals::{BoundaryIntegral, Settings};

@@ -1,6 +1,6 @@
 //! Errors against the number of nodes and markers.
 
-mod scenes;
+use crate::scenes;
 
 use std::f64::consts::TAU;
 

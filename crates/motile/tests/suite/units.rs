@@ -1,8 +1,6 @@
 //! Nothing depends on the units: scenes in other units of length, time and force take the same steps to the same
 //! places. What each key of a scene file changes by with the units is what its reference says in parentheses.
-#![cfg(feature = "toml")]
-
-mod dimensions;
+use crate::dimensions;
 
 use std::path::Path;
 
@@ -259,7 +257,7 @@ fn examples() -> Vec<(String, String)> {
 
 /// The annotated scene, the examples, and those above, by their names.
 fn all() -> Vec<(String, String)> {
-    let reference = ("scene.toml".to_owned(), include_str!("../scene.toml").to_owned());
+    let reference = ("scene.toml".to_owned(), include_str!("../../scene.toml").to_owned());
     let others = SCENES.iter().enumerate().map(|(number, text)| (format!("scene {number}"), (*text).to_owned()));
     [reference].into_iter().chain(examples()).chain(others).collect()
 }
@@ -281,7 +279,7 @@ fn difference(dimensions: &Dimensions, plain: &Value, expected: &Seen, units: Di
 
 #[test]
 fn scenes_in_other_units_take_the_same_steps_to_the_same_places() {
-    let dimensions = Dimensions::of(include_str!("../scene.toml"));
+    let dimensions = Dimensions::of(include_str!("../../scene.toml"));
     let (mut wrong, mut equal) = (Vec::new(), 0);
     for (name, text) in all() {
         let plain = complete(&text);
@@ -309,7 +307,7 @@ fn scenes_in_other_units_take_the_same_steps_to_the_same_places() {
 /// with the same names at its end.
 #[test]
 fn every_key_with_a_dimension_is_tried() {
-    let dimensions = Dimensions::of(include_str!("../scene.toml"));
+    let dimensions = Dimensions::of(include_str!("../../scene.toml"));
     let mut tried = std::collections::HashSet::new();
     for (_, text) in all() {
         dimensions::visit(&mut complete(&text), &mut Vec::new(), &mut |path, numbers| {

@@ -1,6 +1,6 @@
 //! Velocities at and around fixed shapes against independent reference values.
 
-mod reference;
+use crate::reference;
 
 use std::f64::consts::TAU;
 

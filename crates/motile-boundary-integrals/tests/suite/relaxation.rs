@@ -1,6 +1,6 @@
 //! An ellipse that relaxes to a circle, against a reference and against what must be conserved.
 
-mod scenes;
+use crate::scenes;
 
 use motile_base::{Region, Vec2};
 use motile_boundary_integrals::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};

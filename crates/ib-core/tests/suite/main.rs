@@ -1,0 +1,5 @@
+//! Spreading, interpolation and bodies on a grid.
+
+mod bodies;
+mod sliding_walls;
+mod transfer;

@@ -1,0 +1,11 @@
+//! Steady states, their growth rates and branches against exact values and runs.
+
+mod branches;
+mod cycles;
+mod exchange;
+mod imposed_flows;
+mod linear_theory;
+mod nucleus;
+mod reference;
+mod revolution;
+mod verdicts;

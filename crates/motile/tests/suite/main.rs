@@ -1,0 +1,10 @@
+//! Scenes that are built from descriptions.
+
+mod channel_flux;
+#[cfg(feature = "toml")]
+mod dimensions;
+mod living_walls;
+mod revolution;
+mod solid_gap;
+#[cfg(feature = "toml")]
+mod units;
