@@ -1,51 +1,37 @@
-//! An active droplet swims in a channel with rigid no-slip walls (Cowley, chapter 3).
+//! A strong swimmer between rigid walls swings from wall to wall.
 //!
-//! `cargo run --release --example rigid_channel` simulates it, prints what was measured, and writes to
-//! `out/rigid_channel/` what the example `swimming_droplet` writes, with the channel and the path of the droplet in the
-//! pictures. `--help` lists the flags.
+//! `cargo run --release --example rigid_channel` starts the droplet a thousandth of its radius away from the axis. With
+//! activity -5, swimming straight along the axis is unstable. The spectrum of the steady state predicts the growth rate
+//! and the frequency of the swings, and the run shows them.
 
-use std::process::ExitCode;
+use motile::prelude::*;
+use motile_steady_states::{SteadyState, Symmetry};
 
-use anyhow::Result;
-use clap::Parser;
-use motile::active_interface::observables::net_flux;
-use motile::analysis::trajectory::Evidence;
-use motile_examples::{ChannelFlags, SceneFlags};
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut setup = Setup {
+        region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Integral(IntegralMethod { nodes: 64, elements: 256 }),
+        droplets: vec![DropletSetup::active(-5.0)],
+        ..Setup::default()
+    };
+    let spectrum = SteadyState::find(&setup)?.spectrum()?;
+    let swing = spectrum.leading().ok_or("a spectrum without modes")?;
+    println!("predicted: swings grow at {:.4} and turn at {:.4} per time", swing.value.re, swing.value.im);
+    assert!(swing.symmetry == Symmetry::Antisymmetric && swing.value.re > 0.0);
 
-/// An active droplet swims in a channel with rigid walls.
-#[derive(Debug, Parser)]
-#[command(after_help = "The default run takes 1,132 steps, 2,265 evaluations of the flow.")]
-struct Flags {
-    #[command(flatten)]
-    scene: SceneFlags<ChannelFlags>,
-}
-
-fn main() -> ExitCode {
-    motile_examples::run(swim)
-}
-
-fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
-    // The droplet, in the middle of its channel unless an offset is given, and the channel.
-    let mut setup = flags.method.setup(&flags.droplet, None)?;
-    flags.region.apply(&mut setup)?;
-
-    // The run, with all that watches it.
-    let mut run = flags.watch(setup.build()?, &setup, "rigid_channel")?;
-    run.go(None)?;
-
-    // The results, also of a run that broke off.
-    let mut summary = run.summary()?;
-    let Evidence { period, growth_rate, .. } = run.put_regime(&mut summary)?;
-    summary.put("period", period.map(|period| period.value), "of the oscillation");
-    summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
-    let last = run.last()?.clone();
-    summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
-    // Far from the interface, where the flow is smooth.
-    let opposite = last.observables.centroid.x + 0.5 * flags.region.along.length;
-    let flux = net_flux(run.scene.system_mut(), opposite)?;
-    summary.put("net_flux", flux, "along the channel (R0^2 per time)");
-    summary.put("retrograde_flow", last.flow.and_then(|flow| flow.retrograde()), "past the droplet, seen from it");
-    summary.put("gap", last.gap, "to the walls, in the end (R0)");
-    summary.put("minimum_gap", run.scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
-    run.finish(&summary)
+    // Once the start is forgotten, heights at equal times t, t + T, t + 2 T are on a growing wave:
+    // y3 = 2 e^(s T) cos(w T) y2 - e^(2 s T) y1, with the growth rate s and the frequency w.
+    setup.droplets[0].centre = [0.0, 0.001];
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let interval = 15.0;
+    let mut heights = [0.0; 3];
+    for (height, time) in heights.iter_mut().zip([60.0, 60.0 + interval, 60.0 + 2.0 * interval]) {
+        scene.run(time).go()?;
+        *height = scene.observe(droplets[0])?.centroid.y;
+    }
+    let growth = (swing.value.re * interval).exp();
+    let expected = 2.0 * growth * (swing.value.im * interval).cos() * heights[1] - growth.powi(2) * heights[0];
+    println!("heights {heights:.6?}, the last one by the spectrum {expected:.6}");
+    assert!((heights[2] - expected).abs() < 0.02 * heights[0].abs().max(heights[2].abs()));
+    Ok(())
 }

@@ -5,10 +5,9 @@ use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentr
 use clap::Parser;
 use elastic_solids::mesh::{GmshMesh, equilateral_block};
 use ib_core::{BSpline, ImmersedBoundary};
-use motile::elastic_solids::ChannelShape;
 use motile::setup::{IntegralMethod, Method, Setup};
+use motile_cli::keys::{SceneFlags, set, setup_of, table_of};
 use motile_cli::run::OutputFlags;
-use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, SceneFlags};
 use motile_scene::{Scene, checkpoint::Checkpoint};
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -63,46 +62,33 @@ pub fn gmsh(bytes: &[u8]) {
     }
 }
 
-/// All flags of scenes.
+/// All flags of a run.
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    method: MethodFlags,
+    scene: SceneFlags,
     #[command(flatten)]
     output: OutputFlags,
-    #[command(subcommand)]
-    region: Option<Region>,
 }
 
-/// Where the droplet is: their flags have names in common.
-#[derive(Debug, clap::Subcommand)]
-enum Region {
-    Box(BoxFlags),
-    Channel(ChannelFlags),
-    Elastic(ElasticFlags),
-}
-
-/// Parses a command line, one flag or value a line or between spaces, checks it as the examples do, and makes the
-/// droplet where that is cheap.
+/// Parses a command line of `motile run`, one flag or value a line or between spaces, sets its keys in a scene of one
+/// droplet, and makes the droplet where that is cheap.
 pub fn flags(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let words = std::iter::once("scene").chain(text.split_whitespace());
-    let Ok(Flags { droplet, method, output, region }) = Flags::try_parse_from(words) else { return };
-    let Ok(mut setup) = method.setup(&droplet, None) else { return };
-    let checked = match &region {
-        None => Ok(()),
-        Some(Region::Box(region)) => region.apply(&mut setup),
-        Some(Region::Channel(channel)) => channel.apply(&mut setup),
-        Some(Region::Elastic(walls)) => {
-            let shape = ChannelShape::Straight { width: walls.width };
-            let (droplet, region, method) = (droplet.clone(), walls.clone(), method.clone());
-            SceneFlags { droplet, region, method, output }.setup(&shape, 0.0).map(|_| ())
+    let words = std::iter::once("motile").chain(text.split_whitespace());
+    let Ok(Flags { scene, output }) = Flags::try_parse_from(words) else { return };
+    let _ = output.check(&scene.name(), Some(&scene.file));
+    let mut table = table_of("[[droplets]]\n").expect("a scene");
+    for (key, value) in scene.set {
+        if set(&mut table, &key, value).is_err() {
+            return;
         }
-    };
-    if checked.is_ok() && method.spacing(&setup) > 0.02 {
-        let _ = setup.droplet(&setup.droplets[0]);
+    }
+    let Ok(setup) = setup_of(table) else { return };
+    if let (Method::Integral(IntegralMethod { elements: 0..=4096, .. }), Some(droplet)) =
+        (&setup.method, setup.droplets.first())
+    {
+        let _ = setup.droplet(droplet);
     }
 }
 
@@ -143,13 +129,10 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             .map(String::into_bytes)
             .collect(),
         _ => [
-            "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset \
-             -0.03,0.01",
-            "--kernel gaussian6 --preset thesis --initial perturbed --seed 7 --no-pictures --out somewhere channel \
-             --width 2 --length 8",
-            "--dt adaptive:1e-4 --checkpoint file --checkpoint-every 10 --resume other --spacing 0.1 elastic --width 3 \
-             --material neo-hookean",
-            "--method integral --nodes 64 --elements 256 --viscosity-in 1000 --viscosity-out 10",
+            "scene.toml --set droplets.0.particles.activity=-4 --set viscosity=10 --set method.grid.spacing=0.1",
+            "scene.toml --set region.channel={length=8,width=2} --set step.fixed=0.01 --no-pictures --out somewhere",
+            "scene.toml --set=droplets.0.centre=[-0.03,0.01] --checkpoint file --checkpoint-every 10 --resume other",
+            "scene.toml --set method.integral.nodes=64 --set droplets.0.viscosity=1e3 --set droplets.1.centre=[3,0]",
         ]
         .map(|line| line.as_bytes().to_vec())
         .to_vec(),

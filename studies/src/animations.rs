@@ -1,4 +1,4 @@
-//! The animations of the first page, one of each scene in `examples/scenes`.
+//! The animations of the pages, one of each scene in `examples/scenes` that a page shows.
 //!
 //! `cargo run --release -p studies -- animations` runs every scene to the time in its first lines (`--time T`) and
 //! writes `out/animations/NAME.gif`; `--write` puts them into `docs/images/scenes`. `studies -- pages` puts them and
@@ -51,7 +51,11 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut sum = 0;
     let mut table = Table::new("Animations of the first page", &["scene", "time", "steps", "bytes"]);
     for name in names {
-        if flags.scene.as_ref().is_some_and(|wanted| *wanted != name) {
+        let wanted = match &flags.scene {
+            Some(wanted) => *wanted == name,
+            None => is_shown(&name)?,
+        };
+        if !wanted {
             continue;
         }
         let path = folder.join(format!("{name}.gif"));
@@ -99,6 +103,22 @@ pub(crate) fn text(name: &str) -> Result<String> {
     let text = read(name)?;
     let code: Vec<&str> = text.lines().skip_while(|line| line.starts_with('#')).collect();
     Ok(format!("![{name}](docs/images/scenes/{name}.gif)\n\n```toml\n{}\n```\n", code.join("\n").trim()))
+}
+
+/// True if the first page or another page shows the animation of a scene.
+fn is_shown(name: &str) -> Result<bool> {
+    let picture = format!("scenes/{name}.gif");
+    for folder in [root().to_path_buf(), root().join("docs")] {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|extension| extension == "md")
+                && fs::read_to_string(path)?.contains(&picture)
+            {
+                return Ok(true);
+            }
+        }
+    }
+    Ok(false)
 }
 
 fn folder() -> PathBuf {

@@ -10,8 +10,8 @@ use motile::base::Region;
 use motile::setup::{
     Built, DropletSetup, ExchangeSetup, ExcludedVolume, IntegralMethod, Method, Particles, Setup, Start,
 };
+use motile_cli::command_line::positive;
 use motile_cli::run::say;
-use motile_examples::positive;
 use motile_tests::validation::exchange::{Mode, bare_rate, rate, speed};
 use motile_tests::validation::{Table, order};
 

@@ -14,6 +14,7 @@ mod instructions;
 mod many;
 mod nucleus;
 mod pages;
+mod passage;
 mod pictures;
 mod shared_benchmark;
 mod site;
@@ -23,6 +24,7 @@ mod suspensions;
 mod tables;
 mod threads;
 mod time_steps;
+mod track;
 mod tubes;
 mod validation;
 mod warnings;
@@ -70,7 +72,7 @@ enum Study {
 }
 
 fn main() -> ExitCode {
-    motile_examples::run(|flags: &Flags| match &flags.study {
+    motile_cli::command_line::run(|flags: &Flags| match &flags.study {
         Study::Validation(flags) => validation::run(flags),
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),

@@ -15,8 +15,8 @@ use motile::setup::{
     Built, DropletSetup, GridMethod, Hold, IntegralMethod, LayersMethod, Material, Method, Setup, SolidOutline,
     SolidSetup,
 };
+use motile_cli::command_line::positive;
 use motile_cli::run::say;
-use motile_examples::positive;
 use motile_tests::validation::Table;
 use motile_timing::{PlainPair, Turns};
 

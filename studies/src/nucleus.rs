@@ -13,8 +13,10 @@ use motile::setup::{
     Built, DropletSetup, Hold, IntegralMethod, LayersMethod, Material, Method, RigidBodySetup, Setup, SolidOutline,
     SolidSetup,
 };
+use motile_cli::command_line::positive;
 use motile_cli::run::{explained, say};
-use motile_examples::{positive, turning_rate};
+
+use crate::track::turning_rate;
 use motile_steady_states::{Parameter, Profile, SteadyState};
 use motile_tests::validation::Table;
 

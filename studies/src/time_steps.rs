@@ -24,7 +24,7 @@ use motile::scene::{
 use motile::setup::{
     AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Material, Method, Setup, SolidSetup,
 };
-use motile_examples::positive;
+use motile_cli::command_line::positive;
 use motile_tests::validation::Table;
 
 use crate::tables;

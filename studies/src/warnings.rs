@@ -12,7 +12,7 @@ use motile::base::{Drive, Region, Vec2};
 use motile::interior::DirectorStart;
 use motile::scene::{Every, Warnings};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, Setup, Start};
-use motile_examples::positive;
+use motile_cli::command_line::positive;
 use motile_tests::validation::Table;
 
 use crate::tables;

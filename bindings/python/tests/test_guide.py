@@ -31,7 +31,7 @@ def in_rust() -> dict[str, str]:
 @pytest.fixture(scope="module")
 def printed_in_rust(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """What the programs in Rust print, with all digits: one program of all, beside the crates of an example."""
-    command = "cargo build --release --quiet --example bifurcation_diagram --message-format json"
+    command = "cargo build --release --quiet --example bifurcation --message-format json"
     built = subprocess.run(command.split(), cwd=DOCS.parent, check=True, capture_output=True, text=True).stdout
     messages = [json.loads(line) for line in built.splitlines()]
     files = {m["target"]["name"]: m["filenames"][0] for m in messages if m["reason"] == "compiler-artifact"}

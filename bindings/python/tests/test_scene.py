@@ -26,10 +26,12 @@ def small(**more: object) -> motile.Setup:
 
 
 def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
-    command = "cargo run --release --quiet --example swimming_droplet -- --time 2 --nodes 32 --no-pictures --quiet"
+    command = "cargo run --release --quiet --bin motile -- run examples/scenes/swimmer.toml --time 2 --no-pictures"
     written = tmp_path / "scene.toml"
+    keys = ["droplets.0.particles.start=polarised", "method.integral={ nodes = 32, elements = 128 }"]
+    flags = ["--quiet", *(flag for key in keys for flag in ("--set", key))]
     subprocess.run(
-        [*command.split(), "--out", str(tmp_path / "out"), "--write-scene", str(written)], cwd=ROOT, check=True
+        [*command.split(), *flags, "--out", str(tmp_path / "out"), "--write-scene", str(written)], cwd=ROOT, check=True
     )
     rows = np.genfromtxt(tmp_path / "out" / "trajectory.csv", delimiter=",", names=True)
     scene = motile.Setup.from_toml(written.read_text()).build()

@@ -34,12 +34,15 @@ macro_rules! examples {
 }
 
 /// Examples, which the repository has in `examples/scenes`.
-const EXAMPLES: [(&str, &str); 13] = examples![
+const EXAMPLES: [(&str, &str); 16] = examples![
     "active_walls",
     "circles",
+    "constriction",
+    "drop",
     "elastic_walls",
     "exchange",
     "gel",
+    "living_walls",
     "meeting",
     "nucleus",
     "rigid_channel",

@@ -348,7 +348,7 @@ fn means(track: &[(f64, f64)], distance: f64) -> [f64; 2] {
     let Some((end, x)) = track.last() else { return [f64::NAN; 2] };
     let half = track.iter().find(|(time, _)| *time >= 0.5 * end);
     let late = half.map_or(f64::NAN, |(time, place)| (x - place) / (end - time));
-    [motile_examples::mean_speed(track, distance).unwrap_or(f64::NAN), late]
+    [crate::track::mean_speed(track, distance).unwrap_or(f64::NAN), late]
 }
 
 /// Least distance of a swimmer from the walls of a straight channel (length), and the pressure a tenth of its width

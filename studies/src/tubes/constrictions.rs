@@ -7,18 +7,16 @@ use motile::base::{Drive, Region, TubeShape};
 use motile::scene::{Every, SceneError};
 use motile::setup::{DropletSetup, Setup};
 use motile_cli::run::{Decided, say};
-use motile_examples::{Passage, Verdict};
+
 use motile_tests::validation::Table;
 use toml::{Table as Toml, Value};
 
 use super::scene;
+use crate::passage::{Passage, Verdict};
 
 /// Sources that the table depends on besides those of every run.
-pub(super) const INPUTS: [&str; 3] = [
-    "studies/src/tubes/constrictions.rs",
-    "examples/src/passage.rs",
-    "studies/book/data/environment-constriction.toml",
-];
+pub(super) const INPUTS: [&str; 3] =
+    ["studies/src/tubes/constrictions.rs", "studies/src/passage.rs", "studies/book/data/environment-constriction.toml"];
 /// End of the runs, and place on the axis where they start (R0).
 const TIME: f64 = 160.0;
 const START: f64 = -4.0;

@@ -46,7 +46,7 @@ def branch(
 ) -> Branch:
     """Branch from a steady state, or from that of a setup, to a value of a parameter, around folds.
 
-    Parameters are those of `bifurcation_diagram`: activity, viscosity_ratio, width, ... A wrong name ends in an error
+    Parameters are those of `motile_steady_states::Parameter`: activity, viscosity_ratio, width, ... A wrong name ends in an error
     that lists them. `callback` is called with each value, in the middle of the search for the next; what it raises
     ends the search.
     """

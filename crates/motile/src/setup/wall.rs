@@ -185,7 +185,12 @@ impl Setup {
         let walls = self.walls.iter().enumerate();
         let built = walls.map(|(k, wall)| {
             let built = wall.build(period).and_then(|built| self.check_between_sides(wall, &built).map(|()| built));
-            built.map_err(|error| error.of(&wall_key(k)))
+            built.map_err(|error| match error {
+                SetupError::Value { key, value, remedy } => {
+                    SetupError::Value { key: format!("{}.{key}", wall_key(k)), value, remedy }
+                }
+                error => error.of(&wall_key(k)),
+            })
         });
         built.collect()
     }

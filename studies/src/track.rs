@@ -6,8 +6,7 @@ const LATE: f64 = 0.5;
 /// Mean rate at which the direction of motion turns in the second half of a run (radians per time): the slope of the
 /// line nearest to it. Nothing of fewer than three points (time, heading in degrees); those without a heading, which
 /// are not numbers, do not count.
-#[must_use]
-pub fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
+pub(crate) fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
     let (end, _) = *headings.last()?;
     let mut heading = 0.0;
     let late: Vec<[f64; 2]> = headings
@@ -29,8 +28,7 @@ pub fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
 
 /// Mean speed in x over the last `distance` of a track of points (time, x): from when the swimmer was last that far
 /// behind its end, on the line between two points. Nothing of a track that is shorter.
-#[must_use]
-pub fn mean_speed(track: &[(f64, f64)], distance: f64) -> Option<f64> {
+pub(crate) fn mean_speed(track: &[(f64, f64)], distance: f64) -> Option<f64> {
     let (end, x) = *track.last()?;
     let behind = |&(_, place): &(f64, f64)| x - place - distance;
     let last = track.windows(2).rfind(|pair| behind(&pair[0]) >= 0.0)?;

@@ -2,20 +2,17 @@
 
 use motile::active_interface::{ActiveDroplet, polygon_moments};
 use motile::scene::{Hydrodynamics, Observer, System};
-use serde::Serialize;
-use serde_json::json;
 
-use motile_cli::run::{Decided, Summary};
+use motile_cli::run::Decided;
 
 /// How far back from the furthest it has come a droplet counts as turned back (R0).
 const BACK: f64 = 1.0;
 /// A droplet is stuck that has stayed within this distance (R0) for this time, four times R0^2/D.
 const REST: (f64, f64) = (0.02, 40.0);
 
-/// Fate of a droplet, as it stands in `summary.json`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
+/// Fate of a droplet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
     /// Its centroid is beyond the far end of the constriction.
     Passed,
     /// The droplet has come back by its radius from where it was furthest.
@@ -29,7 +26,7 @@ pub enum Verdict {
 /// Follows the first droplet of a scene to the far end of a constriction, or wherever else it goes. To be called after
 /// every step; ends the run by the error [`Decided`].
 #[derive(Debug, Clone)]
-pub struct Passage {
+pub(crate) struct Passage {
     far_end: f64,
     /// When the droplet was first looked at.
     start: f64,
@@ -44,26 +41,23 @@ const RECORD: &str = "passage";
 
 impl Passage {
     /// For a constriction that ends at `far_end` (R0), on the right of a droplet that starts on its left.
-    #[must_use]
-    pub fn new(far_end: f64) -> Self {
+    pub(crate) fn new(far_end: f64) -> Self {
         let (start, furthest, verdict) = (f64::NAN, f64::NEG_INFINITY, Verdict::Undecided);
         Self { far_end, start, track: Vec::new(), furthest, verdict }
     }
 
     /// The verdict.
-    #[must_use]
-    pub fn verdict(&self) -> Verdict {
+    pub(crate) fn verdict(&self) -> Verdict {
         self.verdict
     }
 
     /// When it was found, or until when it was not.
-    #[must_use]
-    pub fn time(&self) -> f64 {
+    pub(crate) fn time(&self) -> f64 {
         self.track.last().map_or(0.0, |(time, _)| *time)
     }
 
     /// Takes the centroid at a time into account.
-    pub fn follow(&mut self, time: f64, x: f64) {
+    pub(crate) fn follow(&mut self, time: f64, x: f64) {
         let (near, long) = REST;
         self.start = if self.track.is_empty() { time } else { self.start };
         self.furthest = self.furthest.max(x);
@@ -83,13 +77,6 @@ impl Passage {
         } else {
             Verdict::Undecided
         };
-    }
-
-    /// Puts verdict, time and furthest x into the results of a run.
-    pub fn put(&self, summary: &mut Summary) {
-        summary.put("verdict", json!(self.verdict), "what became of the droplet");
-        summary.put("verdict_time", self.time(), "when that was clear");
-        summary.put("furthest_x", self.furthest, "of the centroid (R0)");
     }
 }
 
