@@ -1,8 +1,9 @@
 //! Instructions of kernels and steps, counted by valgrind: the same on a busy machine as on an idle one.
 //!
-//! `cargo run --release -p studies -- instructions` compares each with `studies/instructions.csv` and fails where one
-//! has become more than 5 % more, or fewer: then `--write` renews the table. Counts depend on the compiler and on the
-//! processor's instruction set; the table names the compiler that it was made with.
+//! `cargo run --release --features rayon -p studies -- instructions`, with `RAYON_NUM_THREADS=1`, compares each with
+//! `studies/instructions.csv` and fails where one has become more than 5 % more, or fewer: then `--write` renews the
+//! table. Counts depend on the compiler and on the processor's instruction set; the table names the compiler that it
+//! was made with.
 
 use std::{env, fs, hint::black_box, process::Command};
 

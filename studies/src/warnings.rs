@@ -191,8 +191,8 @@ fn refined(setup: &Setup) -> Setup {
 /// resolution.
 fn files(flags: &Flags) -> Result<Table> {
     let columns = ["scene", "until", "speed", "largest", "of", "warned of"];
-    let title = "Warnings of the scene files, and the differences of the speed and of all observables, of all droplets, \
-                 from a run with twice the resolution (none where the start is noise, which has other values there)";
+    let title = "Warnings of the scene files, and the differences of the speed and of all observables, of all \
+                 droplets, from a run with twice the resolution (none where the start is noise, which has other values there)";
     let mut table = Table::new(title, &columns);
     for folder in ["examples/scenes", "bindings/web/presets"] {
         let entries = fs::read_dir(tables::root().join(folder))?.map(|entry| Ok(entry?.path()));

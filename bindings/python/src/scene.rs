@@ -292,7 +292,8 @@ impl Scene {
             let system = state.scene.system_mut();
             system.sample(&points, &mut samples).map_err(failed)?;
             // Tubes that are not straight have no mean one: their samples are complete.
-            let gradient = system.report().mean_pressure_gradient.map(|slope| if slope.is_finite() { slope } else { 0.0 });
+            let known = |slope: f64| if slope.is_finite() { slope } else { 0.0 };
+            let gradient = system.report().mean_pressure_gradient.map(known);
             let gradient = Vec2::from(gradient);
             for (sample, point) in samples.iter_mut().zip(&points) {
                 sample.pressure += gradient.dot(*point);

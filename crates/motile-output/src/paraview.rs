@@ -24,7 +24,8 @@ const RECORD: &str = "files for ParaView";
 ///
 /// | file | location | quantity (dimension) |
 /// |---|---|---|
-/// | fields | in the cells | pressure (stress, as [`motile::base::FlowSample::pressure`]), velocity (length per time), vorticity (1/time) |
+/// | fields | in the cells | pressure (stress, as [`motile::base::FlowSample::pressure`]), velocity (length per time) |
+/// | fields | in the cells | vorticity (1/time) |
 /// | interface | at the markers | concentration (particles per length), tension (force), velocity (length per time) |
 /// | interface | at the markers | force on the fluid (force) |
 /// | interface | in each droplet's line | number of the droplet, in the order of addition |

@@ -146,8 +146,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
-    /// Distance of the nodes of [`Hydrodynamics::walls`] at each of their sides (length), by which gaps beside the walls
-    /// are known to be resolved; by default empty, so that nothing is known.
+    /// Distance of the nodes of [`Hydrodynamics::walls`] at each of their sides (length), by which gaps beside the
+    /// walls are known to be resolved; by default empty, so that nothing is known.
     fn wall_spacings(&self) -> &[f64] {
         &[]
     }

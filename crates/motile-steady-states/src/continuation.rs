@@ -97,7 +97,8 @@ impl Continuation {
         if !profile.nuclei.is_empty() && profile.is_at_rest() {
             return Err(SteadyError::unsupported(
                 "droplets at rest with a nucleus elsewhere cross there, no swimmers",
-                "Find a swimmer (SteadyState::find; `motile steady` does unless --uniform is given) and follow it to the threshold",
+                "Find a swimmer (SteadyState::find; `motile steady` does unless --uniform is given) and follow it to the \
+                 threshold",
             ));
         }
         follower.go(seen)

@@ -130,8 +130,8 @@ impl ActiveInterface {
         }
     }
 
-    /// Mean concentration at the start (particles per length, or area in three dimensions), on a circle or sphere of the
-    /// size at the start, or on a straight line.
+    /// Mean concentration at the start (particles per length, or area in three dimensions), on a circle or sphere of
+    /// the size at the start, or on a straight line.
     pub(super) fn mean_concentration(&self) -> f64 {
         let length = match self.advance().abs() {
             0.0 => {

@@ -23,9 +23,9 @@ pub struct PeriodicObservables {
     /// Fourier modes of the height (length) in the angle 2 pi x/L, L the period: the mean of y cos over x, twice, and
     /// so on; where the interface overhangs as integrals along it.
     pub height_modes: FourierModes,
-    /// Fourier modes of the concentration (particles per length) in the angle 2 pi (s + x1/L), with the fraction s of the
-    /// length of the interface from its first marker on along x, and the place x1 of that marker. The angle of a flat
-    /// interface is that of the height modes, wherever the first marker has drifted. Zero without particles.
+    /// Fourier modes of the concentration (particles per length) in the angle 2 pi (s + x1/L), with the fraction s of
+    /// the length of the interface from its first marker on along x, and the place x1 of that marker. The angle of a
+    /// flat interface is the angle of the height modes, wherever the first marker has drifted. Zero without particles.
     pub concentration_modes: FourierModes,
     /// Flux of particles along x (1/time), its mean over the period, in the frame of the laboratory: a pattern at rest
     /// in fluid that moves as a whole has the flux of its particles with the fluid.

@@ -257,8 +257,8 @@ fn squeezed_droplets(setup: &Setup) -> Result<Vec<String>> {
         };
         let shape = if to == Squeezed::Ellipse { "an ellipse" } else { "a stadium" };
         notes.push(format!(
-            "droplets[{number}] starts as {shape} of half height {half_height:.3}, because the walls on both sides leave \
-             it no more room"
+            "droplets[{number}] starts as {shape} of half height {half_height:.3}, because the walls on both sides \
+             leave it no more room"
         ));
     }
     Ok(notes)

@@ -74,8 +74,8 @@ fn nearest(from: &Boundary, shift: Vec2, to: &Boundary, periods: Periods, reach:
 }
 
 impl Boundary {
-    /// Curvature (1/length; positive where what is inside is convex) and mean length of the sides (length), over so many
-    /// sides before and after one.
+    /// Curvature (1/length; positive where what is inside is convex) and mean length of the sides (length), over so
+    /// many sides before and after one.
     fn local(&self, side: usize, reach: usize) -> [f64; 2] {
         let (sides, len) = (self.sides(), self.sides().len());
         let after = |k: usize| Some((k + 1) % len).filter(|&next| sides[k][1] == sides[next][0]);

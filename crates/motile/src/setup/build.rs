@@ -191,8 +191,8 @@ impl Setup {
         })
     }
 
-    /// So many markers of a droplet's outline. In an imposed flow, which deforms bodies as precisely as it is known, and
-    /// in three dimensions, they are those of [`Setup::true_outline`]; otherwise the area of their polygon is that of
+    /// So many markers of a droplet's outline. In an imposed flow, which deforms bodies as precisely as it is known,
+    /// and in three dimensions, they are those of [`Setup::true_outline`]; otherwise the area of their polygon is that of
     /// the outline, as on grids.
     pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         if self.flow.is_none() && !self.region.is_axisymmetric() {
@@ -355,8 +355,8 @@ impl Setup {
     }
 
     /// The shape of a droplet at the start: its own, or the shape of a circle that is squeezed between walls. The walls
-    /// squeeze a circle by a film if it is just as wide as the place between them, so that it touches both. They squeeze
-    /// it by more only if it is [`DropletSetup::squeezed`]. A circle with a gap, however narrow, stays a circle.
+    /// squeeze a circle by a film if it is just as wide as the place between them, so that it touches both. They
+    /// squeeze it by more only if it is [`DropletSetup::squeezed`]. A circle with a gap, however narrow, stays a circle.
     ///
     /// # Errors
     /// A circle that is wider than its surroundings.

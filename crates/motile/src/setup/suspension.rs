@@ -304,8 +304,8 @@ impl SuspensionSetup {
         let alternative =
             if other > 0.0 { format!("and {other} fill {:.3}", of(other)) } else { "and fewer fill none".to_owned() };
         let remedy = format!(
-            "{count} droplets fill {reached:.3} of the area, {alternative}, which is off by more than {} %: give one of \
-             these, another region, or other radii",
+            "{count} droplets fill {reached:.3} of the area, {alternative}, which is off by more than {} %: give one \
+             of these, another region, or other radii",
             100.0 * OFF
         );
         checked.refuse("area-fraction", &fraction, remedy)

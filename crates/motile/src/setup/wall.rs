@@ -211,7 +211,8 @@ impl Setup {
             key: "outline".to_owned(),
             value: format!("a wall through ({:.3e}, {:.3e})", farthest.x, farthest.y),
             remedy: format!(
-                "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move it",
+                "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move \
+                 it",
                 0.5 * width
             ),
         })
