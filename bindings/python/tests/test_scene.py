@@ -26,10 +26,10 @@ def small(**more: object) -> motile.Setup:
 
 
 def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
-    command = "cargo run --release --quiet --bin motile -- run examples/scenes/swimmer.toml --time 2 --no-pictures"
+    command = "cargo run --release --quiet --features rayon --bin motile -- run examples/scenes/swimmer.toml --time 2"
     written = tmp_path / "scene.toml"
     keys = ["droplets.0.particles.start=polarised", "method.integral={ nodes = 32, elements = 128 }"]
-    flags = ["--quiet", *(flag for key in keys for flag in ("--set", key))]
+    flags = ["--quiet", "--no-pictures", *(flag for key in keys for flag in ("--set", key))]
     subprocess.run(
         [*command.split(), *flags, "--out", str(tmp_path / "out"), "--write-scene", str(written)], cwd=ROOT, check=True
     )
