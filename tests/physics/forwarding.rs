@@ -44,10 +44,11 @@ fn boxes_forward_every_method() {
         let forwarded = block(&text, implementation);
         assert!(wanted.len() > 3, "{head}: {wanted:?}");
         assert_eq!(wanted, methods(&forwarded), "{head}");
-        // Each one calls the method of the same name.
+        // Each one calls the method of the same name, as the macro has it.
         let body = forwarded.join("\n");
+        let by_macro = body.contains("motile_base::forwarded! {");
         for method in wanted {
-            assert!(body.contains(&format!(").{method}(")), "{head} {method}");
+            assert!(by_macro && !body.contains(").") || body.contains(&format!(").{method}(")), "{head} {method}");
         }
     }
 }

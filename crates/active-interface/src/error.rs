@@ -1,8 +1,8 @@
 //! Errors of interfaces and of what is computed on them.
 
 use motile_base::{
-    InputError, Vec2,
-    internal::{place, refusal, told, told_apart},
+    InputError, Refusal, Vec2,
+    internal::{Refuse, place, told, told_apart},
 };
 
 /// An error of this crate; its message has the offending values and the remedy.
@@ -45,15 +45,8 @@ pub enum InterfaceError {
         part: f64,
     },
     /// A curve, interface, concentration or fit that cannot be used.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(InterfaceError);
@@ -189,10 +182,6 @@ impl InterfaceError {
     pub(crate) fn no_fit(what: &str, points: usize) -> Self {
         let what = format!("the {points} points do not determine a fit of {what}");
         Self::refused(what, "", "Use more points, or a longer part of the curve")
-    }
-
-    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
     }
 }
 

@@ -157,20 +157,13 @@ impl Tension for ContractileTension {
 macro_rules! laws_behind_pointers {
     ($($pointer:ident),*) => {$(
         impl<T: Tension + ?Sized> Tension for $pointer<T> {
-            fn value(&self, c: f64) -> f64 {
-                (**self).value(c)
-            }
-
-            fn slope(&self, c: f64) -> f64 {
-                (**self).slope(c)
-            }
-
-            fn values(&self, concentrations: &[f64], tensions: &mut [f64]) {
-                (**self).values(concentrations, tensions);
-            }
-
-            fn warning(&self) -> Option<String> {
-                (**self).warning()
+            motile_base::forwarded! {
+                by &self:
+                fn value(c: f64) -> f64;
+                fn slope(c: f64) -> f64;
+                fn values(concentrations: &[f64], tensions: &mut [f64]);
+                fn warning() -> Option<String>;
+                by &mut self:
             }
         }
     )*};

@@ -1,8 +1,8 @@
 //! Errors of solids, meshes and outlines.
 
 use motile_base::{
-    InputError, Vec2,
-    internal::{decimals, place, refusal},
+    InputError, Refusal, Vec2,
+    internal::{Refuse, decimals, place},
     positive, within,
 };
 
@@ -53,15 +53,8 @@ pub enum SolidError {
         residual: f64,
     },
     /// An outline, channel, mesh, mesh file or request that cannot be used.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(SolidError);
@@ -205,10 +198,6 @@ impl SolidError {
     /// A group of triangles that cannot be written.
     pub(crate) fn bad_group(tag: i32, fault: &str) -> Self {
         Self::refused(format!("group {tag} of triangles cannot be written"), fault, "Correct the group, or remove it")
-    }
-
-    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
     }
 }
 

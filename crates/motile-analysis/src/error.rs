@@ -1,8 +1,8 @@
 //! Errors of the analysis.
 
 use motile_base::{
-    InputError,
-    internal::{all_finite, refusal},
+    InputError, Refusal,
+    internal::{Refuse, all_finite},
 };
 
 /// An error of this crate. Its text has the offending value and says what to do.
@@ -13,15 +13,8 @@ pub enum AnalysisError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A list that does not increase, or points that do not determine what is fitted to them.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(AnalysisError);
@@ -30,14 +23,14 @@ impl AnalysisError {
     /// An entry that is not above the entry before it, in a list that must increase.
     pub(crate) fn not_increasing(name: &str, index: usize, value: f64) -> Self {
         let what = format!("entry {index} of {name} is {value}, not above the entry before it");
-        Self::Refused { what, value: String::new(), remedy: format!("Sort {name} and remove repeated ones") }
+        Self::refused(what, "", format!("Sort {name} and remove repeated ones"))
     }
 
     /// Points that do not determine what is fitted to them.
     pub(crate) fn no_fit(fit: &str, points: usize) -> Self {
         let what = format!("these {points} points do not determine a fit of {fit}");
         let remedy = "Use more points, or a longer part of the record".to_owned();
-        Self::Refused { what, value: String::new(), remedy }
+        Self::refused(what, "", remedy)
     }
 }
 

@@ -74,22 +74,6 @@ fn rounded(digits: usize, value: f64) -> String {
     if plain { short.to_string() } else { format!("{short:e}") }
 }
 
-/// Text of a refusal: what is wrong, with the value if there is one, and what to do.
-///
-/// ```
-/// use motile_base::internal::refusal;
-///
-/// let (what, remedy) = ("the grid is too small", "Use at least 4 cells in each direction");
-/// let text = "the grid is too small: 3 x 8 cells. Use at least 4 cells in each direction";
-/// assert_eq!(refusal(what, "3 x 8 cells", remedy), text);
-/// assert_eq!(refusal("the walls are missing", "", "Add them"), "the walls are missing. Add them");
-/// ```
-#[must_use]
-pub fn refusal(what: &str, value: &str, remedy: &str) -> String {
-    let colon = if value.is_empty() { "" } else { ": " };
-    format!("{what}{colon}{value}. {remedy}")
-}
-
 /// Implements `Debug` of errors as their explanation: what `fn main() -> Result<(), Box<dyn Error>>` prints is
 /// the `Debug` of the error that it returns.
 ///

@@ -54,12 +54,14 @@ mod curve_forces;
 mod drive;
 mod explanation;
 mod flow;
+mod forwarded;
 mod imposed;
 mod input;
 mod membrane;
 pub mod polygon;
 mod quadrature;
 mod real;
+mod refusal;
 mod region;
 mod series;
 mod sine_cosine;
@@ -76,6 +78,7 @@ pub use imposed::ImposedFlow;
 pub use input::{InputError, finite, not_negative, positive, same_length, within};
 pub use membrane::{BendingMeasure, Membrane};
 pub use real::RealTransform;
+pub use refusal::Refusal;
 pub use region::{Region, TubeShape};
 pub use series::PeriodicSeries;
 pub use sine_cosine::{CosineTransform, NodeSineTransform, SineTransform};
@@ -84,9 +87,10 @@ pub use vec2::Vec2;
 /// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::explanation::{decimals, explanation, place, refusal, told, told_apart};
+    pub use crate::explanation::{decimals, explanation, place, told, told_apart};
     pub use crate::input::{all_finite, all_points_finite, at_least};
     pub use crate::quadrature::gauss_legendre;
+    pub use crate::refusal::Refuse;
     pub use crate::sums::{dot, sum, widely};
 
     /// Spectra of real numbers.

@@ -1,8 +1,8 @@
 //! Errors of fields inside droplets.
 
 use motile_base::{
-    InputError,
-    internal::{place, refusal},
+    InputError, Refusal,
+    internal::{Refuse, place},
 };
 use motile_scene::BodyError;
 
@@ -26,15 +26,8 @@ pub enum InteriorError {
         y: f64,
     },
     /// Droplet or mesh that cannot be used.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(InteriorError);
@@ -56,10 +49,6 @@ impl InteriorError {
     pub(crate) fn too_fine(nodes: f64, most: usize) -> Self {
         let value = format!("it would have some {nodes:.1e} nodes, more than {most}");
         Self::refused("the mesh is too fine", value, "Use a larger spacing")
-    }
-
-    fn refused(what: &str, value: impl Into<String>, remedy: &str) -> Self {
-        Self::Refused { what: what.to_owned(), value: value.into(), remedy: remedy.to_owned() }
     }
 }
 

@@ -1,5 +1,40 @@
 //! Active polar gel: director, stresses, defects.
 
+/// Methods of bodies whose state is the free angles of their `director`.
+macro_rules! of_director {
+    () => {
+        fn write_state(&self, state: &mut [f64]) {
+            state.copy_from_slice(self.director.free_angles());
+        }
+
+        fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+            self.director.read(state)
+        }
+
+        fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
+            self.director.begin_step(step.stabilised, view.viscosity);
+            Ok(())
+        }
+
+        fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+            self.director.stabiliser.add(state, factor, out);
+        }
+
+        fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+            self.director.stabiliser.solve(factor, state);
+        }
+
+        fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
+            self.director.step_limits(view.viscosity, limits);
+        }
+
+        /// Angles (radians).
+        fn write_scales(&self, scales: &mut [f64]) {
+            scales.fill(1.0);
+        }
+    };
+}
+
 mod conditions;
 mod defect;
 mod director;
@@ -113,6 +148,7 @@ impl InteriorBody for GelInDroplet {
 
 impl Body for GelInDroplet {
     in_droplet!(body);
+    of_director!();
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.filling.check()?;
@@ -126,34 +162,9 @@ impl Body for GelInDroplet {
         self.director.free_angles().len()
     }
 
-    fn write_state(&self, state: &mut [f64]) {
-        state.copy_from_slice(self.director.free_angles());
-    }
-
-    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        self.director.read(state)
-    }
-
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         self.filling.set_flow(velocities);
         self.director.write_rate(&self.filling.fluid, &self.filling.motion, rate);
-    }
-
-    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
-        self.director.begin_step(step.stabilised, view.viscosity);
-        Ok(())
-    }
-
-    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
-        self.director.stabiliser.add(state, factor, out);
-    }
-
-    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
-        self.director.stabiliser.solve(factor, state);
-    }
-
-    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
-        self.director.step_limits(view.viscosity, limits);
     }
 
     fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
@@ -173,11 +184,6 @@ impl Body for GelInDroplet {
         );
         let (body, cause) = (self.name.clone(), "core of a defect not resolved".into());
         if error > 0.01 { vec![Warning { body, cause, excess: 100.0 * error, message }] } else { Vec::new() }
-    }
-
-    /// Angles (radians).
-    fn write_scales(&self, scales: &mut [f64]) {
-        scales.fill(1.0);
     }
 
     fn properties(&self) -> Vec<(String, f64)> {

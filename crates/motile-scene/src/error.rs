@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use motile_base::{
-    InputError,
-    internal::{decimals, place, refusal, told, told_apart},
+    InputError, Refusal,
+    internal::{Refuse, decimals, place, told, told_apart},
 };
 
 use crate::checkpoint::CheckpointError;
@@ -104,15 +104,8 @@ pub enum FlowError {
         tolerance: f64,
     },
     /// A request that the method cannot fulfil.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(FlowError);
@@ -128,7 +121,7 @@ impl FlowError {
     #[must_use]
     pub fn unsupported(what: &str, remedy: &str) -> Self {
         let what = format!("{what} is not possible here");
-        Self::Refused { what, value: String::new(), remedy: remedy.to_owned() }
+        Self::refused(what, "", remedy)
     }
 
     /// Returns the error with the number of the body in place of the number of its curve.
@@ -388,15 +381,8 @@ pub enum SceneError {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A scene, checkpoint, handle or integrator that cannot be used.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(SceneError);
@@ -458,7 +444,7 @@ impl SceneError {
     /// The refusal of bodies of another resolution, from the one of another property.
     pub(crate) fn of_other_resolution(self) -> Self {
         match self {
-            Self::Refused { value, .. } => {
+            Self::Refused(Refusal { value, .. }) => {
                 let remedy = "Build the scene with as many markers and points as the checkpoint has";
                 Self::refused("the checkpoint has another resolution", value, remedy)
             }
@@ -490,7 +476,9 @@ impl SceneError {
     /// The refusal of a checkpoint with the entry of the description that is different.
     pub(crate) fn with_entry(self, entry: &str) -> Self {
         match self {
-            Self::Refused { what, value, remedy } => Self::refused(what, format!("{value}, and {entry}"), remedy),
+            Self::Refused(Refusal { what, value, remedy }) => {
+                Self::refused(what, format!("{value}, and {entry}"), remedy)
+            }
             other => other,
         }
     }
@@ -520,10 +508,6 @@ impl SceneError {
         let what = format!("at time {} the gap between {body} and a rigid wall is {gap}", told(time));
         let value = format!("the nodes of the wall are {spacing} apart there, with which the flow comes out wrong");
         Self::refused(what, value, format!("Give the wall a spacing of {resolved}, or keep {body} away from it"))
-    }
-
-    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
     }
 
     /// The error and its causes in one sentence.

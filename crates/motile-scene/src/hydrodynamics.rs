@@ -1,11 +1,11 @@
 //! From forces at markers to velocities at markers.
 
 mod body_flow;
-#[cfg(test)]
-pub(crate) mod drag_box;
 mod markers;
 mod prescribed_flow;
 mod substrate;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub(crate) use body_flow::Everything;
 pub use body_flow::{BodyFlow, Enclosed};
@@ -197,63 +197,23 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
 /// Hydrodynamics that were chosen at run time.
 impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
-    fn fluid_view(&self) -> FluidView {
-        self.as_ref().fluid_view()
-    }
-
-    fn drive(&self) -> Option<Drive> {
-        self.as_ref().drive()
-    }
-
-    fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
-        self.as_mut().impose(flow, strain)
-    }
-
-    fn imposed(&self) -> ImposedFlow {
-        self.as_ref().imposed()
-    }
-
-    fn strain(&self) -> f64 {
-        self.as_ref().strain()
-    }
-
-    fn walls(&self) -> Option<&Boundary> {
-        self.as_ref().walls()
-    }
-
-    fn wall_spacings(&self) -> &[f64] {
-        self.as_ref().wall_spacings()
-    }
-
-    fn axisymmetric(&self) -> bool {
-        self.as_ref().axisymmetric()
-    }
-
-    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        self.as_mut().velocities(markers)
-    }
-
-    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
-        self.as_mut().sample(markers, points, out)
-    }
-
-    fn work(&self) -> FlowWork {
-        self.as_ref().work()
-    }
-
-    fn warnings(&self) -> Vec<Warning> {
-        self.as_ref().warnings()
-    }
-
-    fn save(&self) -> SavedState {
-        self.as_ref().save()
-    }
-
-    fn load(&mut self, saved: &SavedState) {
-        self.as_mut().load(saved);
-    }
-
-    fn rewind(&mut self) {
-        self.as_mut().rewind();
+    motile_base::forwarded! {
+        by &self:
+        fn fluid_view() -> FluidView;
+        fn drive() -> Option<Drive>;
+        fn imposed() -> ImposedFlow;
+        fn strain() -> f64;
+        fn walls() -> Option<&Boundary>;
+        fn wall_spacings() -> &[f64];
+        fn axisymmetric() -> bool;
+        fn work() -> FlowWork;
+        fn warnings() -> Vec<Warning>;
+        fn save() -> SavedState;
+        by &mut self:
+        fn impose(flow: ImposedFlow, strain: f64) -> Result<(), FlowError>;
+        fn velocities(markers: &mut Markers) -> Result<SolveReport, FlowError>;
+        fn sample(markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
+        fn load(saved: &SavedState);
+        fn rewind();
     }
 }

@@ -3,7 +3,7 @@
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::boundary_integrals::LayerError;
-use motile_base::{InputError, internal::refusal};
+use motile_base::{InputError, Refusal, internal::Refuse};
 
 /// Error of a steady state, a branch or a limit cycle, with the offending value and the remedy.
 #[derive(thiserror::Error)]
@@ -32,15 +32,8 @@ pub enum SteadyError {
         remedy: &'static str,
     },
     /// Scene or request that this crate cannot solve for, or a search that has found nothing.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(SteadyError);
@@ -65,10 +58,5 @@ impl SteadyError {
     /// Point that is not found while a parameter goes from one value to the other.
     pub(crate) fn not_found(what: &str, [from, to]: [f64; 2], remedy: &str) -> Self {
         Self::refused(format!("{what} was not found between {from} and {to}"), "", remedy)
-    }
-
-    /// The problem, the value with the reason, and the remedy.
-    pub(crate) fn refused(what: impl Into<String>, value: impl Into<String>, remedy: &str) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.to_owned() }
     }
 }

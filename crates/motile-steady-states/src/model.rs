@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use motile::active_interface::{ContractileTension, ExcludedVolume, Tension};
 use motile::base::{FlowSample, ImposedFlow, Region};
 use motile::setup::{DropletSetup, DropletShape, Method, Particles, RigidBodySetup, Setup};
-use motile_base::{PeriodicSeries, Vec2};
+use motile_base::{PeriodicSeries, Vec2, internal::Refuse as _};
 use stokes_boundary_integrals::{Interface, Settings, TensionPlacement};
 
 use crate::flow::Flow;

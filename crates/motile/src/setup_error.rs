@@ -2,7 +2,8 @@
 
 use active_interface::InterfaceError;
 use elastic_solids::SolidError;
-use motile_base::internal::{place, refusal, told, told_apart};
+use motile_base::Refusal;
+use motile_base::internal::{Refuse, place, told, told_apart};
 use motile_boundary_integrals::LayerError;
 use motile_interior::InteriorError;
 use motile_scene::FlowError;
@@ -108,15 +109,8 @@ pub enum SetupError {
         largest: f64,
     },
     /// Scene file that cannot be read, or bodies that contradict each other.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(SetupError);
@@ -133,7 +127,7 @@ impl SetupError {
         let copied = told.lines().any(is_copy);
         let lines = told.trim_end().lines().filter(|line| !(copied && (is_copy(line) || is_mark(line))));
         let value = lines.map(shortened).collect::<Vec<_>>().join("\n");
-        Self::Refused { what, value, remedy: "Correct this entry".to_owned() }
+        Self::refused(what, value, "Correct this entry")
     }
 
     /// Round droplet of a radius that is larger than what walls leave around its centre, and what it would be squeezed
@@ -148,7 +142,7 @@ impl SetupError {
              a smaller radius or wider walls",
             told(half_height)
         );
-        Self::Refused { what, value, remedy }
+        Self::refused(what, value, remedy)
     }
 
     /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities: the keys of
@@ -158,7 +152,7 @@ impl SetupError {
             "the fluid between {key} and {other}, or the image of one, would have the viscosities {lower} and {upper}"
         );
         let remedy = "Give both the same viscosity inside, or turn one of them over by its key `inside`".to_owned();
-        Self::Refused { what, value: String::new(), remedy }
+        Self::refused(what, "", remedy)
     }
 
     /// Error with the key of the entry that it is about, unless it names it itself.

@@ -2,7 +2,7 @@
 
 use motile_base::{
     Vec2,
-    internal::{decimals, place},
+    internal::{Refuse as _, decimals, place},
 };
 use stokes_boundary_integrals::LayerError;
 

@@ -1,8 +1,8 @@
 //! Errors of layers: the value that cannot be used and the remedy.
 
 use motile_base::{
-    InputError, Vec2,
-    internal::{refusal, told_apart},
+    InputError, Refusal, Vec2,
+    internal::{Refuse, told_apart},
 };
 
 /// An error of this crate; its message names the offending value and the remedy.
@@ -117,27 +117,13 @@ pub enum LayerError {
         tolerance: f64,
     },
     /// A curve, wall, region or request that the solver cannot use.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(LayerError);
 
 impl LayerError {
-    /// A refusal: what is wrong, the value if it is not in that sentence, and what to do.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
-    }
-
     /// A flow that cannot be imposed on the region.
     #[doc(hidden)]
     #[must_use]

@@ -2,6 +2,11 @@
 //!
 //! Without the images that are close, which are summed node by node, the Green's function between two curves is smooth.
 //! Its Taylor series is summed by the moments of the sources.
+//!
+//! Sums node by node, these series, and the split sums of [`crate::ewald`] all stay, because each is the cheapest
+//! somewhere: at a tolerance of 1e-8 and equal viscosities, an evaluation takes 0.1, 0.1 and 1.2 million instructions
+//! for one droplet of 64 nodes in the plane, and 18, 11 and 20 million for 16 droplets. For 32 droplets in a box, it
+//! takes 72 million with series and 20 million with split sums, whose first evaluation takes 65 million more.
 
 mod expansion;
 mod series;

@@ -1,8 +1,8 @@
 //! Errors of solvers and grids: the value that cannot be used and the remedy.
 
 use motile_base::{
-    InputError, finite,
-    internal::{refusal, told_apart},
+    InputError, Refusal, finite,
+    internal::{Refuse, told_apart},
 };
 
 /// An error of this crate; its message names the offending values and the remedy.
@@ -29,15 +29,8 @@ pub enum StokesError {
         history: Vec<f64>,
     },
     /// A grid, field or request that a solver cannot use.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(StokesError);
@@ -89,10 +82,6 @@ impl StokesError {
         let what = "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs \
                     solutions that do not depend on each other";
         Self::refused(what, String::new(), "Use the exact wall treatment")
-    }
-
-    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.into() }
     }
 }
 

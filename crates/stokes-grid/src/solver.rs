@@ -98,52 +98,20 @@ pub trait StokesSolver: std::fmt::Debug + Send {
 }
 
 impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
-    fn grid(&self) -> &Grid {
-        (**self).grid()
-    }
-
-    fn viscosity(&self) -> f64 {
-        (**self).viscosity()
-    }
-
-    fn walls(&self) -> &WallMotion {
-        (**self).walls()
-    }
-
-    fn drive(&self) -> Drive {
-        (**self).drive()
-    }
-
-    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        (**self).solve(force, velocity)
-    }
-
-    fn pressure(
-        &mut self,
-        force: &StaggeredField,
-        velocity: &StaggeredField,
-        pressure: &mut CentreField,
-    ) -> Result<(), StokesError> {
-        (**self).pressure(force, velocity, pressure)
-    }
-
-    fn work(&self) -> Work {
-        (**self).work()
-    }
-
-    fn has_memory(&self) -> bool {
-        (**self).has_memory()
-    }
-
-    fn memory(&self) -> &[f64] {
-        (**self).memory()
-    }
-
-    fn set_memory(&mut self, memory: &[f64]) -> Result<(), StokesError> {
-        (**self).set_memory(memory)
-    }
-
-    fn rewind(&mut self) {
-        (**self).rewind();
+    motile_base::forwarded! {
+        by &self:
+        fn grid() -> &Grid;
+        fn viscosity() -> f64;
+        fn walls() -> &WallMotion;
+        fn drive() -> Drive;
+        fn work() -> Work;
+        fn has_memory() -> bool;
+        fn memory() -> &[f64];
+        by &mut self:
+        fn solve(force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
+        fn pressure(force: &StaggeredField, velocity: &StaggeredField, pressure: &mut CentreField)
+            -> Result<(), StokesError>;
+        fn set_memory(memory: &[f64]) -> Result<(), StokesError>;
+        fn rewind();
     }
 }

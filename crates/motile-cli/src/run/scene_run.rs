@@ -271,12 +271,6 @@ impl SceneRun {
         Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
     }
 
-    /// Last value in a column of the trajectory; `None` if it has no such column.
-    #[must_use]
-    pub fn last_of(&self, column: &str) -> Option<f64> {
-        Some(self.table().ok()?.curve("time", column).ok()?.last()?.1)
-    }
-
     /// Last measurement of the first droplet.
     ///
     /// # Errors

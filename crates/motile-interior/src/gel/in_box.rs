@@ -70,6 +70,8 @@ impl GelInBox {
 }
 
 impl Body for GelInBox {
+    of_director!();
+
     fn name(&self) -> &str {
         "gel"
     }
@@ -95,38 +97,8 @@ impl Body for GelInBox {
         self.nodes.len()
     }
 
-    fn write_state(&self, state: &mut [f64]) {
-        state.copy_from_slice(self.director.free_angles());
-    }
-
-    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        self.director.read(state)
-    }
-
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         self.director.write_rate(velocities, &self.rest, rate);
-    }
-
-    fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
-        self.director.begin_step(step.stabilised, view.viscosity);
-        Ok(())
-    }
-
-    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
-        self.director.stabiliser.add(state, factor, out);
-    }
-
-    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
-        self.director.stabiliser.solve(factor, state);
-    }
-
-    fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
-        self.director.step_limits(view.viscosity, limits);
-    }
-
-    /// Angles (radians).
-    fn write_scales(&self, scales: &mut [f64]) {
-        scales.fill(1.0);
     }
 
     fn properties(&self) -> Vec<(String, f64)> {

@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use motile_base::internal::refusal;
+use motile_base::{Refusal, internal::Refuse};
 
 /// A checkpoint could not be written or read.
 #[derive(thiserror::Error)]
@@ -40,15 +40,8 @@ pub enum CheckpointError {
         supported: u32,
     },
     /// A file that is not a complete and undamaged checkpoint, or cannot be opened.
-    #[error("{}", refusal(what, value, remedy))]
-    Refused {
-        /// Sentence that says what is wrong.
-        what: String,
-        /// The offending value and the reason, empty if the sentence has them.
-        value: String,
-        /// Sentence that says what to do.
-        remedy: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 motile_base::debug_as_explanation!(CheckpointError);
@@ -95,10 +88,6 @@ impl CheckpointError {
     /// The contents are not those of a checkpoint, though they are what was written.
     pub(super) fn contents(cause: &postcard::Error) -> Self {
         Self::refused("the contents of the checkpoint make no sense", cause.to_string(), ANOTHER)
-    }
-
-    fn refused(what: impl Into<String>, value: impl Into<String>, remedy: &str) -> Self {
-        Self::Refused { what: what.into(), value: value.into(), remedy: remedy.to_owned() }
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::error::refused;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 
 /// The fault comes to light only after the flow has taken its state over.
 #[test]

@@ -1,6 +1,6 @@
 use super::*;
 use crate::error::refused;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::integrator::IntegratorKind;
 use crate::{BodyError, BodyFlow, FluidView, MarkerBody};
 use motile_base::Vec2;

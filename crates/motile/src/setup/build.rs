@@ -13,7 +13,7 @@ use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesS
 
 use super::{
     DropletSetup, DropletShape, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup,
-    Squeezed, Start, droplet::squeezed_sphere, gel::spacing_inside, method::MARKERS,
+    Squeezed, Start, checked::Checked, droplet::squeezed_sphere, gel::spacing_inside, method::MARKERS,
 };
 use crate::SetupError;
 
@@ -217,32 +217,23 @@ impl Setup {
 
     /// Number of markers of a body's outline.
     pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
-        Ok(match &self.method {
-            Method::Integral(IntegralMethod { nodes, elements })
-            | Method::Layers(LayersMethod { nodes, elements, .. }) => *(elements.max(nodes)),
-            Method::Grid(grid) => {
-                let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
-                let wanted = curve.perimeter() / spacing;
-                if wanted.is_nan() || wanted > MARKERS[1] {
-                    let remedy = format!("{name} would have {wanted:.1e} markers: give more than that");
-                    let (key, value) = ("method.grid.marker-spacing".to_owned(), spacing.to_string());
-                    return Err(SetupError::Value { key, value, remedy });
-                }
-                fast_count(wanted)
-            }
-        })
+        let grid = match self.method.resolution() {
+            Ok([nodes, elements]) => return Ok(elements.max(nodes)),
+            Err(grid) => grid,
+        };
+        let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
+        let wanted = curve.perimeter() / spacing;
+        let remedy = format!("{name} would have {wanted:.1e} markers: give more than that");
+        let many = wanted.is_nan() || wanted > MARKERS[1];
+        Checked { place: "method.grid" }.refuse_if(many, "marker-spacing", spacing, remedy)?;
+        Ok(fast_count(wanted))
     }
 
     /// The like for an elastic membrane, of at least three markers for each two modes of its shape: products of more
     /// modes than that would pass for others in its energy, and waves that do not exist grow.
     pub(super) fn membrane_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         let count = self.marker_count(curve, name)?;
-        Ok(match self.method {
-            Method::Integral(IntegralMethod { nodes, .. }) | Method::Layers(LayersMethod { nodes, .. }) => {
-                count.max(nodes + nodes.div_ceil(2))
-            }
-            Method::Grid(_) => count,
-        })
+        Ok(self.method.resolution().map_or(count, |[nodes, _]| count.max(nodes + nodes.div_ceil(2))))
     }
 
     /// The flow of this scene, for scenes that are put together by hand.
@@ -265,13 +256,11 @@ impl Setup {
                 })
             }
             Method::Grid(grid) => {
+                let lagged = grid.solver == GridSolver::LaggedProjection && !self.iterates();
+                let treatment = if lagged { WallTreatment::Lagged } else { WallTreatment::Exact };
                 let solver = match grid.solver {
                     GridSolver::Streamfunction => self.streamfunction(grid.spacing)?,
-                    GridSolver::Projection => self.projection(grid.spacing, WallTreatment::Exact)?,
-                    GridSolver::LaggedProjection if self.iterates() => {
-                        self.projection(grid.spacing, WallTreatment::Exact)?
-                    }
-                    GridSolver::LaggedProjection => self.projection(grid.spacing, WallTreatment::Lagged)?,
+                    _ => self.projection(grid.spacing, treatment)?,
                 };
                 if grid.corrected {
                     Box::new(ImmersedBoundary::new(solver, grid.kernel))

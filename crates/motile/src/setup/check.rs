@@ -7,7 +7,7 @@ use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
 use super::{
-    GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup,
+    DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup,
     body::BodySetup,
     checked::{Checked, short},
 };
@@ -59,7 +59,7 @@ impl Setup {
                 );
                 top.require(!long, "region.channel.length", length, &remedy)?;
                 top.finite("region.channel.drive.gradient", drive.gradient())?;
-                top.finite("region.channel.drive.flux", drive.flux().unwrap_or(0.0))?;
+                top.finite("region.channel.drive.flux", drive.flux())?;
             }
             _ => {}
         }
@@ -99,9 +99,7 @@ impl Setup {
             top.positive("repulsion.strength", repulsion.strength())?;
             top.positive("repulsion.range", repulsion.range())?;
         }
-        if let Some(bound) = self.least_gap {
-            top.finite("least-gap", bound)?;
-        }
+        top.finite("least-gap", self.least_gap)?;
         for (number, body) in self.bodies() {
             self.able(body)?;
             body.check(&Checked { place: &format!("{}[{number}]", body.kind()[0]) }, self)?;
@@ -153,11 +151,9 @@ impl Setup {
         let top = Checked { place: "" };
         let Region::Tube { shape, drive, .. } = self.region else { return Ok(()) };
         self.region.check().or_else(|error| top.refuse("region.tube", &"given", error.to_string()))?;
-        if shape != TubeShape::Straight && drive.flux().is_none() {
-            let remedy = "only straight tubes have a prescribed pressure: give zero-flux or a flux";
-            return top.refuse("region.tube.drive", &format!("{drive:?}"), remedy);
-        }
-        Ok(())
+        let remedy = "only straight tubes have a prescribed pressure: give zero-flux or a flux";
+        let pressed = shape != TubeShape::Straight && drive.flux().is_none();
+        top.refuse_if(pressed, "region.tube.drive", format!("{drive:?}"), remedy)
     }
 
     /// Refuses particles and gels, parts of whose motion are stiffer than an integrator without implicit parts steps.
@@ -165,23 +161,19 @@ impl Setup {
         let has = self.droplets.iter().any(|droplet| droplet.particles.is_some() || droplet.gel.is_some())
             || self.interfaces.iter().any(|interface| interface.particles.is_some())
             || !self.gels.is_empty();
-        if !has {
-            return Ok(());
-        }
         let remedy = "it does not step particles or gels, whose diffusion is implicit: give \"midpoint\" or \
                       \"runge-kutta-chebyshev\"";
-        Checked { place: "" }.refuse("integrator", &"runge-kutta", remedy)
+        Checked { place: "" }.refuse_if(has, "integrator", "runge-kutta", remedy)
     }
 
     /// Refuses what has no meaning or no method for bodies of revolution in three dimensions.
     fn check_revolution(&self) -> Result<(), SetupError> {
-        let top = Checked { place: "" };
-        let refuse = |key: &str, value: &dyn std::fmt::Display, remedy: &str| {
-            top.refuse(key, value, format!("{remedy}, or a region of the plane"))
+        let refuse_if = |wrong: bool, place: &str, key: &str, value: &dyn std::fmt::Display, remedy: &str| {
+            Checked { place }.refuse_if(wrong, key, value, format!("{remedy}, or a region of the plane"))
         };
-        if self.method.kind() != MethodKind::Integral {
-            return refuse("method", &self.method.kind().name(), "three dimensions have no grid: give integral");
-        }
+        let kind = self.method.kind();
+        let remedy = "three dimensions have no grid: give integral";
+        refuse_if(kind != MethodKind::Integral, "", "method", &kind.name(), remedy)?;
         let planar = [
             ("solids", self.solids.len()),
             ("rigid-bodies", self.rigid_bodies.len()),
@@ -190,33 +182,22 @@ impl Setup {
             ("walls", self.walls.len()),
             ("interfaces", self.interfaces.len()),
         ];
-        if let Some((key, count)) = planar.into_iter().find(|(_, count)| *count > 0) {
-            return refuse(key, &count, "they are bodies of two dimensions: leave them out");
+        for (key, count) in planar {
+            refuse_if(count > 0, "", key, &count, "they are bodies of two dimensions: leave them out")?;
         }
-        for (number, droplet) in self.droplets.iter().enumerate() {
-            let checked = Checked { place: &format!("droplets[{number}]") };
-            let refuse = |key: &str, value: &dyn std::fmt::Display, remedy: &str| {
-                checked.refuse(key, value, format!("{remedy}, or a region of the plane"))
+        for (number, DropletSetup { centre, angle, motion, gel, particles, .. }) in self.droplets.iter().enumerate() {
+            let refuse_if = |wrong: bool, key: &str, value: &dyn std::fmt::Display, remedy: &str| {
+                refuse_if(wrong, &format!("droplets[{number}]"), key, value, remedy)
             };
-            if droplet.centre[1] != 0.0 {
-                return refuse("centre[1]", &droplet.centre[1], "bodies of revolution are on the x axis: give 0");
-            }
-            if droplet.angle.sin().abs() > 1e-12 {
-                return refuse(
-                    "angle",
-                    &droplet.angle,
-                    "a droplet swims along the x axis: give 0, or pi for backwards",
-                );
-            }
-            if droplet.motion == Motion::WithFluid {
-                return refuse("motion", &"with-fluid", "its markers lose their images: give equidistributed");
-            }
-            if droplet.gel.is_some() {
-                return refuse("gel", &"given", "gels are of two dimensions: leave it out");
-            }
-            if droplet.particles.is_some_and(|particles| particles.exchange.is_some()) {
-                return refuse("particles.exchange", &"given", "it is one of two dimensions: leave it out");
-            }
+            let remedy = "bodies of revolution are on the x axis: give 0";
+            refuse_if(centre[1] != 0.0, "centre[1]", &centre[1], remedy)?;
+            let remedy = "a droplet swims along the x axis: give 0, or pi for backwards";
+            refuse_if(angle.sin().abs() > 1e-12, "angle", angle, remedy)?;
+            let remedy = "its markers lose their images: give equidistributed";
+            refuse_if(*motion == Motion::WithFluid, "motion", &"with-fluid", remedy)?;
+            refuse_if(gel.is_some(), "gel", &"given", "gels are of two dimensions: leave it out")?;
+            let exchange = particles.is_some_and(|particles| particles.exchange.is_some());
+            refuse_if(exchange, "particles.exchange", &"given", "it is one of two dimensions: leave it out")?;
         }
         Ok(())
     }
@@ -239,17 +220,13 @@ impl Setup {
     fn check_grid(&self, grid: &GridMethod) -> Result<(), SetupError> {
         let checked = Checked { place: "method.grid" };
         checked.positive("spacing", grid.spacing)?;
-        if let Some(spacing) = grid.marker_spacing {
-            checked.positive("marker-spacing", spacing)?;
-        }
+        checked.positive("marker-spacing", grid.marker_spacing)?;
         self.cells(grid.spacing, self.region.lengths())?;
         let mut droplets = self.droplets.iter();
-        if grid.corrected && !self.droplets.is_empty() && droplets.all(|droplet| droplet.motion == Motion::WithFluid) {
-            let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets with \
-                          equidistributed markers";
-            checked.refuse("corrected", &true, remedy)?;
-        }
-        Ok(())
+        let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets with \
+                      equidistributed markers";
+        let carried = !self.droplets.is_empty() && droplets.all(|droplet| droplet.motion == Motion::WithFluid);
+        checked.refuse_if(grid.corrected && carried, "corrected", true, remedy)
     }
 
     /// Refuses the mobility correction where nothing has one.
@@ -258,11 +235,8 @@ impl Setup {
             return Ok(());
         }
         for (what, present) in [("viscosity contrasts", self.has_contrast()), ("solids", !self.solids.is_empty())] {
-            if present {
-                let remedy =
-                    format!("{what} on the grid leave no mobility correction: give false, or the method layers");
-                Checked { place: "method.grid" }.refuse("corrected", &true, remedy)?;
-            }
+            let remedy = format!("{what} on the grid leave no mobility correction: give false, or the method layers");
+            Checked { place: "method.grid" }.refuse_if(present, "corrected", true, remedy)?;
         }
         Ok(())
     }
@@ -292,10 +266,8 @@ impl Setup {
         for (length, cells) in lengths.into_iter().zip(counts) {
             let whole = cells.round();
             let [most, in_all] = MOST_CELLS;
-            if length.is_infinite() {
-                let remedy = "the plane has no grid: give a box or a channel, or the method integral";
-                return Checked { place: "" }.refuse("region", &"plane", remedy);
-            }
+            let remedy = "the plane has no grid: give a box or a channel, or the method integral";
+            Checked { place: "" }.refuse_if(length.is_infinite(), "region", "plane", remedy)?;
             if cells > most || product > in_all {
                 let count = if cells < 1e6 { format!("{cells:.0}") } else { format!("{cells:.1e}") };
                 let remedy =

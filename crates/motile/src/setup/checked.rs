@@ -1,5 +1,7 @@
 //! Values of descriptions with their keys, refused where they are out of range.
 
+use std::fmt::Display;
+
 use crate::SetupError;
 
 /// Least and largest magnitude of a value, whose fourth powers are numbers too.
@@ -23,23 +25,29 @@ pub(super) struct Checked<'a> {
 }
 
 impl Checked<'_> {
-    pub(super) fn refuse<T>(
-        &self,
-        key: &str,
-        value: &dyn std::fmt::Display,
-        remedy: impl Into<String>,
-    ) -> Result<T, SetupError> {
+    pub(super) fn refuse<T>(&self, key: &str, value: &dyn Display, remedy: impl Into<String>) -> Result<T, SetupError> {
         let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
         let text = value.to_string();
         let value = text.parse().map_or(text, short);
         Err(SetupError::Value { key, value, remedy: remedy.into() })
     }
 
-    pub(super) fn require(&self, holds: bool, key: &str, value: f64, remedy: &str) -> Result<(), SetupError> {
-        if holds { Ok(()) } else { self.refuse(key, &value, remedy) }
+    pub(super) fn refuse_if(
+        &self,
+        wrong: bool,
+        key: &str,
+        value: impl Display,
+        remedy: impl Into<String>,
+    ) -> Result<(), SetupError> {
+        if wrong { self.refuse(key, &value, remedy) } else { Ok(()) }
     }
 
-    pub(super) fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn require(&self, holds: bool, key: &str, value: f64, remedy: &str) -> Result<(), SetupError> {
+        self.refuse_if(!holds, key, value, remedy)
+    }
+
+    pub(super) fn positive(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
+        let Some(value) = value.into() else { return Ok(()) };
         self.require(value.is_finite() && value > 0.0, key, value, "give a positive finite number")?;
         let [least, most] = MAGNITUDES;
         self.require((least..=most).contains(&value), key, value, &format!("give a number from {least:e} to {most:e}"))
@@ -52,12 +60,14 @@ impl Checked<'_> {
         self.require((least..=most).contains(&value), key, value, &remedy)
     }
 
-    pub(super) fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn not_negative(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
+        let Some(value) = value.into() else { return Ok(()) };
         self.require(value >= 0.0, key, value, "give a finite number that is not negative")?;
         self.finite(key, value)
     }
 
-    pub(super) fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn finite(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
+        let Some(value) = value.into() else { return Ok(()) };
         self.require(value.is_finite(), key, value, "give a finite number")?;
         let [_, most] = MAGNITUDES;
         self.require(value.abs() <= most, key, value, &format!("give a number from -{most:e} to {most:e}"))

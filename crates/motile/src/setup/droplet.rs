@@ -402,19 +402,16 @@ impl BodySetup for DropletSetup {
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         checked.all_finite("centre", &self.centre)?;
         checked.finite("angle", self.angle)?;
-        if let Some(viscosity) = self.viscosity {
-            checked.positive("viscosity", viscosity)?;
-        }
+        checked.positive("viscosity", self.viscosity)?;
         checked.not_negative("tension", self.tension)?;
         checked.not_negative("bending", self.bending)?;
         checked.finite("reference-curvature", self.reference_curvature)?;
         let remedy = "bending is that of curves in two dimensions: give none to bodies of revolution";
         let plane = self.bending == 0.0 || !setup.region.is_axisymmetric();
         checked.require(plane, "bending", self.bending, remedy)?;
-        if self.bending > 0.0 && self.motion == Motion::WithFluid {
-            let remedy = "bending needs a fixed number of markers: give equidistributed ones";
-            checked.refuse("motion", &"with-fluid", remedy)?;
-        }
+        let carried = self.motion == Motion::WithFluid;
+        let remedy = "bending needs a fixed number of markers: give equidistributed ones";
+        checked.refuse_if(self.bending > 0.0 && carried, "motion", "with-fluid", remedy)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
@@ -427,27 +424,14 @@ impl BodySetup for DropletSetup {
         {
             checked.not_negative("particles.exchange.binding", binding)?;
             checked.not_negative("particles.exchange.unbinding", unbinding)?;
-            let inside = [("diffusion-inside", diffusion_inside), ("spacing-inside", spacing_inside)];
-            for (key, value) in inside.into_iter().filter_map(|(key, value)| Some((key, value?))) {
-                checked.positive(&format!("particles.exchange.{key}"), value)?;
-            }
-            if diffusion_inside.is_some() && self.motion == Motion::WithFluid {
-                let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
-                checked.refuse("motion", &"with-fluid", remedy)?;
-            }
-            let key = "particles.exchange.number-inside";
-            match number_inside {
-                Some(number) => checked.not_negative(key, number)?,
-                None => {
-                    let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
-                    checked.require(
-                        binding > 0.0 || unbinding == 0.0,
-                        "particles.exchange.binding",
-                        binding,
-                        remedy,
-                    )?;
-                }
-            }
+            checked.positive("particles.exchange.diffusion-inside", diffusion_inside)?;
+            checked.positive("particles.exchange.spacing-inside", spacing_inside)?;
+            let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
+            checked.refuse_if(diffusion_inside.is_some() && carried, "motion", "with-fluid", remedy)?;
+            checked.not_negative("particles.exchange.number-inside", number_inside)?;
+            let rests = number_inside.is_some() || binding > 0.0 || unbinding == 0.0;
+            let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+            checked.require(rests, "particles.exchange.binding", binding, remedy)?;
         }
         Ok(())
     }
@@ -480,9 +464,8 @@ impl DropletShape {
 
 /// Refuses points of a shape under that key.
 pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>, key: &str) -> Result<(), SetupError> {
-    if points.len() < 8 || points.len() as f64 > MARKERS[1] {
-        let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
-        checked.refuse(key, &format!("{} points", points.len()), remedy)?;
-    }
+    let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
+    let wrong = points.len() < 8 || points.len() as f64 > MARKERS[1];
+    checked.refuse_if(wrong, key, format!("{} points", points.len()), remedy)?;
     checked.all_finite(key, points.as_flattened())
 }

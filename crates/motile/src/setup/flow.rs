@@ -58,6 +58,9 @@ pub struct PoiseuilleSetup {
     pub half_width: f64,
 }
 
+/// Remedy for a Poiseuille flow in a box.
+const ACROSS_A_BOX: &str =
+    "it does not continue periodically across a box: give the region \"plane\", or a channel with a flux";
 /// Remedy for flows imposed on three dimensions.
 const IN_THE_PLANE: &str = "flows are imposed in two dimensions: give the region \"plane\"";
 
@@ -101,54 +104,36 @@ impl FlowSetup {
         for (number, velocity) in self.wall_velocity.into_iter().flatten().enumerate() {
             checked.finite(&format!("wall-velocity[{number}]"), velocity)?;
         }
-        match setup.region {
-            Region::Plane => {}
-            Region::Box { .. } => {
-                if let Some((key, value)) = linear.into_iter().skip(1).find(|(_, value)| *value != 0.0) {
-                    let remedy = "the images of a box can be sheared along x only: give shear, or the region \"plane\"";
-                    return checked.refuse(key, &value, remedy);
-                }
-                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
-                    let remedy = "it does not continue periodically across a box: give the region \"plane\", or a \
-                                  channel with a flux";
-                    return checked.refuse("poiseuille.speed", &speed, remedy);
-                }
+        let remedy = |key: &str, value: f64| match (setup.region, key) {
+            (Region::Plane, _) | (Region::Box { .. }, "shear") => None,
+            (Region::Box { .. }, "poiseuille.speed") => Some(ACROSS_A_BOX.to_owned()),
+            (Region::Box { .. }, _) => {
+                Some("the images of a box can be sheared along x only: give shear, or the region \"plane\"".to_owned())
             }
-            Region::Channel { width, .. } => {
-                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
-                    let slide = 0.5 * value * width;
-                    let remedy = if key == "shear" {
-                        let [below, above] = [-slide, slide].map(short);
-                        format!("the walls of a channel hold it fast: give wall-velocity = [{below}, {above}]")
-                    } else {
-                        "a channel with straight walls has none: give the region \"plane\"".to_owned()
-                    };
-                    return checked.refuse(key, &value, remedy);
-                }
-                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
-                    let flux = short(2.0 / 3.0 * speed * width);
-                    let remedy = format!("give region.channel.drive = {{ flux = {flux} }} in its place");
-                    return checked.refuse("poiseuille.speed", &speed, remedy);
-                }
+            (Region::Channel { width, .. }, "shear") => {
+                let slide = 0.5 * value * width;
+                let [below, above] = [-slide, slide].map(short);
+                Some(format!("the walls of a channel hold it fast: give wall-velocity = [{below}, {above}]"))
             }
-            _ => {
-                if let Some((key, value)) = linear.into_iter().find(|(_, value)| *value != 0.0) {
-                    return checked.refuse(key, &value, IN_THE_PLANE);
-                }
-                if let Some(PoiseuilleSetup { speed, .. }) = self.poiseuille {
-                    return checked.refuse("poiseuille.speed", &speed, IN_THE_PLANE);
-                }
+            (Region::Channel { width, .. }, "poiseuille.speed") => {
+                let flux = short(2.0 / 3.0 * value * width);
+                Some(format!("give region.channel.drive = {{ flux = {flux} }} in its place"))
             }
+            (Region::Channel { .. }, _) => {
+                Some("a channel with straight walls has none: give the region \"plane\"".to_owned())
+            }
+            _ => Some(IN_THE_PLANE.to_owned()),
+        };
+        let poiseuille = self.poiseuille.map(|flow| ("poiseuille.speed", flow.speed));
+        for (key, value) in linear.into_iter().filter(|(_, value)| *value != 0.0).chain(poiseuille) {
+            remedy(key, value).map_or(Ok(()), |remedy| checked.refuse(key, &value, remedy))?;
         }
         if let (Some([below, above]), false) = (self.wall_velocity, matches!(setup.region, Region::Channel { .. })) {
             let remedy = "only a channel has walls that slide: give shear in its place, or a channel";
             return checked.refuse("wall-velocity", &format!("[{below}, {above}]"), remedy);
         }
-        if self.wall_velocity.is_some() && !setup.walls.is_empty() {
-            let remedy = "the walls of the channel lie behind the walls in it, or beside obstacles at rest: leave one \
-                          of them out";
-            return checked.refuse("wall-velocity", &"given", remedy);
-        }
-        Ok(())
+        let remedy = "the walls of the channel lie behind the walls in it, or beside obstacles at rest: leave one \
+                      of them out";
+        checked.refuse_if(self.wall_velocity.is_some() && !setup.walls.is_empty(), "wall-velocity", "given", remedy)
     }
 }

@@ -71,9 +71,7 @@ pub(super) fn check_gel(
     checked.positive("material.rotational-viscosity", rotational_viscosity)?;
     checked.finite("material.alignment", alignment)?;
     checked.finite("material.activity", activity)?;
-    if let Some(spacing) = spacing {
-        checked.positive("spacing", spacing)?;
-    }
+    checked.positive("spacing", spacing)?;
     if let DirectorStart::Uniform { angle, noise, .. } = *start {
         checked.finite("start.uniform.angle", angle)?;
         checked.not_negative("start.uniform.noise", noise)?;
@@ -85,11 +83,8 @@ impl GelSetup {
     pub(super) fn check(&self, checked: &Checked<'_>, droplet: &DropletSetup) -> Result<(), SetupError> {
         let gel = Checked { place: &format!("{}.gel", checked.place) };
         check_gel(&gel, &self.material, &self.start, self.spacing)?;
-        if droplet.motion == Motion::WithFluid {
-            let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
-            checked.refuse("motion", &"with-fluid", remedy)?;
-        }
-        Ok(())
+        let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
+        checked.refuse_if(droplet.motion == Motion::WithFluid, "motion", "with-fluid", remedy)
     }
 }
 
@@ -153,8 +148,7 @@ impl Setup {
                     self.key(other),
                     droplet.name
                 );
-                let (key, value) = (format!("{}.{entry}", self.key(number)), value.to_owned());
-                return Err(SetupError::Value { key, value, remedy });
+                return Checked { place: &self.key(number) }.refuse(entry, &value, remedy);
             }
         }
         Ok(())

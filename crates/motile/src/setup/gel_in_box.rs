@@ -67,18 +67,13 @@ impl BodySetup for GelInBoxSetup {
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         check_gel(checked, &self.material, &self.start, self.spacing)?;
-        if !matches!(self.start, DirectorStart::Uniform { .. } | DirectorStart::Random { .. }) {
-            checked.refuse("start", &"around a centre", "a periodic box has none: give uniform or random")?;
-        }
-        if !matches!(setup.region, Region::Box { .. }) {
-            let remedy = "it has walls or no bounds, and a gel of its own fills a box: give one, or a gel to a droplet";
-            top.refuse("region", &"channel or plane", remedy)?;
-        }
-        if setup.bodies().count() > 1 {
-            let remedy = "a gel fills all of the box and does not see other bodies: take them, or the gel, away";
-            top.refuse("gels", &setup.gels.len(), remedy)?;
-        }
-        Ok(())
+        let centred = !matches!(self.start, DirectorStart::Uniform { .. } | DirectorStart::Random { .. });
+        let remedy = "a periodic box has none: give uniform or random";
+        checked.refuse_if(centred, "start", "around a centre", remedy)?;
+        let remedy = "it has walls or no bounds, and a gel of its own fills a box: give one, or a gel to a droplet";
+        top.refuse_if(!matches!(setup.region, Region::Box { .. }), "region", "channel or plane", remedy)?;
+        let remedy = "a gel fills all of the box and does not see other bodies: take them, or the gel, away";
+        top.refuse_if(setup.bodies().count() > 1, "gels", setup.gels.len(), remedy)
     }
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {

@@ -120,11 +120,9 @@ impl Grading {
                     checked.finite(&key, *place)?;
                     checked.positive(&key, *factor)
                 })?;
-                if factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
-                    let remedy = "give at least one place with its factor, places increasing";
-                    checked.refuse(&key, &format!("{factors:?}"), remedy)?;
-                }
-                Ok(())
+                let mixed = factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+                let remedy = "give at least one place with its factor, places increasing";
+                checked.refuse_if(mixed, &key, format!("{factors:?}"), remedy)
             }
             Self::Step { at, factors, .. } => {
                 checked.finite(&format!("{key}.step.at"), *at)?;
@@ -135,17 +133,13 @@ impl Grading {
                 checked.finite(&format!("{key}.stripes.from"), *from)?;
                 let list = format!("{key}.stripes.factors");
                 factors.iter().try_for_each(|factor| checked.positive(&list, *factor))?;
-                if factors.is_empty() {
-                    checked.refuse(&list, &"[]", "give the factor of each stripe, at least one")?;
-                }
+                checked.refuse_if(factors.is_empty(), &list, "[]", "give the factor of each stripe, at least one")?;
                 let Some(period) = period.filter(|_| *axis == Axis::X) else { return Ok(()) };
                 let turns = period / (*width * factors.len() as f64);
-                if (turns - turns.round()).abs() > WHOLE || turns.round() < 1.0 {
-                    let fitting = period / (turns.round().max(1.0) * factors.len() as f64);
-                    let remedy = format!("a period of {period} has no whole number of such stripes: give {fitting}");
-                    checked.refuse(&format!("{key}.stripes.width"), width, remedy)?;
-                }
-                Ok(())
+                let broken = (turns - turns.round()).abs() > WHOLE || turns.round() < 1.0;
+                let fitting = period / (turns.round().max(1.0) * factors.len() as f64);
+                let remedy = format!("a period of {period} has no whole number of such stripes: give {fitting}");
+                checked.refuse_if(broken, &format!("{key}.stripes.width"), width, remedy)
             }
             Self::Product(parts) => parts
                 .iter()

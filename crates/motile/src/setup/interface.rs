@@ -8,7 +8,7 @@ use motile_scene::{Body, Scene, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AnyFlow, IntegralMethod, LayersMethod, Method, MethodKind, Particles, Setup, Start,
+    AnyFlow, MethodKind, Particles, Setup, Start,
     body::{BodySetup, Planned},
     checked::Checked,
     droplet::check_points,
@@ -164,14 +164,13 @@ impl Setup {
     pub fn interface(&self, interface: &InterfaceSetup) -> Result<ActiveInterface, SetupError> {
         let [length, _] = self.region.lengths();
         let advance = if interface.inside == Side::Above { length } else { -length };
-        let count = match &self.method {
-            Method::Integral(IntegralMethod { nodes, elements })
-            | Method::Layers(LayersMethod { nodes, elements, .. }) => {
+        let count = match self.method.resolution() {
+            Ok([nodes, elements]) => {
                 // As many to a mode as `membrane_count` gives a shell.
-                let least = if interface.elasticity.is_some() { nodes + nodes.div_ceil(2) } else { *nodes };
-                least.max(*elements)
+                let least = if interface.elasticity.is_some() { nodes + nodes.div_ceil(2) } else { nodes };
+                least.max(elements)
             }
-            Method::Grid(grid) => (length / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)).ceil() as usize,
+            Err(grid) => (length / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)).ceil() as usize,
         };
         let markers = interface.markers(advance, count)?;
         let made = match &interface.particles {
@@ -233,10 +232,8 @@ impl BodySetup for InterfaceSetup {
     }
 
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
-        if setup.region == Region::Plane {
-            let remedy = "an interface across the period needs one along x: give a box or a channel";
-            return Checked { place: "" }.refuse("region", &"plane", remedy);
-        }
+        let remedy = "an interface across the period needs one along x: give a box or a channel";
+        Checked { place: "" }.refuse_if(setup.region == Region::Plane, "region", "plane", remedy)?;
         if let (Region::Box { .. }, true) = (setup.region, setup.flow.shear != 0.0) {
             let remedy = "the images of an interface across the period of a sheared box slide past each other, which \
                           is not computed: give a channel with wall-velocity";
@@ -258,10 +255,8 @@ impl BodySetup for InterfaceSetup {
         if let Some(ElasticitySetup { stretching, bending }) = self.elasticity {
             checked.not_negative("elasticity.stretching", stretching)?;
             checked.not_negative("elasticity.bending", bending)?;
-            if self.motion != Motion::WithFluid {
-                let remedy = "the points of an elastic interface move with the fluid: give \"with-fluid\"";
-                checked.refuse("motion", &"equidistributed", remedy)?;
-            }
+            let remedy = "the points of an elastic interface move with the fluid: give \"with-fluid\"";
+            checked.refuse_if(self.motion != Motion::WithFluid, "motion", "equidistributed", remedy)?;
         }
         match &self.shape {
             InterfaceShape::Flat => {}
@@ -272,10 +267,8 @@ impl BodySetup for InterfaceSetup {
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }
         let Some(particles) = &self.particles else { return Ok(()) };
-        if particles.exchange.is_some() {
-            let remedy = "nothing holds the particles that leave it: give \"none\", or a droplet";
-            checked.refuse("particles.exchange", &"given", remedy)?;
-        }
+        let remedy = "nothing holds the particles that leave it: give \"none\", or a droplet";
+        checked.refuse_if(particles.exchange.is_some(), "particles.exchange", "given", remedy)?;
         particles.check(checked)
     }
 }

@@ -51,6 +51,16 @@ impl Method {
         }
     }
 
+    /// Nodes and elements of an interface, or the grid by which its markers are spaced.
+    pub(super) fn resolution(&self) -> Result<[usize; 2], &GridMethod> {
+        match self {
+            Self::Integral(IntegralMethod { nodes, elements }) | Self::Layers(LayersMethod { nodes, elements, .. }) => {
+                Ok([*nodes, *elements])
+            }
+            Self::Grid(grid) => Err(grid),
+        }
+    }
+
     /// Grid spacing h (length); `None` without a grid.
     #[must_use]
     pub fn spacing(&self) -> Option<f64> {
@@ -229,13 +239,9 @@ impl IntegralMethod {
     pub(super) fn check(&self, place: &str) -> Result<(), SetupError> {
         let (checked, Self { nodes, elements }) = (Checked { place }, *self);
         let [least, most] = Self::NODES;
-        if !(least..=most).contains(&nodes) {
-            checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
-        }
-        if elements < nodes || elements as f64 > MARKERS[1] {
-            let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
-            checked.refuse("elements", &elements, remedy)?;
-        }
-        Ok(())
+        let remedy = format!("give a number from {least} to {most}");
+        checked.refuse_if(!(least..=most).contains(&nodes), "nodes", nodes, remedy)?;
+        let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
+        checked.refuse_if(elements < nodes || elements as f64 > MARKERS[1], "elements", elements, remedy)
     }
 }

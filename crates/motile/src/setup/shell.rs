@@ -91,14 +91,10 @@ impl BodySetup for ShellSetup {
     fn check(&self, checked: &Checked<'_>, _: &Setup) -> Result<(), SetupError> {
         checked.all_finite("centre", &self.centre)?;
         checked.finite("angle", self.angle)?;
-        if let Some(viscosity) = self.viscosity {
-            checked.positive("viscosity", viscosity)?;
-        }
+        checked.positive("viscosity", self.viscosity)?;
         checked.not_negative("stretching", self.stretching)?;
         checked.not_negative("bending", self.bending)?;
-        if let Some(curvature) = self.reference_curvature {
-            checked.finite("reference-curvature", curvature)?;
-        }
+        checked.finite("reference-curvature", self.reference_curvature)?;
         self.shape.check(checked, "shape")?;
         self.rest.as_ref().map_or(Ok(()), |rest| rest.check(checked, "rest"))
     }

@@ -559,12 +559,11 @@ impl BodySetup for SolidSetup {
         if let Some(spacing) = self.mesh_spacing {
             checked.positive("mesh-spacing", spacing)?;
             let least = 2.0 * setup.method.spacing().unwrap_or(0.0);
-            if setup.method.kind() == MethodKind::Layers && spacing < least * (1.0 - 1e-9) {
-                let remedy = format!(
-                    "the grid hardly sees inner points so close to a layer: give {least} or more, or the method grid"
-                );
-                checked.refuse("mesh-spacing", &spacing, remedy)?;
-            }
+            let close = setup.method.kind() == MethodKind::Layers && spacing < least * (1.0 - 1e-9);
+            let remedy = format!(
+                "the grid hardly sees inner points so close to a layer: give {least} or more, or the method grid"
+            );
+            checked.refuse_if(close, "mesh-spacing", spacing, remedy)?;
         }
         if let Some(SurfaceElasticitySetup { stretching, bending }) = self.surface_elasticity {
             checked.not_negative("surface_elasticity.stretching", stretching)?;
@@ -576,9 +575,9 @@ impl BodySetup for SolidSetup {
             checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
         };
         let no_channel = !matches!(setup.region, Region::Channel { .. });
-        if no_channel && (self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. })) {
-            checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
-        }
+        let part = self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. });
+        let remedy = "give a region that is a channel";
+        checked.refuse_if(no_channel && part, "outline", "a wall or an island", remedy)?;
         match &self.outline {
             SolidOutline::WallBelowPoints(points) | SolidOutline::WallAbovePoints(points) => {
                 let side = if self.outline.is_above() { "above" } else { "below" };
@@ -629,10 +628,8 @@ impl BodySetup for SolidSetup {
                 }
             }
         }
-        if self.hold == Hold::Pinned && !self.outline.is_wall() {
-            let remedy = "only walls reach the rigid walls of the region: give tethered or free";
-            checked.refuse("hold", &"pinned", remedy)?;
-        }
+        let remedy = "only walls reach the rigid walls of the region: give tethered or free";
+        checked.refuse_if(self.hold == Hold::Pinned && !self.outline.is_wall(), "hold", "pinned", remedy)?;
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }
@@ -644,10 +641,8 @@ impl BodySetup for SolidSetup {
             ("relaxation-time-grading", &self.relaxation_time_grading, self.relaxation.is_empty(), "relaxation"),
             ("tension-grading", &self.tension_grading, self.active_springs.is_none(), "active-springs"),
         ] {
-            if missing && !grading.is_uniform() {
-                let remedy = format!("there is nothing that it is a factor on: give {of}, or leave it out");
-                checked.refuse(key, &"given", remedy)?;
-            }
+            let remedy = format!("there is nothing that it is a factor on: give {of}, or leave it out");
+            checked.refuse_if(missing && !grading.is_uniform(), key, "given", remedy)?;
         }
         for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
             checked.positive(&format!("relaxation[{number}].modulus"), *modulus)?;
@@ -662,23 +657,19 @@ impl BodySetup for SolidSetup {
         if let Some(active) = &self.active_springs {
             active.check(checked)?;
         }
-        if self.material == Material::FluidLike && self.relaxation.is_empty() {
-            let remedy = "nothing would hold it together: give relaxation = [{ modulus = ..., time = ... }]";
-            checked.refuse("material", &"fluid-like", remedy)?;
-        }
-        if !self.relaxation.is_empty() && setup.integrator == IntegratorKind::RungeKutta {
-            let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
-            checked.refuse("relaxation", &"given", remedy)?;
-        }
+        let relaxes = !self.relaxation.is_empty();
+        let remedy = "nothing would hold it together: give relaxation = [{ modulus = ..., time = ... }]";
+        checked.refuse_if(self.material == Material::FluidLike && !relaxes, "material", "fluid-like", remedy)?;
+        let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
+        let explicit = setup.integrator == IntegratorKind::RungeKutta;
+        checked.refuse_if(relaxes && explicit, "relaxation", "given", remedy)?;
         for (key, given) in [
-            ("relaxation", !self.relaxation.is_empty()),
+            ("relaxation", relaxes),
             ("active-springs", self.active_springs.is_some()),
             ("spread-over-triangles", self.spread_over_triangles),
         ] {
-            if given && setup.mirror_symmetric {
-                let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
-                checked.refuse(key, &"given", remedy)?;
-            }
+            let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
+            checked.refuse_if(given && setup.mirror_symmetric, key, "given", remedy)?;
         }
         self.material.check(checked)
     }

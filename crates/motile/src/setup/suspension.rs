@@ -317,9 +317,8 @@ impl SuspensionSetup {
             let remedy = "places and directions are those of the suspension: leave it out";
             checked.require(value == 0.0, &format!("droplet.{key}"), value, remedy)?;
         }
-        if !matches!(shape, DropletShape::Round { .. }) {
-            return checked.refuse("droplet.shape", &"not round", "suspensions are of circles: give shape.round");
-        }
+        let round = matches!(shape, DropletShape::Round { .. });
+        checked.refuse_if(!round, "droplet.shape", "not round", "suspensions are of circles: give shape.round")?;
         setup.able(&self.droplet)?;
         self.droplet.check(&Checked { place: &format!("{}.droplet", checked.place) }, setup)?;
         for (key, values) in [("radius", self.radius), ("viscosity", self.viscosity)] {
@@ -327,10 +326,8 @@ impl SuspensionSetup {
         }
         if let Some(activity) = self.activity {
             activity.check(checked, "activity", false)?;
-            if particles.is_none() {
-                let remedy = "droplets without particles have none: leave it out, or give droplet.particles";
-                return checked.refuse("activity", &activity, remedy);
-            }
+            let remedy = "droplets without particles have none: leave it out, or give droplet.particles";
+            checked.refuse_if(particles.is_none(), "activity", activity, remedy)?;
         }
         checked.not_negative("gap", self.gap)?;
         if let Headings::Aligned(angle) = self.headings {
@@ -338,31 +335,23 @@ impl SuspensionSetup {
         }
         match (self.count, self.area_fraction) {
             (Some(count), None) => {
-                if !(1..=MOST).contains(&count) {
-                    return checked.refuse("count", &count, format!("give a number from 1 to {MOST}"));
-                }
+                let remedy = format!("give a number from 1 to {MOST}");
+                checked.refuse_if(!(1..=MOST).contains(&count), "count", count, remedy)
             }
             (None, Some(fraction)) => {
-                if !(fraction > 0.0 && fraction < DENSEST) {
-                    let remedy = format!("give a number above 0 and below {DENSEST}, that of the densest packing");
-                    return checked.refuse("area-fraction", &fraction, remedy);
-                }
+                let remedy = format!("give a number above 0 and below {DENSEST}, that of the densest packing");
+                checked.refuse_if(!(fraction > 0.0 && fraction < DENSEST), "area-fraction", fraction, remedy)?;
                 let count = self.number(&setup.region);
-                if !(1.0..=MOST as f64).contains(&count) {
-                    let remedy = format!("it makes {count} droplets: give what makes 1 to {MOST}");
-                    return checked.refuse("area-fraction", &fraction, remedy);
-                }
-                self.check_reached(checked, &setup.region, fraction)?;
+                let remedy = format!("it makes {count} droplets: give what makes 1 to {MOST}");
+                checked.refuse_if(!(1.0..=MOST as f64).contains(&count), "area-fraction", fraction, remedy)?;
+                self.check_reached(checked, &setup.region, fraction)
             }
             (Some(count), Some(_)) => {
                 let remedy = "area-fraction says how many there are as well: give one of the two";
-                return checked.refuse("count", &count, remedy);
+                checked.refuse("count", &count, remedy)
             }
-            (None, None) => {
-                return checked.refuse("count", &"none", "give how many droplets there are, or area-fraction");
-            }
+            (None, None) => checked.refuse("count", &"none", "give how many droplets there are, or area-fraction"),
         }
-        Ok(())
     }
 
     /// The droplets at no places yet, with values from their distributions.

@@ -80,16 +80,11 @@ impl WallSetup {
     }
 
     /// The wall of this description in a region of that period along x (length).
-    fn build(&self, period: f64) -> Result<RigidWall, SetupError> {
+    fn build(&self, checked: &Checked<'_>, period: f64) -> Result<RigidWall, SetupError> {
         let outline = self.outline.line(period)?;
         let nodes = (outline.length() / self.spacing).max(Settings::NODES[0] as f64);
-        if nodes.is_nan() || nodes > MOST_NODES {
-            return Err(SetupError::Value {
-                key: "spacing".to_owned(),
-                value: self.spacing.to_string(),
-                remedy: format!("the wall would have {nodes:.1e} nodes: give more than that"),
-            });
-        }
+        let remedy = format!("the wall would have {nodes:.1e} nodes: give more than that");
+        checked.refuse_if(nodes.is_nan() || nodes > MOST_NODES, "spacing", self.spacing, remedy)?;
         let nodes = 2 * (0.5 * nodes).ceil() as usize;
         let points = points(&outline, (FINER * nodes as f64) as usize)?;
         let wall = if !self.outline.is_wall() {
@@ -133,14 +128,10 @@ impl WallSetup {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
         checked.not_negative("rounding", self.rounding)?;
-        if !(1.0..=MOST_GRADING).contains(&self.grading) {
-            checked.refuse("grading", &self.grading, format!("give 1, equal distances, to {MOST_GRADING}"))?;
-        }
-        if !matches!(setup.region, Region::Channel { .. }) {
-            let remedy = "rigid walls stand in a channel, wider than they are: give such a region";
-            checked.refuse("outline", &"a rigid wall", remedy)?;
-        }
-        Ok(())
+        let remedy = format!("give 1, equal distances, to {MOST_GRADING}");
+        checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
+        let remedy = "rigid walls stand in a channel, wider than they are: give such a region";
+        checked.refuse_if(!matches!(setup.region, Region::Channel { .. }), "outline", "a rigid wall", remedy)
     }
 }
 
@@ -184,38 +175,35 @@ impl Setup {
         let [period, _] = self.region.lengths();
         let walls = self.walls.iter().enumerate();
         let built = walls.map(|(k, wall)| {
-            let built = wall.build(period).and_then(|built| self.check_between_sides(wall, &built).map(|()| built));
-            built.map_err(|error| match error {
-                SetupError::Value { key, value, remedy } => {
-                    SetupError::Value { key: format!("{}.{key}", wall_key(k)), value, remedy }
-                }
-                error => error.of(&wall_key(k)),
-            })
+            let key = wall_key(k);
+            let checked = Checked { place: &key };
+            let built = wall.build(&checked, period);
+            let built = built.and_then(|built| self.check_between_sides(&checked, wall, &built).map(|()| built));
+            built.map_err(|error| error.of(&key))
         });
         built.collect()
     }
 
     /// Refuses a wall that leaves the channel, and an obstacle that touches the channel's own walls: no flow passes
     /// between them, and their images coincide.
-    fn check_between_sides(&self, wall: &WallSetup, built: &RigidWall) -> Result<(), SetupError> {
+    fn check_between_sides(
+        &self,
+        checked: &Checked<'_>,
+        wall: &WallSetup,
+        built: &RigidWall,
+    ) -> Result<(), SetupError> {
         let [_, width] = self.region.lengths();
         let beyond = |point: &Vec2| point.y.abs() - 0.5 * width;
         let Some(farthest) = built.points().iter().max_by(|a, b| beyond(a).total_cmp(&beyond(b))) else {
             return Ok(());
         };
         let least = if wall.outline.is_wall() { -ROUND_OFF } else { ROUND_OFF };
-        if beyond(farthest) < -least * width {
-            return Ok(());
-        }
-        Err(SetupError::Value {
-            key: "outline".to_owned(),
-            value: format!("a wall through ({:.3e}, {:.3e})", farthest.x, farthest.y),
-            remedy: format!(
-                "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move \
-                 it",
-                0.5 * width
-            ),
-        })
+        let value = format!("a wall through ({:.3e}, {:.3e})", farthest.x, farthest.y);
+        let remedy = format!(
+            "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move it",
+            0.5 * width
+        );
+        checked.refuse_if(beyond(farthest) >= -least * width, "outline", value, remedy)
     }
 
     /// Refuses a droplet that starts beyond a rigid wall.

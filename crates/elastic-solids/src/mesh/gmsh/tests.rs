@@ -1,7 +1,7 @@
 //! A file from hand, round trips, and files gone wrong.
 
 use crate::error::{numbers, refused as is_refused};
-use motile_base::InputError;
+use motile_base::{InputError, Refusal};
 use proptest::prelude::*;
 
 use super::*;
@@ -138,7 +138,7 @@ fn errors_name_the_line() {
         let error = changed(from, to);
         assert!(is_refused(&error, "of the mesh file cannot be used: "), "{error}");
         let line = numbers(&error)[0] as usize;
-        let SolidError::Refused { value, .. } = error else { panic!("{error}") };
+        let SolidError::Refused(Refusal { value, .. }) = error else { panic!("{error}") };
         (line, value)
     };
     assert_eq!(at("4.1 0 8", "2.2 0 8").0, 2);

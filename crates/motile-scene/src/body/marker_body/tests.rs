@@ -3,7 +3,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::{Hydrodynamics, Scene, StepSize, Substrate};
 
 fn scene() -> Scene<DragBox> {

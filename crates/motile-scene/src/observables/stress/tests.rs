@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::{MarkerBody, MarkerKind, Scene};
 
 /// Fluid of viscosity 1.5 in which velocities are the forces over 7.5.

@@ -2,7 +2,7 @@ use crate::error::refused;
 use std::convert::Infallible;
 
 use super::*;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::{
     MarkerBody,
     integrator::{Dynamics, Integrator, IntegratorKind, IntegratorWork},

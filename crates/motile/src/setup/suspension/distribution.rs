@@ -84,13 +84,10 @@ impl Distribution {
     /// Refuses values that are not finite, or not positive where they have to be, and bounds in the wrong order.
     pub(super) fn check(self, checked: &Checked<'_>, key: &str, positive: bool) -> Result<(), SetupError> {
         let [least, most] = self.bounds();
-        if !least.is_finite() || !most.is_finite() || least > most {
-            return checked.refuse(key, &self, "give a finite number, or [least, most] in this order");
-        }
-        if positive && least <= 0.0 {
-            return checked.refuse(key, &self, format!("{least} would be among them: give positive ones"));
-        }
-        Ok(())
+        let unordered = !least.is_finite() || !most.is_finite() || least > most;
+        checked.refuse_if(unordered, key, self, "give a finite number, or [least, most] in this order")?;
+        let remedy = format!("{least} would be among them: give positive ones");
+        checked.refuse_if(positive && least <= 0.0, key, self, remedy)
     }
 }
 

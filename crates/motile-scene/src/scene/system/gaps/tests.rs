@@ -1,7 +1,7 @@
 use crate::error::refused;
 use std::f64::consts::TAU;
 
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::{
     Body, BodyError, FluidView, MarkerBody, MarkerKind, Observer, Scene, SceneError, StepSize,
     gap::{SolidGap, SurfaceCurve},

@@ -3,7 +3,7 @@ use std::sync::{Arc, Mutex};
 use motile_base::Vec2;
 
 use crate::body::InteriorBody;
-use crate::hydrodynamics::drag_box::DragBox;
+use crate::hydrodynamics::tests::DragBox;
 use crate::{Body, BodyError, FluidView, Handle, MarkerBody, MarkerKind, Scene, StepSize, integrator::Dynamics as _};
 
 /// What fills a body: it has two numbers that change at the rates 5 and 6, adds its position in the list to each rate
