@@ -10,7 +10,7 @@
 /// Cells above which a simulation is taken not to die out.
 const MANY: u32 = 2000;
 
-/// Probability that `n` cells die out, with the ratio mu/lambda: (B.12).
+/// Returns the probability that `n` cells die out, with the ratio mu/lambda: (B.12).
 fn extinct(n: u32, ratio: f64) -> f64 {
     ratio.min(1.0).powi(n as i32)
 }
@@ -27,7 +27,7 @@ fn series(n: u32, ratio: f64) -> f64 {
     sum
 }
 
-/// The fraction of simulations in which `n` cells die out, and its standard error.
+/// Returns the fraction of simulations in which `n` cells die out, and its standard error.
 fn simulated(n: u32, ratio: f64, simulations: u32) -> [f64; 2] {
     let (mut state, mut extinct) = (1, 0);
     for _ in 0..simulations {
@@ -41,7 +41,7 @@ fn simulated(n: u32, ratio: f64, simulations: u32) -> [f64; 2] {
     [fraction, (fraction * (1.0 - fraction) / f64::from(simulations)).sqrt()]
 }
 
-/// A number from 0 to 1 (splitmix64, Steele, Lea and Flood 2014).
+/// Returns a number from 0 to 1 (splitmix64, Steele, Lea and Flood 2014).
 fn uniform(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *state;
@@ -50,7 +50,7 @@ fn uniform(state: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// A = mu/lambda for which `cells` at first lead to a tumour with this probability: (B.22) solved for A.
+/// Returns a = mu/lambda for which `cells` at first lead to a tumour with this probability: (B.22) solved for A.
 fn rate_ratio((cells, fraction): (f64, f64)) -> f64 {
     (1.0 - fraction).powf(1.0 / cells)
 }

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example custom_geometry` drives fluid through a channel of the half width 1 + 0.3 cos(k x)
 //! with flux 1. Lubrication theory gives the mean pressure gradient, -3/2 eta Q times the mean of 1/(half width)^3, up
-//! to the square of the slope of the walls: over twice the period the difference falls to a quarter. Then a droplet
+//! to the square of the slope of the walls. Over twice the period the difference falls to a quarter. Then a droplet
 //! swims through elastic walls of the same shape, whose mesh fills the area between the function and the rigid wall.
 
 use std::f64::consts::TAU;
@@ -16,7 +16,8 @@ fn half_width(x: f64, period: f64) -> f64 {
     1.0 + 0.3 * (TAU * x / period).cos()
 }
 
-/// Mean pressure gradient that drives a flux of 1 through rigid walls, over that of lubrication theory.
+/// Returns the mean pressure gradient that drives a flux of 1 through rigid walls, over the gradient of lubrication
+/// theory.
 fn resistance(period: f64) -> Result<f64, Box<dyn std::error::Error>> {
     let region = Region::Channel { length: period, width: 4.0, drive: Drive::Flux(1.0) };
     let nodes = 8 * period as usize;

@@ -8,7 +8,8 @@
 use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::prelude::*;
 
-/// Speed after a time of 2, and the largest displacement of the walls, whose springs have that shear modulus.
+/// Returns the speed after a time of 2, and the largest displacement of the walls, whose springs have that shear
+/// modulus.
 fn between_elastic_walls(shear: f64) -> Result<[f64; 2], Box<dyn std::error::Error>> {
     let setup = Setup {
         region: Region::Channel { length: 10.0, width: 5.0, drive: Drive::ZeroGradient },

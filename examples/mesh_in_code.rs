@@ -1,4 +1,4 @@
-//! Geometry in code, 3: an elastic solid on a mesh of your own.
+//! Geometry in code, 3: an elastic solid on your own mesh.
 //!
 //! `cargo run --release --example mesh_in_code` builds a ring from points and triangles, stretches it, and lets it go
 //! in a periodic box. A homogeneous stretch has exactly the energy density of the material times the area of the ring:
@@ -10,7 +10,7 @@ use motile::elastic_solids::mesh::TriangleMesh;
 use motile::elastic_solids::{DeformationGradient, EnergyDensity, Mat2, NeoHookean, Solid};
 use motile::prelude::*;
 
-/// A ring between two radii, of rows of equal numbers of points.
+/// Returns a ring between two radii, of rows of equal numbers of points.
 fn ring(
     inner: f64,
     outer: f64,

@@ -2,8 +2,7 @@
 //!
 //! `cargo run --release --example nucleus` lets a droplet swim in unbounded fluid with a rigid disc inside, slightly
 //! off the axis. The disc makes the droplet swim in circles. Newton's method starts from the last state of the run and
-//! finds the steady state on such a circle: its speed, 0.0992, and turning rate, -0.036, are those of the run to a
-//! percent.
+//! finds the steady state on such a circle: its speed, 0.0992, and turning rate, -0.036, agree with the run to 1 %.
 
 use motile::prelude::*;
 use motile::setup::RigidBodySetup;

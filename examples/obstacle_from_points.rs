@@ -9,7 +9,8 @@ use std::f64::consts::TAU;
 use motile::prelude::*;
 use motile::setup::{SolidOutline, WallSetup};
 
-/// Pressure gradient that drives a flux through the channel with the obstacle, with the droplet at rest at its start.
+/// Returns the pressure gradient that drives a flux through the channel with the obstacle, with the droplet at rest at
+/// its start.
 fn gradient(setup: &Setup, flux: f64) -> Result<f64, Box<dyn std::error::Error>> {
     let mut setup = setup.clone();
     setup.region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::Flux(flux) };

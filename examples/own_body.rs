@@ -1,4 +1,4 @@
-//! A body of your own: a flagellum that swims by a wave of curvature.
+//! Your own body: a flagellum that swims by a wave of curvature.
 //!
 //! The flagellum is a chain of markers with springs between them. A phase that grows in time sets the curvature that
 //! each part prefers. Since the phase is part of the state, `Flagellum` implements [`Body`]; if markers are all of the
@@ -110,7 +110,7 @@ impl Body for Flagellum {
     }
 }
 
-/// Speed along x of a flagellum whose wave has that frequency (radians per time).
+/// Returns the speed along x of a flagellum whose wave has that frequency (radians per time).
 fn speed(frequency: f64) -> Result<f64, Box<dyn std::error::Error>> {
     let solver = PeriodicStokes::new(Grid::periodic(64, 64, 0.04)?, 1.0)?;
     let mut scene = Scene::new(ImmersedBoundary::new(solver, BSpline::<4>));

@@ -1,4 +1,4 @@
-//! A flow of your own: regularised stokeslets.
+//! Your own flow: regularised stokeslets.
 //!
 //! `cargo run --release --example own_solver` computes the flow of a droplet in unbounded fluid as the sum of the flows
 //! of blobs of the size of the marker spacing (Cortez, SIAM J. Sci. Comput. 23, 1204, 2001). A round droplet whose
@@ -67,7 +67,7 @@ impl Hydrodynamics for RegularisedStokeslets {
     }
 }
 
-/// Speeds of a droplet with so many markers, at the start and after a time of 1.
+/// Returns the speeds of a droplet with so many markers, at the start and after a time of 1.
 fn speeds(count: usize) -> Result<[f64; 2], Box<dyn std::error::Error>> {
     let (viscosity, size) = (100.0, 2.0 * PI / count as f64);
     let mut scene = Scene::new(RegularisedStokeslets { viscosity, size, work: FlowWork::default() });

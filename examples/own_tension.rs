@@ -1,4 +1,4 @@
-//! A tension law of your own.
+//! Your own tension law.
 //!
 //! `cargo run --release --example own_tension` gives a droplet a tension that saturates with the concentration. A small
 //! perturbation of the uniform concentration then grows as linear theory predicts from the slope of the law at the mean

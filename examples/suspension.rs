@@ -13,7 +13,7 @@ use motile::scene::gap::Repulsion;
 use motile::setup::{Arrangement, Distribution, Headings, SuspensionSetup};
 use motile_output::suspension::{SuspensionColour, SuspensionCsv, SuspensionPicture};
 
-/// Box of that side with droplets by boundary integrals.
+/// Returns the box of that side with droplets by boundary integrals.
 fn in_box(side: f64) -> Setup {
     Setup {
         region: Region::Box { lengths: [side; 2] },

@@ -8,7 +8,7 @@
 //! * `trajectory.csv`, all observables over time, and `summary.json`, the results;
 //! * `vtk/fields.pvd` and `vtk/interface.pvd`, the flow and the interface for ParaView.
 //!
-//! To change anything about the scene without code, use the program `motile run` (docs/running.md).
+//! To change anything about the scene without code, use the program `motile run` (docs/reference/program.md).
 
 use motile::prelude::*;
 use motile_cli::run::{OutputFlags, SceneRun, View};

@@ -1,7 +1,7 @@
 //! Three dimensions: a droplet swims along a tube.
 //!
 //! `cargo run --release --example tube` simulates an axisymmetric droplet in a tube of radius 1.6, and compares its
-//! speed, 0.0784, with that of the steady state by Newton's method: they agree to 0.1 %.
+//! speed, 0.0784, with the speed of the steady state by Newton's method: they agree to 0.1 %.
 
 use motile::prelude::*;
 use motile_steady_states::SteadyState;

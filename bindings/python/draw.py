@@ -1,4 +1,4 @@
-"""Picture of the page docs/python.md: `python bindings/python/draw.py`."""
+"""Picture of the page docs/reference/python.md: `python bindings/python/draw.py`."""
 
 from pathlib import Path
 

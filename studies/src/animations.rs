@@ -14,9 +14,8 @@ use motile::scene::Every;
 use motile::setup::{Built, Setup};
 use motile_cli::run::say;
 use motile_output::{Animation, Look, Raster};
-use motile_tests::validation::Table;
 
-use crate::tables::{self, root};
+use crate::tables::{pages_of, root};
 
 /// Draws the animations of the first page.
 #[derive(Debug, Args)]
@@ -44,12 +43,11 @@ const LARGEST_SUM: u64 = 1_500_000;
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let names = names()?;
     if let Some(wanted) = &flags.scene {
-        ensure!(names.contains(wanted), "there is no scene {wanted}: give one of {}", names.join(", "));
+        ensure!(names.contains(wanted), "there is no scene {wanted}. Use one of {}", names.join(", "));
     }
     let folder = if flags.write { root().join("docs/images/scenes") } else { flags.out.clone() };
     fs::create_dir_all(&folder)?;
     let mut sum = 0;
-    let mut table = Table::new("Animations of the first page", &["scene", "time", "steps", "bytes"]);
     for name in names {
         let wanted = match &flags.scene {
             Some(wanted) => *wanted == name,
@@ -64,13 +62,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         ensure!(bytes <= LARGEST, "{}: {bytes} bytes, more than {LARGEST}", path.display());
         sum += bytes;
         say(format_args!("{name}: t = {time}, {steps} steps, {bytes} bytes"));
-        table.push([name, time.to_string(), steps.to_string(), bytes.to_string()]);
     }
     ensure!(sum <= LARGEST_SUM, "{sum} bytes of animations, more than {LARGEST_SUM}");
-    if flags.write && flags.scene.is_none() {
-        let inputs = ["crates/motile-output", "examples/scenes", "studies/src/animations.rs"];
-        tables::write("animations", "animations", &inputs, &[table])?;
-    }
     Ok(())
 }
 
@@ -102,20 +95,15 @@ fn film(name: &str, path: &Path) -> Result<[f64; 2]> {
 pub(crate) fn text(name: &str) -> Result<String> {
     let text = read(name)?;
     let code: Vec<&str> = text.lines().skip_while(|line| line.starts_with('#')).collect();
-    Ok(format!("![{name}](docs/images/scenes/{name}.gif)\n\n```toml\n{}\n```\n", code.join("\n").trim()))
+    Ok(format!("![{name}](docs/images/scenes/{name}.gif)\n\n```toml scene\n{}\n```\n", code.join("\n").trim()))
 }
 
-/// True if the first page or another page shows the animation of a scene.
+/// True if a page shows the animation of a scene.
 fn is_shown(name: &str) -> Result<bool> {
     let picture = format!("scenes/{name}.gif");
-    for folder in [root().to_path_buf(), root().join("docs")] {
-        for entry in fs::read_dir(folder)? {
-            let path = entry?.path();
-            if path.extension().is_some_and(|extension| extension == "md")
-                && fs::read_to_string(path)?.contains(&picture)
-            {
-                return Ok(true);
-            }
+    for page in pages_of()? {
+        if fs::read_to_string(page)?.contains(&picture) {
+            return Ok(true);
         }
     }
     Ok(false)

@@ -1,18 +1,19 @@
-//! The book: every figure of Cowley's thesis beside what converged results say, and the questions that it leaves open.
+//! The reproduction report: claims of Cowley's thesis next to converged results, and questions that it leaves open.
 //!
 //! `cargo run --release -p studies -- figure 3.9` makes the figure from what `studies/book/3.9.toml` says: its data
-//! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
-//! again), the curves and the numbers that its verdict rests on, as expressions of the columns. It prints them and
-//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser runs, which the ranges of verdicts
-//! are not for: it shows that a figure can be made, and decides and keeps nothing. `figures --chapter 3` makes those
-//! of a chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew. Checks of `points` are
-//! found from the points in `docs/book/figures`, whenever the pages are written (`studies -- pages`).
+//! (`studies/book/data`: runs of a plan, shapes of runs at some times, steady states of a plan, tables of
+//! `docs/tables`; what exists is not made again), and the curves and numbers that its verdict rests on, as expressions
+//! of the columns. It prints them and writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer, shorter and coarser
+//! runs, which the ranges of verdicts are not for: it shows that a figure can be made, and decides and keeps nothing.
+//! `figures --chapter 3` makes the figures of a chapter. `--write` keeps what `docs/book/` shows and writes its pages
+//! and tables from the texts in `studies/book/chapters`; `--write --pictures` makes only what panels show. Checks of
+//! `points` are found from the points in `docs/book/figures` whenever the pages are written (`studies -- pages`).
 
 mod data;
 mod expression;
 mod figure;
 mod pages;
-mod statistics;
+pub(crate) mod statistics;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,9 +54,12 @@ struct Common {
     /// Fewer, shorter and coarser runs, which decide nothing
     #[arg(long)]
     quick: bool,
-    /// Keep numbers and picture in docs/book and write its pages anew
+    /// Keep numbers and picture in docs/book, and write its pages
     #[arg(long, conflicts_with = "quick")]
     write: bool,
+    /// Make only what panels show, and keep the numbers that were found before
+    #[arg(long, requires = "write")]
+    pictures: bool,
     /// Runs at a time; without it as many as there are processors
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -110,7 +114,7 @@ pub(crate) fn figures(flags: &FiguresFlags) -> Result<()> {
     if let Some(chapter) = &flags.chapter {
         let all: Vec<String> = numbers.iter().map(|number| chapter_of(number).to_owned()).collect();
         numbers.retain(|number| chapter_of(number) == chapter);
-        ensure!(!numbers.is_empty(), "there is no chapter {chapter}: give one of {}", different(all).join(", "));
+        ensure!(!numbers.is_empty(), "there is no chapter {chapter}. Use one of {}", different(all).join(", "));
     }
     make(&numbers, &flags.common)
 }
@@ -124,7 +128,7 @@ pub(crate) fn pages(check: bool) -> Result<()> {
         return pages::write();
     }
     for (name, text) in pages::all()? {
-        let same = fs::read_to_string(pages::folder().join(&name))? == text;
+        let same = fs::read_to_string(pages::folder().join(&name)).is_ok_and(|found| found == text);
         ensure!(same, "docs/book/{name} is otherwise than its figures: run `studies -- pages`");
     }
     Ok(())
@@ -164,7 +168,7 @@ fn numbers() -> Result<Vec<String>> {
 fn read(number: &str) -> Result<Figure> {
     let path = directory().join(format!("{number}.toml"));
     if !numbers()?.iter().any(|known| known == number) {
-        bail!("there is no figure {number}: give one of {}", numbers()?.join(", "));
+        bail!("there is no figure {number}. Use one of {}", numbers()?.join(", "));
     }
     let read = || -> Result<Figure> {
         let mut figure: Figure = toml::from_str(&fs::read_to_string(&path)?)?;
@@ -194,7 +198,7 @@ fn make(numbers: &[String], common: &Common) -> Result<()> {
             continue;
         }
         // One that fails does not keep the others from being made.
-        if let Err(failure) = one(number, &making, &mut made, common.write) {
+        if let Err(failure) = one(number, &making, &mut made, common) {
             let which = if numbers.len() > 1 { format!("figure {number}: ") } else { String::new() };
             failures.push(which + &explained(&failure));
         }
@@ -219,10 +223,10 @@ fn without_quick(number: &str, making: &Making) -> Result<Option<String>> {
     Ok(None)
 }
 
-fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: bool) -> Result<()> {
+fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common: &Common) -> Result<()> {
     let (figure, definitions) = (read(number)?, definitions()?);
     say(format_args!("\nFigure {number}: {}\n{}: {}", figure.title, said_by(number), figure.says));
-    for name in &figure.data {
+    for name in figure.data.iter().filter(|name| !common.pictures || figure.shows(name)) {
         if !made.contains_key(name) {
             made.insert(name.clone(), Source::read(name)?.rows(name, making)?);
         }
@@ -238,13 +242,22 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
     for name in figure.others() {
         given.insert(name.to_owned(), Data::of_points(name, number)?);
     }
-    let checks = figure.checks(&definitions, &given)?;
     let columns = plots.len().min(2);
     let picture = plots.into_iter().fold(Picture::new(columns), Picture::panel);
     if columns > 0 {
         picture.write(&making.out, number)?;
         fs::write(making.out.join(format!("{number}.csv")), &points)?;
     }
+    let folder = pages::folder().join("figures");
+    if common.write && columns > 0 {
+        fs::create_dir_all(&folder)?;
+        fs::write(folder.join(format!("{number}.svg")), picture.svg()?)?;
+        fs::write(folder.join(format!("{number}.csv")), &points)?;
+    }
+    if common.pictures {
+        return Ok(());
+    }
+    let checks = figure.checks(&definitions, &given)?;
     for check in &checks {
         say(format_args!("  {}: {}", check.name, check.text));
     }
@@ -276,15 +289,10 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         say(format_args!("Verdict: {}. {}", verdict(&figure, Some(&judged)), figure.why));
     }
     say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
-    if write {
+    if common.write {
         let commit = tables::commit(&["tests/src/validation", "crates/motile-steady-states/src"])?;
         let kept = Kept { commit, ..kept };
-        let folder = pages::folder().join("figures");
         fs::create_dir_all(&folder)?;
-        if columns > 0 {
-            fs::write(folder.join(format!("{number}.svg")), picture.svg()?)?;
-            fs::write(folder.join(format!("{number}.csv")), points)?;
-        }
         fs::write(pages::kept_file(number), serde_json::to_string_pretty(&kept)? + "\n")?;
     }
     Ok(())

@@ -5,28 +5,17 @@
 //! and `exchange-2.csv`.
 
 use anyhow::{Context, Result};
-use clap::Args;
 use motile::base::Region;
 use motile::setup::{
     Built, DropletSetup, ExchangeSetup, ExcludedVolume, IntegralMethod, Method, Particles, Setup, Start,
 };
-use motile_cli::command_line::positive;
-use motile_cli::run::say;
 use motile_tests::validation::exchange::{Mode, bare_rate, rate, speed};
 use motile_tests::validation::{Table, order};
 
 use crate::tables;
 
-/// Droplets that exchange their particles with the inside.
-#[derive(Debug, Args)]
-pub(crate) struct Flags {
-    /// Time to which they run
-    #[arg(long, default_value_t = 60.0, value_parser = positive)]
-    time: f64,
-    #[command(flatten)]
-    keep: tables::Keep,
-}
-
+/// Time to which the droplets run.
+const TIME: f64 = 60.0;
 const ACTIVITY: f64 = -4.0;
 const BINDING: f64 = 0.2;
 const UNBINDING: [f64; 4] = [0.0, 0.2, 0.5, 1.0];
@@ -76,36 +65,34 @@ fn run_one(setup: &Setup, time: f64) -> Result<[f64; 4]> {
     Ok([seen.speed(), relative(1), relative(2), seen.particle_number / before])
 }
 
-pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let columns = ["k_off", "D_b", "threshold 1", "threshold 2", "speed", "mode 1", "mode 2", "number on"];
+pub(crate) fn run(keep: tables::Keep) -> Result<()> {
+    let columns = "k_off | D_b | threshold 1 | threshold 2 | speed | mode 1 | mode 2 | number on";
     let title = format!("Activity {ACTIVITY}, k_on {BINDING}, late");
-    let mut table = Table::new(&title, &columns);
+    let mut table = Table::new(&title, columns);
     for unbinding in UNBINDING {
         for bulk in DIFFUSIONS.into_iter().filter(|bulk| unbinding > 0.0 || bulk.is_infinite()) {
-            let thresholds = [1.0, 2.0].map(|k| format!("{:.3}", threshold(k, unbinding, bulk)));
-            let row = [vec![unbinding.to_string(), bulk.to_string()], thresholds.to_vec()].concat();
-            let values = match run_one(&setup(unbinding, bulk), flags.time) {
-                Ok(values) => values.map(|value| format!("{value:.4}")).to_vec(),
-                Err(error) => vec![error.to_string(), String::new(), String::new(), String::new()],
+            let [first, second] = [1.0, 2.0].map(|k| threshold(k, unbinding, bulk));
+            let values = match run_one(&setup(unbinding, bulk), TIME) {
+                Ok(values) => values.map(|value| format!("{value:.4}")).join(" | "),
+                Err(error) => format!("{error} |  |  | "),
             };
-            say(format_args!("{} {}", row.join(" "), values.join(" ")));
-            table.push(row.into_iter().chain(values));
+            table.row(format_args!("{unbinding} | {bulk} | {first:.3} | {second:.3} | {values}"));
         }
     }
     let inputs = ["crates/motile-interior/src", "tests/src/validation/exchange.rs", "studies/src/exchange.rs"];
-    flags.keep.tables("exchange", "exchange", &inputs, &[table, errors()?])
+    keep.tables("exchange", "exchange", &inputs, &[table, errors()?])
 }
 
 /// Relative errors of rates of mode 1 and of a speed, with a field inside, over the nodes.
 fn errors() -> Result<Table> {
-    let columns = ["nodes", "elements", "spacing", "growing mode", "decaying mode", "speed"];
+    let columns = "nodes | elements | spacing | growing mode | decaying mode | speed";
     let title = format!(
         "Relative errors with a field inside, D_b {BULK}: rates of mode 1 at activity -8 and 0; speed at activity -4, \
          t = {LATE}, from that of {FINEST} nodes"
     );
     let spacing = |nodes: usize| 3.84 / nodes as f64;
     let finest = speed(BULK, 2 * FINEST, spacing(FINEST), LATE)?;
-    let mut table = Table::new(&title, &columns);
+    let mut table = Table::new(&title, columns);
     let mut found = [const { Vec::new() }; 3];
     for nodes in NODES {
         let (cells, spacing) = (2 * nodes, spacing(nodes));

@@ -9,20 +9,18 @@ mod animations;
 mod book;
 mod exchange;
 mod gel;
-mod hard_cases;
 mod instructions;
 mod many;
 mod nucleus;
 mod pages;
-mod passage;
 mod pictures;
+mod scene_keys;
 mod shared_benchmark;
 mod site;
 mod steady_states;
 mod sums;
 mod suspensions;
 mod tables;
-mod threads;
 mod time_steps;
 mod track;
 mod tubes;
@@ -50,18 +48,21 @@ enum Study {
     SteadyStates(steady_states::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
-    HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
-    Threads(threads::Flags),
     Tubes(tubes::Flags),
-    Gel(gel::Flags),
-    Warnings(warnings::Flags),
+    /// Lets passive droplets swim by a gel alone
+    Gel(tables::Keep),
+    /// Compares warnings of runs with their errors
+    Warnings(tables::Keep),
     Instructions(instructions::Flags),
-    Many(many::Flags),
-    Sums(sums::Flags),
+    /// Measures the cost of the methods over the number of droplets
+    Many(tables::Keep),
+    /// Measures the cost of boundary integrals over many nodes
+    Sums(tables::Keep),
     Suspensions(suspensions::Flags),
     Nucleus(nucleus::Flags),
-    Exchange(exchange::Flags),
+    /// Lets droplets exchange their particles with the inside
+    Exchange(tables::Keep),
     /// Lists the tables that are older than the last change of what they measure
     Stale,
     Pages(pages::PagesFlags),
@@ -78,18 +79,16 @@ fn main() -> ExitCode {
         Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
-        Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),
-        Study::Threads(flags) => threads::run(flags),
         Study::Tubes(flags) => tubes::run(flags),
-        Study::Gel(flags) => gel::run(flags),
-        Study::Warnings(flags) => warnings::run(flags),
+        Study::Gel(keep) => gel::run(*keep),
+        Study::Warnings(keep) => warnings::run(*keep),
         Study::Instructions(flags) => instructions::run(flags),
-        Study::Many(flags) => many::run(flags),
-        Study::Sums(flags) => sums::run(flags),
+        Study::Many(keep) => many::run(*keep),
+        Study::Sums(keep) => sums::run(*keep),
         Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
-        Study::Exchange(flags) => exchange::run(flags),
+        Study::Exchange(keep) => exchange::run(*keep),
         Study::Stale => tables::stale(),
         Study::Pages(flags) => pages::pages(flags),
         Study::Site(flags) => site::run(flags),

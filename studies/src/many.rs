@@ -9,29 +9,18 @@ use std::cell::RefCell;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use clap::Args;
 use motile::base::Region;
 use motile::setup::{
     Built, DropletSetup, GridMethod, Hold, IntegralMethod, LayersMethod, Material, Method, Setup, SolidOutline,
     SolidSetup,
 };
-use motile_cli::command_line::positive;
-use motile_cli::run::say;
 use motile_tests::validation::Table;
 use motile_timing::{PlainPair, Turns};
 
 use crate::tables;
 
-/// Cost of the methods over the number of droplets.
-#[derive(Debug, Args)]
-pub(crate) struct Flags {
-    /// Time spent on each number and kind of scene (seconds)
-    #[arg(long, default_value_t = 4.0, value_parser = positive)]
-    seconds: f64,
-    #[command(flatten)]
-    keep: tables::Keep,
-}
-
+/// Time spent on each number and kind of scene (seconds).
+const SECONDS: f64 = 4.0;
 const ACTIVITY: f64 = -2.0;
 /// Side of a droplet's cell of the lattice (length).
 const CELL: f64 = 3.6;
@@ -43,7 +32,7 @@ const NUCLEUS: f64 = 0.4;
 const SHEAR: f64 = 1000.0;
 
 /// A lattice of `side` x `side` droplets by a method, each with an elastic nucleus or none.
-pub(crate) fn setup(side: usize, method: Method, nuclei: bool) -> Setup {
+fn setup(side: usize, method: Method, nuclei: bool) -> Setup {
     let places = || (0..side * side).map(|k| [k % side, k / side].map(|j| CELL * (j as f64 + 0.5 - 0.5 * side as f64)));
     let droplet = |centre| DropletSetup { centre, ..DropletSetup::active(ACTIVITY) };
     let nucleus = |centre| SolidSetup {
@@ -91,12 +80,9 @@ fn methods(nuclei: bool) -> (Method, Vec<(String, Method)>) {
     }
 }
 
-pub(crate) fn run(flags: &Flags) -> Result<()> {
+pub(crate) fn run(keep: tables::Keep) -> Result<()> {
     let counts = SIDES.map(|side| format!("cost of {}", side * side));
-    let columns: Vec<&str> = ["settings", "nuclei", "error in %", "steps per time"]
-        .into_iter()
-        .chain(counts.iter().map(String::as_str))
-        .collect();
+    let columns = format!("settings | nuclei | error in % | steps per time | {}", counts.join(" | "));
     let mut table = Table::new("FFT pairs a unit of time over the number of droplets", &columns);
     for nuclei in [false, true] {
         let (finest, methods) = methods(nuclei);
@@ -107,50 +93,39 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             let rate = steps as f64 / TIME;
             let error = format!("{:.2}", 100.0 * (found / exact - 1.0).abs());
             let nuclei = if nuclei { "elastic" } else { "none" };
-            rows.push((vec![name.clone(), nuclei.to_owned(), error, format!("{rate:.1}")], *method, rate));
+            rows.push((format!("{name} | {nuclei} | {error} | {rate:.1}"), *method, rate));
         }
         for side in SIDES {
-            let costs = costs(side, rows.iter().map(|(_, method, rate)| (*method, *rate)), nuclei, flags.seconds)?;
+            let scenes = rows.iter().map(|(_, method, rate)| (setup(side, *method, nuclei), *rate));
+            let costs = costs(scenes, SECONDS)?;
             for ((row, ..), cost) in rows.iter_mut().zip(costs) {
-                row.push(format!("{cost:.0}"));
+                *row += &format!(" | {cost:.0}");
             }
         }
         for (row, ..) in rows {
-            say(row.join("  "));
-            table.push(row);
+            table.row(format_args!("{row}"));
         }
     }
-    let inputs = [
-        "crates/motile-boundary-integrals/src",
-        "crates/ib-core/src",
-        "crates/elastic-solids/src",
-        "studies/src/many.rs",
-    ];
-    flags.keep.tables("many", "many", &inputs, &[table])
+    let inputs = ["crates/motile-boundary-integrals/src", "crates/ib-core/src", "crates/elastic-solids/src"];
+    keep.tables("many", "many", &[&inputs[..], &["studies/src/many.rs"]].concat(), &[table])
 }
 
-/// Cost of a unit of time by each method, in FFT pairs: of steps by turns, once each has settled.
-fn costs(side: usize, methods: impl Iterator<Item = (Method, f64)>, nuclei: bool, seconds: f64) -> Result<Vec<f64>> {
-    let (mut scenes, mut rates) = (Vec::new(), Vec::new());
-    for (method, rate) in methods {
-        let Built { mut scene, .. } = setup(side, method, nuclei).build()?;
+/// Cost of a unit of time of scenes, each with its number of steps in that time, in FFT pairs: of steps by turns over
+/// some seconds, once each scene has settled.
+pub(crate) fn costs(scenes: impl Iterator<Item = (Setup, f64)>, seconds: f64) -> Result<Vec<f64>> {
+    let mut settled = Vec::new();
+    for (setup, rate) in scenes {
+        let mut scene = setup.build()?.scene;
         // What is kept from step to step is there.
-        for _ in 0..3 {
-            scene.step(1.0 / rate)?;
-        }
-        scenes.push(scene);
-        rates.push(rate);
+        (0..3).try_for_each(|_| scene.step(1.0 / rate))?;
+        settled.push((scene, rate));
     }
-    let mut pair = PlainPair::new(120, 120);
-    let failed = RefCell::new(None);
+    let rates: Vec<f64> = settled.iter().map(|(_, rate)| *rate).collect();
+    let (mut pair, failed) = (PlainPair::new(120, 120), RefCell::new(None));
     let mut works: Vec<Box<dyn FnMut() + '_>> = vec![Box::new(|| pair.run())];
-    for (scene, rate) in scenes.iter_mut().zip(&rates) {
+    for (scene, rate) in &mut settled {
         let failed = &failed;
-        works.push(Box::new(move || {
-            if let Err(error) = scene.step(1.0 / rate) {
-                failed.replace(Some(error));
-            }
-        }));
+        works.push(Box::new(move || drop(scene.step(1.0 / *rate).map_err(|error| failed.replace(Some(error))))));
     }
     let mut by_turns: Vec<&mut dyn FnMut()> = works.iter_mut().map(|work| work.as_mut() as &mut dyn FnMut()).collect();
     let turns = Turns::measure(Duration::from_secs_f64(seconds), &mut by_turns);

@@ -85,10 +85,10 @@ fn found(of: &Scene, time: f64) -> Result<SteadyState> {
     Ok(SteadyState::near(&setup(of, NODES[1]), &profile, Vec2::new(seen.speed(), 0.0), false)?)
 }
 
-const VALUES: [&str; 9] =
-    ["speed", "turning rate", "track radius", "offset", "aside", "least film", "growth", "frequency", "last modes"];
+const VALUES: &str =
+    "speed | turning rate | track radius | offset | aside | least film | growth | frequency | last modes";
 
-fn values(state: &SteadyState) -> Result<Vec<String>> {
+fn values(state: &SteadyState) -> Result<String> {
     let (seen, velocity) = (state.measured()?, state.velocity());
     let profile = state.profile();
     let centre = *profile.nuclei.first().context("no nucleus")?;
@@ -98,28 +98,29 @@ fn values(state: &SteadyState) -> Result<Vec<String>> {
     let leading = state.spectrum()?.leading().map(|mode| mode.value).unwrap_or_default();
     let turning = state.turning_rate();
     let straight = turning.abs() < 1e-8;
-    Ok(vec![
-        format!("{:.5}", seen.speed),
-        if straight { "0".to_owned() } else { format!("{turning:+.5}") },
-        if straight { "straight".to_owned() } else { format!("{:.3}", seen.speed / turning.abs()) },
-        format!("{:.4}", offset.length()),
-        format!("{:+.4}", velocity.try_normalize().unwrap_or(Vec2::X).perp_dot(offset)),
-        format!("{film:.3}"),
-        format!("{:+.4}", leading.re),
-        format!("{:.4}", leading.im),
-        format!("{:.0e}", state.tail()),
-    ])
+    let (turns, radius) = match straight {
+        true => ("0".to_owned(), "straight".to_owned()),
+        false => (format!("{turning:+.5}"), format!("{:.3}", seen.speed / turning.abs())),
+    };
+    Ok(format!(
+        "{:.5} | {turns} | {radius} | {:.4} | {:+.4} | {film:.3} | {:+.4} | {:.4} | {:.0e}",
+        seen.speed,
+        offset.length(),
+        velocity.try_normalize().unwrap_or(Vec2::X).perp_dot(offset),
+        leading.re,
+        leading.im,
+        state.tail()
+    ))
 }
 
 /// A row, or what went wrong.
-fn push(table: &mut Table, row: Vec<String>, state: Result<SteadyState>) -> Option<SteadyState> {
-    let state = state.and_then(|state| Ok((values(&state)?, state)));
-    let (values, state) = match state {
+fn push(table: &mut Table, row: &str, state: Result<SteadyState>) -> Option<SteadyState> {
+    let (values, state) = match state.and_then(|state| Ok((values(&state)?, state))) {
         Ok((values, state)) => (values, Some(state)),
-        Err(error) => (vec![explained(&error)], None),
+        Err(error) => (explained(&error), None),
     };
-    say(format_args!("{} {}", row.join(" "), values.join(" ")));
-    table.push(row.into_iter().chain(values));
+    say(format_args!("{row} | {values}"));
+    table.row(format_args!("{row} | {values}"));
     state
 }
 
@@ -168,26 +169,19 @@ fn circle(activity: f64, shear: Option<f64>) -> Result<[f64; 3]> {
 }
 
 fn elastic(keep: tables::Keep) -> Result<()> {
-    let columns = ["activity", "shear modulus", "speed", "turning rate", "track radius", "aside"];
+    let columns = "activity | shear modulus | speed | turning rate | track radius | aside";
     let title = format!(
         "Droplets with a free elastic nucleus of {RADIUS} R0, box of {SIDE} x {SIDE}, h = {SPACING}: means of t = {} \
          to {END}; place of the nucleus in the end",
         END / 2.0
     );
-    let mut table = Table::new(&title, &columns);
+    let mut table = Table::new(&title, columns);
     for activity in ACTIVITIES {
         for shear in SHEARS.map(Some).into_iter().chain([None]) {
             let [speed, turning, aside] = circle(activity, shear)?;
-            let row = [
-                activity.to_string(),
-                shear.map_or("rigid".to_owned(), |shear| shear.to_string()),
-                format!("{speed:.5}"),
-                format!("{turning:+.5}"),
-                format!("{:.3}", speed / turning.abs()),
-                format!("{aside:+.4}"),
-            ];
-            say(row.join(" "));
-            table.push(row);
+            let shear = shear.map_or("rigid".to_owned(), |shear| shear.to_string());
+            let radius = speed / turning.abs();
+            table.row(format_args!("{activity} | {shear} | {speed:.5} | {turning:+.5} | {radius:.3} | {aside:+.4}"));
         }
     }
     let own = ["crates/elastic-solids", "studies/src/nucleus.rs"];
@@ -198,20 +192,19 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     if flags.elastic {
         return elastic(flags.keep);
     }
-    let columns: Vec<&str> = ["activity", "viscosity", "radius", "start"].into_iter().chain(VALUES).collect();
+    let columns = format!("activity | viscosity | radius | start | {VALUES}");
     let mut table = Table::new("Steady droplets with a rigid nucleus, and the mode that grows fastest", &columns);
     let mut first = None;
     for scene in &SCENES {
         let (activity, viscosity, radius, [x, y]) = scene;
-        let row = vec![activity.to_string(), viscosity.to_string(), radius.to_string(), format!("{x}, {y}")];
-        let state = push(&mut table, row, found(scene, flags.time));
+        let row = format!("{activity} | {viscosity} | {radius} | {x}, {y}");
+        let state = push(&mut table, &row, found(scene, flags.time));
         if *scene == FROM {
             first = state;
         }
     }
-    let columns: Vec<&str> = std::iter::once("radius").chain(VALUES).collect();
-    let mut branch =
-        Table::new("Droplets of activity -1 that swim in circles, over the radius of the nucleus", &columns);
+    let title = "Droplets of activity -1 that swim in circles, over the radius of the nucleus";
+    let mut branch = Table::new(title, &format!("radius | {VALUES}"));
     let first = first.context("there is no state to start from")?;
     let (before, after): (Vec<f64>, Vec<f64>) = RADII.into_iter().partition(|radius| *radius < FROM.2);
     for list in [before.into_iter().rev().collect::<Vec<_>>(), after] {
@@ -219,7 +212,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         for radius in list {
             let next = Parameter::NucleusRadius.with(state.setup(), radius);
             let next = next.and_then(|setup| SteadyState::near(&setup, state.profile(), state.velocity(), false));
-            match push(&mut branch, vec![radius.to_string()], next.map_err(Into::into)) {
+            match push(&mut branch, &radius.to_string(), next.map_err(Into::into)) {
                 Some(next) => state = next,
                 None => break,
             }

@@ -8,7 +8,8 @@
 //! <!-- end of scene -->
 //! ```
 //!
-//! `studies -- pages --check` and a test compare.
+//! `studies -- pages --check` and a test compare. The page of all keys of a scene is written too
+//! ([`crate::scene_keys`]).
 
 use std::fs;
 
@@ -24,7 +25,8 @@ const END: &str = "<!-- end of table -->";
 const SCENE: &str = "<!-- scene ";
 const END_OF_SCENE: &str = "<!-- end of scene -->";
 
-/// Fills the tables of the pages from docs/tables, writes the pages of the book, checks links and formulas.
+/// Fills the tables of the pages from docs/tables, writes the page of keys and the pages of the book, checks links and
+/// formulas.
 #[derive(Debug, Args)]
 pub(crate) struct PagesFlags {
     /// Change nothing; fail if a page shows something else than the files have
@@ -45,6 +47,7 @@ pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
         fs::write(&path, filled)?;
         say(format_args!("{} is updated", name(&path)));
     }
+    crate::scene_keys::page(flags.check)?;
     crate::book::pages(flags.check)?;
     crate::site::check()
 }

@@ -16,7 +16,7 @@ use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
 use serde_json::Value;
 
-use crate::tables::root;
+use crate::tables::{pages_of, root};
 
 /// Turns the pages that mdBook gives on standard input into those that it renders.
 #[derive(Debug, Args)]
@@ -143,31 +143,37 @@ fn below(path: &Path, link: &str) -> Option<PathBuf> {
     Some(found)
 }
 
-/// Checks that every page is in SUMMARY.md and has a picture, that links lead somewhere and that formulas can be
-/// typeset.
+/// Checks that every page is in SUMMARY.md, that tutorials, explanations and evidence have a picture, that links lead
+/// somewhere and that formulas can be typeset.
 ///
 /// # Errors
 /// All that is wrong, a line each.
 pub(crate) fn check() -> Result<()> {
     let mut pages: BTreeMap<PathBuf, String> = BTreeMap::new();
-    for folder in ["", "docs", "docs/book"] {
-        for entry in fs::read_dir(root().join(folder))? {
-            let path = entry?.path();
-            if path.extension().is_some_and(|extension| extension == "md") {
-                let name = path.strip_prefix(root())?.to_owned();
-                pages.insert(name, fs::read_to_string(&path)?);
-            }
-        }
+    let beside = ["CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name));
+    for path in pages_of()?.into_iter().chain(beside) {
+        pages.insert(path.strip_prefix(root())?.to_owned(), fs::read_to_string(&path)?);
     }
+    let wrong = faults(&pages, &|path| root().join(path).exists())?;
+    ensure!(wrong.is_empty(), "{}", wrong.join("\n"));
+    Ok(())
+}
+
+/// Folders whose pages need no picture: instructions and lists.
+const WITHOUT_PICTURES: [&str; 2] = ["docs/how-to", "docs/reference"];
+
+/// Faults of pages by their paths, and of links to files for which `exists` is false.
+fn faults(pages: &BTreeMap<PathBuf, String>, exists: &dyn Fn(&Path) -> bool) -> Result<Vec<String>> {
     let mut wrong = Vec::new();
     let summary = pages.get(Path::new("docs").join(SUMMARY).as_path()).context("docs/SUMMARY.md is missing")?;
     let listed: BTreeSet<PathBuf> = links(summary).filter_map(|link| below(Path::new("docs/x"), link)).collect();
-    for (path, page) in &pages {
+    for (path, page) in pages {
         let inside = path.starts_with("docs") && !path.ends_with(SUMMARY);
         if inside && !listed.contains(path) {
             wrong.push(format!("{} is not in docs/{SUMMARY}", path.display()));
         }
-        if inside && !page.contains("![") && !path.ends_with(FRONT) {
+        let plain = path.ends_with(FRONT) || WITHOUT_PICTURES.iter().any(|folder| path.starts_with(folder));
+        if inside && !plain && !page.contains("![") {
             wrong.push(format!("{} has no picture", path.display()));
         }
         if let Err(error) = typeset(page) {
@@ -181,15 +187,15 @@ pub(crate) fn check() -> Result<()> {
             let anchor = link.split_once('#').map(|(_, anchor)| anchor);
             let found = match (pages.get(&target), anchor) {
                 (Some(page), Some(anchor)) => anchors(page).any(|one| one == anchor),
-                _ => root().join(&target).exists(),
+                (Some(_), None) => true,
+                (None, _) => exists(&target),
             };
             if !found {
                 wrong.push(format!("{}: {link} leads nowhere", path.display()));
             }
         }
     }
-    ensure!(wrong.is_empty(), "{}", wrong.join("\n"));
-    Ok(())
+    Ok(wrong)
 }
 
 /// Lines of a page that are no code.
@@ -208,12 +214,14 @@ fn links(page: &str) -> impl Iterator<Item = &str> {
 
 /// Anchors of the headings of a page, as GitHub and mdBook make them.
 fn anchors(page: &str) -> impl Iterator<Item = String> {
+    let named = prose(page).filter_map(|line| line.strip_prefix("<a id=\"")?.strip_suffix("\"></a>"));
     let headings = prose(page).filter(|line| line.starts_with('#'));
-    headings.map(|line| {
+    let headings = headings.map(|line| {
         let title = line.trim_start_matches('#').trim().to_lowercase();
         let kept = title.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
-        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
-    })
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect::<String>()
+    });
+    named.map(str::to_owned).chain(headings)
 }
 
 #[cfg(test)]
@@ -230,13 +238,45 @@ mod tests {
     #[test]
     fn links_stay_on_the_site() {
         let turned = |page: &str| within(page, Path::new("book/a.md"));
-        assert_eq!(turned("[x](../theory.md#a) [y](https://z)"), "[x](../theory.md#a) [y](https://z)");
+        assert_eq!(
+            turned("[x](../explanation/model.md#a) [y](https://z)"),
+            "[x](../explanation/model.md#a) [y](https://z)"
+        );
         assert_eq!(turned("see [x](../../crates/y.toml)."), "see x.");
         assert_eq!(turned("[x](../../README.md#z)"), "[x](../index.md#z)");
         assert_eq!(turned("[x](README.md) ![p](a.svg)"), "[x](index.md) ![p](a.svg)");
+        let deep = |page: &str| within(page, Path::new("evidence/results/a.md"));
+        assert_eq!(deep("[x](../accuracy.md) [y](../../../README.md)"), "[x](../accuracy.md) [y](../../index.md)");
+        assert_eq!(deep("[x](../../book/README.md#a) [y](../../../crates/z)"), "[x](../../book/index.md#a) y");
         let front = |page: &str| within(&from_docs(page), Path::new(FRONT));
         assert_eq!(front("[a](docs/a.md#b) [c](CHANGELOG.md) [d](#e)"), "[a](a.md#b) c [d](#e)");
         assert_eq!(front("[a](docs/book/README.md) [c](https://x)"), "[a](book/index.md) [c](https://x)");
+    }
+
+    #[test]
+    fn faults_of_pages_are_found() {
+        let of = |pages: &[(&str, &str)]| {
+            let pages = pages.iter().map(|(path, page)| (PathBuf::from(path), (*page).to_owned())).collect();
+            faults(&pages, &|path| path == Path::new("docs/images/a.svg")).expect("a summary")
+        };
+        let summary = ("docs/SUMMARY.md", "[a](evidence/results/a.md) [b](how-to/b.md)");
+        let a = "# A b\n![](../../images/a.svg) [b](../../how-to/b.md#c-d)";
+        let b = "## C d\n[a](../evidence/results/a.md#a-b)";
+        assert_eq!(of(&[summary, ("docs/evidence/results/a.md", a), ("docs/how-to/b.md", b)]), [""; 0]);
+        let wrong = of(&[summary, ("docs/evidence/results/a.md", "[b](../b.md)\n"), ("docs/how-to/c.md", "")]);
+        let expected = [
+            "docs/SUMMARY.md: how-to/b.md leads nowhere",
+            "docs/evidence/results/a.md has no picture",
+            "docs/evidence/results/a.md: ../b.md leads nowhere",
+            "docs/how-to/c.md is not in docs/SUMMARY.md",
+        ];
+        assert_eq!(wrong, expected);
+        let wrong = of(&[summary, ("docs/evidence/results/a.md", a), ("docs/how-to/b.md", "[x](../../../y)\n")]);
+        let expected = [
+            "docs/evidence/results/a.md: ../../how-to/b.md#c-d leads nowhere",
+            "docs/how-to/b.md: ../../../y leaves the repository",
+        ];
+        assert_eq!(wrong, expected);
     }
 
     #[test]

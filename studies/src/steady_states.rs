@@ -1,4 +1,4 @@
-//! Steady swimmers, their stability and bifurcations: the tables of `docs/steady-states.md`.
+//! Steady swimmers, their stability and bifurcations: the tables of `docs/evidence/results/steady-states.md`.
 //!
 //! `cargo run --release -p studies -- steady_states TABLE` prints one of them; with `--write` it becomes a file of
 //! `docs/tables`.
@@ -9,10 +9,12 @@ mod revolution;
 mod swimmers;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::{Args, builder::PossibleValuesParser};
 use motile::base::Drive;
 use motile::base::Region;
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
+
+use motile_tests::validation::Table;
 
 use crate::tables;
 
@@ -20,8 +22,8 @@ use crate::tables;
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// The table
-    #[arg(value_enum)]
-    table: Which,
+    #[arg(value_parser = PossibleValuesParser::new(TABLES.map(|(name, _)| name)))]
+    table: String,
     /// Nodes, where the table has no list of its own
     #[arg(long, default_value_t = 96)]
     nodes: usize,
@@ -32,52 +34,38 @@ pub(crate) struct Flags {
 /// Sources that the tables depend on besides those of every run.
 const INPUTS: [&str; 3] = ["tests/src/validation", "crates/motile-steady-states/src", "studies/src/steady_states"];
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Which {
-    /// Swimmers of the reference: errors, residuals, seconds
-    Swimmers,
-    /// Growth rates of swings in channels
-    Lateral,
-    /// The threshold of polarisation over the width, and whether swimming sets in smoothly
-    Threshold,
-    /// Hopf points over width and activity
-    Regimes,
-    /// Speed over the length of a channel of width 2
-    Length,
-    /// Branches over the viscosity ratio, strong activity
-    Contrast,
-    /// Seconds of each part over the nodes
-    Cost,
-    /// Limit cycles of width 5 from their Hopf point on
-    Cycle,
-    /// Swimmers in three dimensions, in unbounded fluid
-    Space,
-    /// Those in tubes
-    Tubes,
-    /// Folds of their onset
-    Folds,
-    /// A run past the fold and back
-    Hysteresis,
-}
+/// What makes the tables of a name, with so many nodes where they have no list of their own.
+type Run = fn(usize) -> Result<Vec<Table>>;
+
+const TABLES: [(&str, Run); 11] = [
+    // Swimmers of the reference: errors.
+    ("swimmers", |_| swimmers::swimmers()),
+    // Growth rates of swings in channels.
+    ("lateral", |_| swimmers::lateral()),
+    // The threshold of polarisation over the width, and whether swimming sets in smoothly.
+    ("threshold", bifurcations::threshold),
+    // Hopf points over width and activity.
+    ("regimes", bifurcations::regimes),
+    // Speed over the length of a channel of width 2.
+    ("length", parameters::length),
+    // Branches over the viscosity ratio, strong activity.
+    ("contrast", parameters::contrast),
+    // Limit cycles of width 5 from their Hopf point on.
+    ("cycle", bifurcations::cycle),
+    // Swimmers in three dimensions: in unbounded fluid, in tubes, the folds of their onset, a run past a fold and back.
+    ("space", |_| revolution::space()),
+    ("tubes", |_| revolution::tubes()),
+    ("folds", revolution::folds),
+    ("hysteresis", |_| revolution::hysteresis()),
+];
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let Flags { table, nodes, keep } = *flags;
-    let found = match table {
-        Which::Swimmers => swimmers::swimmers(),
-        Which::Lateral => swimmers::lateral(),
-        Which::Cost => swimmers::cost(),
-        Which::Cycle => bifurcations::cycle(nodes),
-        Which::Threshold => bifurcations::threshold(nodes),
-        Which::Regimes => bifurcations::regimes(nodes),
-        Which::Length => parameters::length(nodes),
-        Which::Contrast => parameters::contrast(nodes),
-        Which::Space => revolution::space(),
-        Which::Tubes => revolution::tubes(),
-        Which::Hysteresis => revolution::hysteresis(),
-        Which::Folds => revolution::folds(nodes),
-    }?;
-    let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-    keep.tables(&format!("steady-{name}"), &format!("steady_states {name} --nodes {nodes}"), &INPUTS, &found)
+    let Flags { table, nodes, keep } = flags;
+    for (name, tables) in TABLES.into_iter().filter(|(name, _)| name == table) {
+        let (file, command) = (format!("steady-{name}"), format!("steady_states {name} --nodes {nodes}"));
+        keep.tables(&file, &command, &INPUTS, &tables(*nodes)?)?;
+    }
+    Ok(())
 }
 
 /// The method with so many nodes.

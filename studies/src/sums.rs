@@ -10,10 +10,8 @@ use std::time::Duration;
 
 use allocation_counter::measure;
 use anyhow::{Context, Result};
-use clap::Args;
 use motile::boundary_integrals::BoundaryIntegral;
 use motile::scene::{FlowError, Hydrodynamics, Markers};
-use motile_cli::command_line::positive;
 use motile_cli::run::say;
 use motile_tests::validation::Table;
 use motile_tests::validation::fast_sums::{Surroundings, Suspension};
@@ -22,19 +20,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::tables;
 
-/// Cost of boundary integrals over many nodes.
-#[derive(Debug, Args)]
-pub(crate) struct Flags {
-    /// Time spent on each number of nodes, or that of two turns if they take longer (seconds)
-    #[arg(long, default_value_t = 3.0, value_parser = positive)]
-    seconds: f64,
-    /// Droplets along a side of the largest lattice
-    #[arg(long, default_value_t = 128)]
-    most: usize,
-    #[command(flatten)]
-    keep: tables::Keep,
-}
-
+/// Time spent on each number of nodes, or that of two turns if they take longer (seconds).
+const SECONDS: f64 = 3.0;
 const FRACTION: f64 = 0.3;
 /// Regions, tolerances and the largest numbers of droplets along a side of a lattice.
 const CASES: [(Surroundings, f64, usize); 5] = [
@@ -46,40 +33,35 @@ const CASES: [(Surroundings, f64, usize); 5] = [
 ];
 const SIDES: [usize; 8] = [2, 3, 4, 8, 16, 32, 64, 128];
 
-pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let columns = ["region", "tolerance", "nodes", "ms", "FFT pairs", "exponent", "bytes a node", "two threads"];
-    let mut table = Table::new("an evaluation of the flow of many droplets, area fraction 0.3", &columns);
+pub(crate) fn run(keep: tables::Keep) -> Result<()> {
+    let columns = "region | tolerance | nodes | ms | FFT pairs | exponent | bytes a node | two threads";
+    let mut table = Table::new("an evaluation of the flow of many droplets, area fraction 0.3", columns);
     let pools = [1, 2].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());
     let [Ok(one), Ok(two)] = pools else { anyhow::bail!("no threads to be had") };
     for (region, tolerance, most) in CASES {
         let mut before: Option<(usize, f64)> = None;
-        for side in SIDES.into_iter().filter(|side| *side <= most.min(flags.most)) {
+        for side in SIDES.into_iter().filter(|side| *side <= most) {
             let suspension = Suspension::lattice([side, side], FRACTION, 1.0);
             let nodes = suspension.nodes();
             let mut built = None;
             let memory = measure(|| built = Some(evaluated(&suspension, region, tolerance)));
             let (solver, markers) = built.context("no scene")??;
-            let [ms, pairs, gain] = times((solver, markers), [&one, &two], flags.seconds)?;
+            let [ms, pairs, gain] = times((solver, markers), [&one, &two], SECONDS)?;
             let exponent = before.map_or_else(String::new, |(fewer, least)| {
                 format!("{:.2}", (pairs / least).ln() / (nodes as f64 / fewer as f64).ln())
             });
             before = Some((nodes, pairs));
-            let row = vec![
-                format!("{region:?}").to_lowercase(),
-                format!("{tolerance:e}"),
-                nodes.to_string(),
-                format!("{ms:.3}"),
-                format!("{pairs:.1}"),
-                exponent,
-                format!("{:.0}", memory.bytes_max as f64 / nodes as f64),
-                if cfg!(feature = "rayon") { format!("{gain:.2}") } else { String::new() },
-            ];
-            say(row.join("  "));
-            table.push(row);
+            let name = format!("{region:?}").to_lowercase();
+            let gain = if cfg!(feature = "rayon") { format!("{gain:.2}") } else { String::new() };
+            let bytes = memory.bytes_max as f64 / nodes as f64;
+            let row =
+                format!("{name} | {tolerance:e} | {nodes} | {ms:.3} | {pairs:.1} | {exponent} | {bytes:.0} | {gain}");
+            say(&row);
+            table.row(format_args!("{row}"));
         }
     }
     let inputs = ["studies/src/sums.rs", "tests/src/validation/fast_sums.rs"];
-    flags.keep.tables("sums", "sums", &inputs, &[table])
+    keep.tables("sums", "sums", &inputs, &[table])
 }
 
 /// A solver that has found its flow once, so that it has all its memory.

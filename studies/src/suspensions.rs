@@ -15,26 +15,26 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::{Args, builder::PossibleValuesParser};
 use motile::base::Region;
 use motile::scene::gap::Repulsion;
 use motile::setup::{Distribution, DropletSetup, IntegralMethod, Method, Setup, SuspensionSetup};
+use motile_tests::validation::Table;
 use rows::Rows;
 
 use crate::tables;
 
-/// Tables of the study, in their order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Part {
-    /// Two droplets that meet.
-    Pairs,
-    /// Suspensions over activity, fraction and ratio of viscosities.
-    Crowds,
-    /// When trajectories part.
-    Parting,
-    /// The methods on sixteen droplets.
-    Methods,
-}
+/// Makes a table.
+type Part = fn(&Flags, &mut Rows) -> Result<Table>;
+
+/// The tables in their order: two droplets that meet, suspensions over activity, fraction and ratio of viscosities,
+/// when trajectories part, the methods on sixteen droplets.
+const PARTS: [(&str, Part); 4] = [
+    ("pairs", |_, rows| pairs::table(rows)),
+    ("crowds", crowds::table),
+    ("parting", |_, rows| parting::table(rows)),
+    ("methods", |_, rows| methods::table(rows)),
+];
 
 /// Droplets that meet, in pairs and in suspensions.
 #[derive(Debug, Args)]
@@ -46,8 +46,8 @@ pub(crate) struct Flags {
     #[arg(long, default_value_t = 20.0)]
     time: f64,
     /// One of the tables alone
-    #[arg(long, value_enum)]
-    part: Option<Part>,
+    #[arg(long, value_parser = PossibleValuesParser::new(PARTS.map(|(name, _)| name)))]
+    part: Option<String>,
     /// Rows that have been found, which are not computed again; new ones are added
     #[arg(long)]
     rows: Option<PathBuf>,
@@ -95,18 +95,10 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut rows = Rows::open(flags.rows.as_deref())?;
     let inputs = ["crates/motile-output/src/suspension", "studies/src/suspensions.rs", "studies/src/suspensions"];
-    for (number, part) in Part::value_variants().iter().enumerate() {
-        if flags.part.is_some_and(|only| only != *part) {
-            continue;
-        }
-        let (word, table) = match part {
-            Part::Pairs => ("pairs", pairs::table(&mut rows)?),
-            Part::Crowds => ("crowds", crowds::table(flags, &mut rows)?),
-            Part::Parting => ("parting", parting::table(&mut rows)?),
-            Part::Methods => ("methods", methods::table(&mut rows)?),
-        };
+    let wanted = |part: &str| flags.part.as_deref().is_none_or(|only| only == part);
+    for (number, (part, table)) in PARTS.into_iter().enumerate().filter(|(_, (part, _))| wanted(part)) {
         let name = if number > 0 { format!("suspensions-{}", number + 1) } else { "suspensions".to_owned() };
-        flags.keep.tables(&name, &format!("suspensions --part {word}"), &inputs, &[table])?;
+        flags.keep.tables(&name, &format!("suspensions --part {part}"), &inputs, &[table(flags, &mut rows)?])?;
     }
     Ok(())
 }

@@ -179,7 +179,8 @@ pub(crate) fn name(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn files(directory: &str, extension: &str) -> Result<Vec<PathBuf>> {
+/// Files of a directory with an extension, in order.
+pub(crate) fn files(directory: &str, extension: &str) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(root().join(directory))?.map(|entry| Ok(entry?.path()));
     let mut paths: Vec<PathBuf> = entries.collect::<Result<_>>()?;
     paths.retain(|path| path.extension().is_some_and(|found| found == extension));
@@ -187,9 +188,22 @@ fn files(directory: &str, extension: &str) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// All pages of docs and its folders, and README.md.
 pub(crate) fn pages_of() -> Result<Vec<PathBuf>> {
-    let mut paths = files("docs", "md")?;
-    paths.push(root().join("README.md"));
+    let mut paths = vec![root().join("README.md")];
+    let mut folders = vec!["docs".to_owned()];
+    while let Some(folder) = folders.pop() {
+        paths.extend(files(&folder, "md")?);
+        for entry in fs::read_dir(root().join(&folder))? {
+            let entry = entry?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            // The site that mdBook makes.
+            if entry.file_type()?.is_dir() && name != "build" {
+                folders.push(format!("{folder}/{name}"));
+            }
+        }
+    }
+    paths.sort();
     Ok(paths)
 }
 

@@ -1,5 +1,7 @@
 //! Rates at which a swimmer turns and gets on, from its track.
 
+use crate::book::statistics::line;
+
 /// Part of a run from which on turns are measured.
 const LATE: f64 = 0.5;
 
@@ -9,21 +11,17 @@ const LATE: f64 = 0.5;
 pub(crate) fn turning_rate(headings: &[(f64, f64)]) -> Option<f64> {
     let (end, _) = *headings.last()?;
     let mut heading = 0.0;
-    let late: Vec<[f64; 2]> = headings
+    let late: Vec<(f64, f64)> = headings
         .iter()
         .filter(|(time, degrees)| *time >= LATE * end && degrees.is_finite())
         .map(|(time, degrees)| {
             let change = degrees - heading;
             heading += change - 360.0 * ((change + 180.0) / 360.0).floor();
-            [*time, heading.to_radians()]
+            (*time, heading.to_radians())
         })
         .collect();
-    let count = late.len() as f64;
-    let [time, angle] = [0, 1].map(|k| late.iter().map(|pair| pair[k]).sum::<f64>() / count);
-    let [both, square] = late
-        .iter()
-        .fold([0.0; 2], |[both, square], [t, a]| [both + (t - time) * (a - angle), square + (t - time).powi(2)]);
-    (late.len() > 2 && square > 0.0).then(|| both / square)
+    let (_, rate, _) = line(&late, |time| time);
+    (late.len() > 2 && rate.is_finite()).then_some(rate)
 }
 
 /// Mean speed in x over the last `distance` of a track of points (time, x): from when the swimmer was last that far

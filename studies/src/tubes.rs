@@ -1,4 +1,5 @@
-//! Runs in constrictions of tubes, and the cost of an evaluation of the flow: tables of `docs/three-dimensions.md`.
+//! Runs in constrictions of tubes, and the cost of an evaluation of the flow: tables of
+//! `docs/evidence/results/three-dimensions.md`.
 //!
 //! `cargo run --release -p studies -- tubes TABLE` prints one of them; with `--write` it becomes a file of
 //! `docs/tables`.
@@ -7,7 +8,7 @@ mod constrictions;
 mod cost;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use motile::base::Region;
 use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
 
@@ -16,28 +17,20 @@ use crate::tables;
 /// Prints a table of runs in tubes.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
-    /// The table
-    #[arg(value_enum)]
-    table: Which,
+    /// Least throats that a droplet passes, or the cost of an evaluation
+    #[arg(value_parser = ["constrictions", "cost"])]
+    table: String,
     #[command(flatten)]
     keep: tables::Keep,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Which {
-    /// Least throats that a droplet passes, beside those of channels in the plane
-    Constrictions,
-    /// Cost of an evaluation beside the plane's, and the gain of two threads
-    Cost,
-}
-
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let Flags { table, keep } = *flags;
-    let (name, inputs, found): (_, &[&str], _) = match table {
-        Which::Constrictions => ("constrictions", &constrictions::INPUTS, constrictions::constrictions()),
-        Which::Cost => ("cost", &["studies/src/tubes/cost.rs", "benches/src/turns.rs"], cost::cost()),
+    let (inputs, found): (&[&str], _) = match flags.table.as_str() {
+        "cost" => (&["studies/src/tubes/cost.rs", "benches/src/turns.rs"], cost::cost()),
+        _ => (&constrictions::INPUTS, constrictions::constrictions()),
     };
-    keep.tables(&format!("tubes-{name}"), &format!("tubes {name}"), inputs, &[found?])
+    let name = &flags.table;
+    flags.keep.tables(&format!("tubes-{name}"), &format!("tubes {name}"), inputs, &[found?])
 }
 
 /// One droplet, computed with so many nodes.

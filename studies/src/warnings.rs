@@ -1,40 +1,18 @@
 //! Warnings of runs about their errors: scenes at default settings against resolved ones.
 //!
-//! `cargo run --release -p studies -- warnings` prints two tables, of scenes of one droplet and of the scene files of
-//! the examples and of the page. `--write` keeps them as `docs/tables/warnings.csv` and `docs/tables/warnings-2.csv`.
-
-use std::fs;
+//! `cargo run --release -p studies -- warnings` prints a table, which `--write` keeps as `docs/tables/warnings.csv`.
 
 use anyhow::{Context, Result};
-use clap::Args;
 use motile::active_interface::observables::Observables;
 use motile::base::{Drive, Region, Vec2};
-use motile::interior::DirectorStart;
 use motile::scene::{Every, Warnings};
-use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, Setup, Start};
-use motile_cli::command_line::positive;
+use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 
 use crate::tables;
 
-/// Warnings of runs about their errors.
-#[derive(Debug, Args)]
-pub(crate) struct Flags {
-    /// Time to which the scenes are run
-    #[arg(long, default_value_t = 8.0, value_parser = positive)]
-    time: f64,
-    /// Number of scenes, from the first on
-    #[arg(long, default_value_t = SCENES.len())]
-    scenes: usize,
-    /// Time to which the scene files are run
-    #[arg(long, default_value_t = 20.0, value_parser = positive)]
-    files_time: f64,
-    /// Only scene files whose path has this text in it
-    #[arg(long, default_value = "")]
-    only: String,
-    #[command(flatten)]
-    keep: tables::Keep,
-}
+/// Time to which the scenes are run.
+const TIME: f64 = 8.0;
 
 /// Length and width of a channel or none for a box of 6 x 6, activity, viscosities inside and outside, grid spacing or
 /// none for boundary integrals.
@@ -89,26 +67,15 @@ fn setup(&(channel, activity, [inside, outside], spacing): &Scene) -> Setup {
     }
 }
 
-/// The observables of all droplets in the end, and the causes of the warnings on the way.
-fn ends(setup: &Setup, time: f64) -> Result<(Vec<Observables>, Vec<String>)> {
+/// The observables of the droplet in the end, and the causes of the warnings on the way.
+fn end(setup: &Setup, time: f64) -> Result<(Observables, String)> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut warnings = Warnings::default();
     scene.run(time).observe(Every::Steps(1), &mut warnings).go()?;
-    let mut causes: Vec<String> = Vec::new();
-    for (_, warning) in warnings.worst() {
-        let cause = warning.cause.to_string();
-        if !causes.contains(&cause) {
-            causes.push(cause);
-        }
-    }
-    let seen = droplets.iter().map(|&droplet| Ok(scene.observe(droplet)?)).collect::<Result<_>>()?;
-    Ok((seen, causes))
-}
-
-/// As [`ends`], of the first droplet.
-fn end(setup: &Setup, time: f64) -> Result<(Observables, Vec<String>)> {
-    let (seen, causes) = ends(setup, time)?;
-    Ok((seen.into_iter().next().context("no droplet")?, causes))
+    let mut causes: Vec<String> = warnings.worst().iter().map(|(_, warning)| warning.cause.to_string()).collect();
+    causes.sort_unstable();
+    causes.dedup();
+    Ok((scene.observe(droplets[0])?, causes.join(", ")))
 }
 
 /// Errors of the observables relative to them; of the stresslet, which has two components, to its magnitude, or to a
@@ -132,100 +99,28 @@ fn per_cent(error: f64) -> String {
     format!("{:+.2} %", 100.0 * error)
 }
 
-/// True if the scene starts from noise at the nodes or elements of its bodies.
-fn from_noise(setup: &Setup) -> bool {
-    setup.droplets.iter().any(|droplet| {
-        let particles = droplet.particles.as_ref().is_some_and(|own| matches!(own.start, Start::Perturbed { .. }));
-        let noise = |start: &DirectorStart| matches!(start, DirectorStart::Uniform { noise, .. } if *noise > 0.0);
-        particles || droplet.gel.as_ref().is_some_and(|gel| noise(&gel.start))
-    })
-}
-
-pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let columns = ["region", "activity", "viscosities", "method", "speed", "error", "largest", "of", "warned of"];
+pub(crate) fn run(keep: tables::Keep) -> Result<()> {
+    let columns = "region | activity | viscosities | method | speed | error | largest | of | warned of";
     let title = "Warnings of scenes at default settings, the error of the speed, and the largest of all observables";
-    let mut table = Table::new(title, &columns);
-    for scene in SCENES.iter().take(flags.scenes) {
+    let mut table = Table::new(title, columns);
+    for scene in &SCENES {
         let (channel, activity, [inside, outside], spacing) = scene;
         let setup = setup(scene);
-        let (exact, _) = end(&Setup { method: RESOLVED, ..setup.clone() }, flags.time)?;
-        let results = match end(&setup, flags.time) {
+        let (exact, _) = end(&Setup { method: RESOLVED, ..setup.clone() }, TIME)?;
+        let results = match end(&setup, TIME) {
             Ok((found, causes)) => {
                 let errors = errors(&found, &exact)?;
-                let mut largest = errors[0];
-                for error in &errors {
-                    if error.1.abs() > largest.1.abs() {
-                        largest = *error;
-                    }
-                }
-                let (speed, error) = (format!("{:.5}", found.speed()), per_cent(errors[0].1));
-                [speed, error, per_cent(largest.1), largest.0.to_owned(), causes.join(", ")]
+                let larger =
+                    |a: (&'static str, f64), b: &(&'static str, f64)| if b.1.abs() > a.1.abs() { *b } else { a };
+                let (name, largest) = errors.iter().fold(errors[0], larger);
+                let [error, largest] = [errors[0].1, largest].map(per_cent);
+                format!("{:.5} | {error} | {largest} | {name} | {causes}", found.speed())
             }
-            Err(error) => [String::new(), String::new(), String::new(), String::new(), error.to_string()],
+            Err(error) => format!(" |  |  |  | {error}"),
         };
         let region = channel.map_or("box".to_owned(), |[length, width]| format!("channel {length} x {width}"));
         let method = spacing.map_or("integrals".to_owned(), |spacing| format!("grid {spacing}"));
-        let scene = [region, activity.to_string(), format!("{inside}/{outside}"), method];
-        table.push(scene.into_iter().chain(results));
+        table.row(format_args!("{region} | {activity} | {inside}/{outside} | {method} | {results}"));
     }
-    let inputs = ["studies/src/warnings.rs", "examples/scenes", "bindings/web/presets"];
-    flags.keep.tables("warnings", "warnings", &inputs, &[table, files(flags)?])
-}
-
-/// The description with twice the resolution of the flow and of the interfaces.
-fn refined(setup: &Setup) -> Setup {
-    let method = match setup.method {
-        Method::Integral(IntegralMethod { nodes, elements }) => {
-            Method::Integral(IntegralMethod { nodes: 2 * nodes, elements: 2 * elements })
-        }
-        Method::Layers(LayersMethod { nodes, elements, spacing, kernel }) => {
-            Method::Layers(LayersMethod { nodes: 2 * nodes, elements: 2 * elements, spacing: spacing / 2.0, kernel })
-        }
-        Method::Grid(grid) => Method::Grid(GridMethod { spacing: grid.spacing / 2.0, ..grid }),
-        other => other,
-    };
-    Setup { method, ..setup.clone() }
-}
-
-/// Warnings of the scene files of the examples and of the page, beside their errors against runs of twice the
-/// resolution.
-fn files(flags: &Flags) -> Result<Table> {
-    let columns = ["scene", "until", "speed", "largest", "of", "warned of"];
-    let title = "Warnings of the scene files, and the differences of the speed and of all observables, of all \
-                 droplets, from a run with twice the resolution (none where the start is noise, which has other values there)";
-    let mut table = Table::new(title, &columns);
-    for folder in ["examples/scenes", "bindings/web/presets"] {
-        let entries = fs::read_dir(tables::root().join(folder))?.map(|entry| Ok(entry?.path()));
-        let mut paths = entries.collect::<Result<Vec<_>>>()?;
-        paths.retain(|path| path.to_string_lossy().contains(&flags.only));
-        paths.sort();
-        for path in paths {
-            let setup = Setup::from_toml(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())?;
-            let name = format!("{folder}/{}", tables::name(&path));
-            let [found, exact] = [&setup, &refined(&setup)].map(|setup| ends(setup, flags.files_time));
-            let results = match (found, exact) {
-                (Ok((_, causes)), Ok(_)) if from_noise(&setup) => {
-                    [String::new(), String::new(), String::new(), causes.join(", ")]
-                }
-                (Ok((found, causes)), Ok((exact, _))) => {
-                    let (mut speed, mut largest) = (0.0_f64, ("", 0.0_f64));
-                    for (found, exact) in found.iter().zip(&exact) {
-                        for error in errors(found, exact)? {
-                            if error.1.abs() > largest.1.abs() {
-                                largest = error;
-                            }
-                            if error.0 == "speed" && error.1.abs() > speed.abs() {
-                                speed = error.1;
-                            }
-                        }
-                    }
-                    [per_cent(speed), per_cent(largest.1), largest.0.to_owned(), causes.join(", ")]
-                }
-                (Err(error), _) => [String::new(), String::new(), String::new(), error.to_string()],
-                (_, Err(error)) => [String::new(), String::new(), String::new(), format!("refined: {error}")],
-            };
-            table.push([name, flags.files_time.to_string()].into_iter().chain(results));
-        }
-    }
-    Ok(table)
+    keep.tables("warnings", "warnings", &["studies/src/warnings.rs"], &[table])
 }

@@ -1,7 +1,7 @@
 //! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and
 //! integrators.
 //!
-//! `cargo run --release -p studies -- work_precision` takes some minutes on one core, `--full` much longer; `--only
+//! `cargo run --release -p studies -- work_precision` takes some minutes on one core; `--only
 //! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/COMMIT/`, COMMIT being the
 //! last change to the library or to this study, and is not made again, so that the tables may be made in several goes,
 //! by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and PNG); with
@@ -33,9 +33,6 @@ use crate::work_precision::studies::Study;
 /// Error against cost, over all scenes, methods and resolutions.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
-    /// The expensive settings too
-    #[arg(long)]
-    full: bool,
     /// Only this scene
     #[arg(long, value_enum)]
     only: Option<Study>,
@@ -55,10 +52,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         return Ok(());
     }
     let directory = flags.output.directory("work_precision")?;
-    let jobs: Vec<(Study, Settings)> = Study::ALL
-        .into_iter()
+    let jobs: Vec<(Study, Settings)> = Study::all()
         .filter(|study| flags.only.is_none_or(|only| only == *study))
-        .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
+        .flat_map(|study| lists::settings(study).into_iter().map(move |settings| (study, settings)))
         .collect();
     let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
     let commit = tables::commit(&CODE)?;
@@ -75,13 +71,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
     write_results(&directory.join("points.csv"), &rows)?;
-    let found = report::tables(&points, &machine());
+    let found = report::tables(&points);
     found.iter().for_each(say);
     if flags.write {
-        let command = if flags.full { "work_precision --full" } else { "work_precision" };
-        tables::write("work-precision", command, &CODE, &found)?;
+        tables::write("work-precision", "work_precision", &CODE, &found)?;
     }
-    for study in Study::ALL {
+    for study in Study::all() {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
         if own.is_empty() || flags.output.no_pictures {
             continue;
@@ -108,19 +103,6 @@ fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
     summary.put("error", error, "");
     cost.put(&mut summary);
     Ok(summary)
-}
-
-/// The processor, as the system names it.
-fn machine() -> String {
-    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let value = |name: &str| {
-        text.lines().find(|line| line.starts_with(name)).and_then(|line| line.split(':').nth(1)).map(str::trim)
-    };
-    let cores = text.lines().filter(|line| line.starts_with("processor")).count();
-    match value("model name") {
-        Some(model) => format!("{model}, {cores} shared cores"),
-        None => format!("{} on {}", std::env::consts::ARCH, std::env::consts::OS),
-    }
 }
 
 /// Sources that the tables depend on beside runs of droplets.

@@ -151,7 +151,7 @@ fn bending_is_refused_in_three_dimensions() {
         let setup = Setup { region, droplets: vec![droplet], ..Setup::default() };
         let error = setup.build().unwrap_err().to_string();
         assert!(error.starts_with(&format!("droplets[0].bending = {MODULUS}")), "{error}");
-        assert!(error.contains("give none to bodies of revolution"), "{error}");
+        assert!(error.contains("bending stiffness exists in two dimensions only"), "{error}");
     }
     // Put together by hand, in either order.
     let droplet = || ActiveDroplet::passive(&circle(1.0, 32, |_| 0.0), TENSION).expect("a droplet");

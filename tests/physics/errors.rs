@@ -60,7 +60,7 @@ fn sizes_are_refused_before_they_are_allocated() {
 fn activities_beyond_measure_are_named() {
     let with = |activity| Setup { droplets: vec![DropletSetup::active(activity)], ..on_grid(0.2) };
     let message = with(-1e308).build().expect_err("an activity out of range").to_string();
-    assert!(message.contains("particles.activity = -1e308: give a number from -1e50 to 1e50"), "{message}");
+    assert!(message.contains("particles.activity = -1e308: use a number from -1e50 to 1e50"), "{message}");
     let error = with(-1e40).build().unwrap().scene.run(1.0).go().unwrap_err();
     assert!(matches!(error, SceneError::Refused { .. }), "{error}");
     let text = error.to_string();
@@ -114,8 +114,8 @@ fn errors_of_runs_print_no_more_digits_than_needed() {
     let told = [SceneError::Stopped { time }, residual, depth, far, near].map(|error| error.to_string());
     let expected = [
         &["stopped at time 25.8:"][..],
-        &["at time 25.8 the flow", "residual of 6.67e-8 after 40 iterations, above 1e-9:"],
-        &["at time 25.8 the flow", "at (0.3333, 1.5000) is 6.67e-10 beyond the wall, more than 1e-11:"],
+        &["at time 25.8 the flow", "residual of 6.67e-8 after 40 iterations, above 1e-9. "],
+        &["at time 25.8 the flow", "at (0.3333, 1.5000) is 6.67e-10 beyond the wall, more than 1e-11. "],
         &["time step 0.3 is above the stable 0.01 set by tension"],
         &["time step 1.00004 is above the stable 1 set by tension"],
     ];

@@ -527,7 +527,7 @@ fn flows_that_are_not_there() {
         (channel, EXTENSION, ["flow.extension = 1", "\"plane\""]),
         (channel, poiseuille, ["flow.poiseuille.speed", "flux = 2.66"]),
         (square, EXTENSION, ["flow.extension = 1", "sheared along x only"]),
-        (square, slide, ["flow.wall-velocity", "give shear"]),
+        (square, slide, ["flow.wall-velocity", "Use shear"]),
         (Region::Plane, slide, ["flow.wall-velocity", "a channel"]),
         (Region::Plane, FlowSetup { shear: f64::NAN, ..SHEAR }, ["flow.shear = NaN", "finite"]),
     ] {

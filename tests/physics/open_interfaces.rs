@@ -196,16 +196,16 @@ fn impossible_interfaces_end_in_a_sentence() {
         setup.build().unwrap_err().to_string()
     };
     let has = |text: &str, part: &str| assert!(text.contains(part), "{text}");
-    has(&said(&|setup| setup.region = Region::Plane), "give a box or a channel");
-    has(&said(&|setup| setup.method = Method::Grid(GridMethod::of_spacing(0.25))), "give integral or layers");
-    has(&said(&|setup| setup.interfaces[0].height = f64::NAN), "interfaces[0].height = NaN: give a finite number");
+    has(&said(&|setup| setup.region = Region::Plane), "Use a box or a channel");
+    has(&said(&|setup| setup.method = Method::Grid(GridMethod::of_spacing(0.25))), "Use integral or layers");
+    has(&said(&|setup| setup.interfaces[0].height = f64::NAN), "interfaces[0].height = NaN: use a finite number");
     has(&said(&|setup| setup.interfaces[0].viscosity = Some(20.0)), "would have the viscosities");
     has(&said(&|setup| setup.interfaces[0].inside = Side::Above), "would have the viscosities");
     has(&said(&|setup| setup.interfaces.truncate(1)), "would have the viscosities");
     let flux = Region::Channel { length: PERIOD, width: 5.0, drive: Drive::Flux(1.0) };
     has(
         &said(&|setup| setup.region = flux),
-        "region.channel.drive.flux = 1: a flux along layers of different viscosity",
+        "region.channel.drive.flux = 1: a flux cannot be prescribed along layers of different viscosity",
     );
     has(
         &said(&|setup| {
@@ -300,7 +300,7 @@ fn elastic_walls_carry_their_particles() {
     assert_eq!(again.checkpoint(""), saved);
     setup.interfaces[0].motion = Motion::default();
     let said = setup.build().unwrap_err().to_string();
-    assert!(said.contains("give \"with-fluid\""), "{said}");
+    assert!(said.contains("Use \"with-fluid\""), "{said}");
 }
 
 /// Layers of two fluids between sliding walls: the shear stress is the same in all, (U_2 - U_1)/(h_1/eta_1 +

@@ -51,7 +51,7 @@ fn with_a_contrast() {
     let scene = Setup { viscosity: 6.0, droplets, ..Setup::default() };
     check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[]], &scene);
     let refused = recommend(SceneKind::ViscosityContrast, MethodKind::Grid, 0.01).unwrap_err().to_string();
-    assert!(refused.contains("give integral or layers"), "{refused}");
+    assert!(refused.contains("Use integral or layers"), "{refused}");
 }
 
 #[test]

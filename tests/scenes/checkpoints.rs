@@ -595,7 +595,7 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     assert!(error.explanation().contains("missing"), "{}", error.explanation());
     let error = Checkpoint::read(&nowhere).expect_err("no file");
     assert!(matches!(error, CheckpointError::Missing { .. }), "{error}");
-    assert_eq!(error.to_string(), format!("there is no checkpoint at {}: check the path", nowhere.display()));
+    assert_eq!(error.to_string(), format!("there is no checkpoint at {}. Check the path", nowhere.display()));
     let error = Checkpoint::read(&directory.0).expect_err("no file");
     assert!(refused(&error, "is a directory. Use the path of a checkpoint in it"), "{error}");
     if cfg!(unix) {

@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod copies;
+mod hard_cases;
 mod killed;
 mod parameters;
 mod suite;

@@ -1,6 +1,14 @@
-//! The quick version of all hard cases. `cargo run --release -p studies -- hard_cases` runs the long one.
+//! The quick version of all hard cases.
+//!
+//! `UPDATE=1 cargo test --release -p motile-tests --test scenes the_table -- --nocapture` runs the long version and
+//! writes `docs/tables/hard-cases.csv`.
 
-use motile_tests::hard_cases::{Ending, Extent, Trial, cases};
+use std::fs;
+use std::process::Command;
+
+use motile_tests::validation::Table;
+
+use crate::hard_cases::{Ending, Extent, Outcome, Trial, cases};
 
 /// Runs all trials of these cases; after a failure the state must be one that can be looked at.
 fn run(numbers: &[usize]) {
@@ -94,4 +102,53 @@ fn every_case_is_there() {
     for number in (1..=21).filter(|&number| number != 20) {
         assert!(all.iter().any(|trial| trial.number == number), "case {number}");
     }
+}
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tables/hard-cases.csv");
+const COMMAND: &str = "UPDATE=1 cargo test --release -p motile-tests --test scenes the_table";
+/// Sources that the outcomes depend on.
+const INPUTS: &str = "crates/motile-base crates/stokes-grid crates/stokes-boundary-integrals crates/motile-scene \
+                      crates/ib-core crates/motile-boundary-integrals crates/active-interface crates/motile/src/setup \
+                      crates/elastic-solids tests/scenes/hard_cases";
+
+/// The table of the documents has the long version of every trial, and each ended as it should. With the variable
+/// UPDATE, the test runs them and writes the table.
+#[test]
+fn the_table_has_every_trial() {
+    if std::env::var_os("UPDATE").is_some() {
+        fs::write(TABLE, long_version()).unwrap();
+    }
+    let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(TABLE).unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let all = cases();
+    assert_eq!(rows.len(), all.len());
+    for (row, trial) in rows.iter().zip(all) {
+        let Trial { number, name, way, expected, .. } = &trial;
+        assert_eq!([&row[0], &row[1], &row[2]], [number.to_string(), (*name).to_owned(), way.to_string()]);
+        assert!(expected.iter().any(|ending| format!("{ending:?}") == row[3]), "{trial:?}: {row:?}");
+    }
+}
+
+/// The table of the long version, with the commit of its sources.
+fn long_version() -> String {
+    let mut table = Table::new(
+        "How hard cases end",
+        "case | what is hard | method | outcome | time | steps | rejected | area | particles | seconds",
+    );
+    for trial in cases() {
+        let outcome = trial.run(Extent::Long, &mut |_| ()).expect("a scene");
+        println!("{trial:?}: {outcome:?}");
+        let Trial { number, name, way, .. } = trial;
+        let Outcome { ending, time, steps, rejected, drift, seconds, .. } = outcome;
+        table.row(format_args!(
+            "{number} | {name} | {way} | {ending:?} | {time:.4} | {steps} | {rejected} | {:+.1e} | {:+.1e} | \
+             {seconds:.1}",
+            drift.area, drift.particles
+        ));
+    }
+    let log = ["log", "-1", "--format=%h", "--"];
+    let log = Command::new("git").current_dir(ROOT).args(log).args(INPUTS.split(' ')).output().expect("git");
+    let commit = String::from_utf8_lossy(&log.stdout).trim().to_owned();
+    format!("# {COMMAND}\n# commit: {commit}\n# depends on: {INPUTS}\n{}", table.csv())
 }

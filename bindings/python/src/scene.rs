@@ -60,7 +60,7 @@ fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec2>> {
     let points = points.as_array();
     if points.ncols() != 2 {
         return Err(refused(
-            &format!("points have shape ({}, {}): give an array of shape (n, 2)", points.nrows(), points.ncols()),
+            &format!("points have shape ({}, {}). Use an array of shape (n, 2)", points.nrows(), points.ncols()),
             None,
             None,
             None,
@@ -90,8 +90,8 @@ impl Scene {
     /// The state, unless a run is going on.
     fn lock(&self) -> PyResult<MutexGuard<'_, State>> {
         self.state.try_lock().map_err(|_| {
-            let remedy = "wait for its end, or use a scene of its own for each thread";
-            refused(&format!("the scene is in use by a run: {remedy}"), None, None, Some(remedy.to_owned()))
+            let remedy = "Wait until the run has ended, or use one scene per thread";
+            refused(&format!("the scene is in use by a run. {remedy}"), None, None, Some(remedy.to_owned()))
         })
     }
 
@@ -414,8 +414,8 @@ fn solid_colour(name: &str) -> PyResult<SolidColour> {
         "stress" => Ok(SolidColour::Stress),
         "internal-stress" => Ok(SolidColour::InternalStress),
         _ => {
-            let remedy = "give plain, displacement, stress or internal-stress";
-            let text = format!("solids cannot show {name}: {remedy}");
+            let remedy = "Use plain, displacement, stress or internal-stress";
+            let text = format!("solids cannot show {name}. {remedy}");
             Err(refused(&text, Some("solids".into()), Some(name.into()), Some(remedy.into())))
         }
     }

@@ -31,8 +31,8 @@ impl Setup {
     /// Error about an entry that is to be changed in place.
     fn keep(&self, py: Python<'_>, name: &str) -> PyResult<()> {
         self.__getattr__(py, name)?;
-        let remedy = format!("make another by setup.replace({name}=...)");
-        Err(pyo3::exceptions::PyAttributeError::new_err(format!("a Setup does not change: {remedy}")))
+        let remedy = format!("Make another with setup.replace({name}=...)");
+        Err(pyo3::exceptions::PyAttributeError::new_err(format!("a Setup cannot be changed. {remedy}")))
     }
 
     fn table(&self) -> PyResult<Table> {
@@ -102,9 +102,10 @@ impl Setup {
             table.extend(keywords(entries)?);
         }
         for (place, object) in places.into_iter().flatten() {
-            let place: String = place.extract().map_err(|_| unreadable("", &place, "give places as text"))?;
+            let place: String = place.extract().map_err(|_| unreadable("", &place, "use places as text"))?;
             let (above, last) = place.rsplit_once('.').unwrap_or(("", &place));
-            let missing = || refused(&format!("{place}: the setup has no such place"), Some(place.clone()), None, None);
+            let said = format!("{place}: the setup has no such place. Print the setup to see its entries");
+            let missing = || refused(&said, Some(place.clone()), None, None);
             let mut at = &mut whole;
             for key in above.split('.').filter(|key| !key.is_empty()) {
                 at = entry(at, key).ok_or_else(missing)?;

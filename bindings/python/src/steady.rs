@@ -131,8 +131,8 @@ pub(crate) fn branch<'py>(
     let known = Parameter::NAMES.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
     let unknown = || {
         let names: Vec<String> = Parameter::NAMES.iter().map(|(name, _)| name.replace('-', "_")).collect();
-        let remedy = format!("give one of {}", names.join(", "));
-        let message = format!("there is no parameter {parameter}: {remedy}");
+        let remedy = format!("Use one of {}", names.join(", "));
+        let message = format!("there is no parameter {parameter}. {remedy}");
         refused(&message, Some("parameter".into()), Some(parameter.to_owned()), Some(remedy))
     };
     let known = known.ok_or_else(unknown)?;

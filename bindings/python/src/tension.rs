@@ -21,17 +21,17 @@ pub(crate) struct TabulatedTension {
 impl TabulatedTension {
     pub(crate) fn new(concentrations: Vec<f64>, tensions: Vec<f64>, smooth: bool) -> PyResult<Self> {
         let refuse = |problem: &str, remedy: &str| {
-            refused(&format!("{problem}: {remedy}"), Some("tension".into()), None, Some(remedy.into()))
+            refused(&format!("{problem}. {remedy}"), Some("tension".into()), None, Some(remedy.into()))
         };
         if concentrations.len() != tensions.len() || concentrations.len() < 3 {
             let problem = format!("{} concentrations and {} tensions", concentrations.len(), tensions.len());
-            return Err(refuse(&problem, "give as many of both, three at least"));
+            return Err(refuse(&problem, "Use equally many of both, at least three"));
         }
         if !concentrations.iter().chain(&tensions).all(|value| value.is_finite()) {
-            return Err(refuse("the table of a tension has a value that is not finite", "give numbers"));
+            return Err(refuse("the table of a tension has a value that is not finite", "Use finite numbers"));
         }
         if !concentrations.windows(2).all(|pair| pair[0] < pair[1]) {
-            return Err(refuse("the concentrations of a tension do not rise", "sort the table"));
+            return Err(refuse("the concentrations of a tension are not increasing", "Sort the table"));
         }
         let intervals = concentrations.windows(2).zip(tensions.windows(2));
         let steps: Vec<[f64; 2]> = intervals.map(|(c, g)| [c[1] - c[0], (g[1] - g[0]) / (c[1] - c[0])]).collect();

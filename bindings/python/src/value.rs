@@ -16,13 +16,13 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Opti
         return Ok(None);
     }
     if key.matches(['.', '[']).count() > DEEPEST {
-        let remedy = "no scene is so deep: look for a list or dictionary that holds itself";
+        let remedy = "no scene is so deep. Look for a list or dictionary that holds itself";
         return Err(refused(&format!("{key}: {remedy}"), Some(key.to_owned()), None, Some(remedy.to_owned())));
     }
     if let Ok(dict) = object.cast::<PyDict>() {
         let mut table = Table::new();
         for (name, entry) in dict.iter() {
-            let name: String = name.extract().map_err(|_| unreadable(key, &name, "give keys as text"))?;
+            let name: String = name.extract().map_err(|_| unreadable(key, &name, "use keys as text"))?;
             let inner = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
             if let Some(value) = from_python(&entry, &inner)? {
                 table.insert(name.replace('_', "-"), value);
@@ -36,7 +36,7 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Opti
             let inner = format!("{key}[{number}]");
             let entry = entry?;
             let value = from_python(&entry, &inner)?;
-            list.push(value.ok_or_else(|| unreadable(&inner, &entry, "give a value, or leave the entry out"))?);
+            list.push(value.ok_or_else(|| unreadable(&inner, &entry, "use a value, or leave the entry out"))?);
         }
         return Ok(Some(Value::Array(list)));
     }
@@ -45,7 +45,7 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Opti
         return Ok(Some(Value::Boolean(object.extract()?)));
     }
     if object.is_instance_of::<PyInt>() {
-        let number = object.extract().map_err(|_| unreadable(key, object, "give a number below 2^63"))?;
+        let number = object.extract().map_err(|_| unreadable(key, object, "use a number below 2^63"))?;
         return Ok(Some(Value::Integer(number)));
     }
     if object.is_instance_of::<PyFloat>() {
@@ -57,7 +57,7 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Opti
     if object.hasattr("tolist")? {
         return from_python(&object.call_method0("tolist")?, key);
     }
-    Err(unreadable(key, object, "give a number, text, a truth value, a list, a dictionary or an array of numbers"))
+    Err(unreadable(key, object, "use a number, text, a truth value, a list, a dictionary or an array of numbers"))
 }
 
 /// Python object of a value.
@@ -87,11 +87,23 @@ pub(crate) fn described<T: serde::de::DeserializeOwned>(value: Value) -> PyResul
         let key = error.path().to_string().replace('-', "_");
         let inner = error.inner().to_string();
         let plain = [
-            ("wanted exactly 1 element", "give one entry, that of its kind"),
-            ("invalid type: unit variant", "it has entries of its own: give them"),
+            ("wanted exactly 1 element", "use exactly one entry, which names the kind"),
+            ("invalid type: unit variant", "this kind has settings. Use a dictionary: {kind: {setting: value}}"),
         ];
         let plain = plain.into_iter().find(|(start, _)| inner.starts_with(start));
+        let words = [
+            ("unknown field", "unknown key"),
+            ("unknown variant", "unknown choice"),
+            ("missing field", "missing required key"),
+            ("expected f64", "expected a number"),
+            ("expected usize", "expected a whole number that is not negative"),
+            ("expected u64", "expected a whole number that is not negative"),
+            ("expected a sequence", "expected a list"),
+            ("invalid type: ", ""),
+            ("invalid value: ", ""),
+        ];
         let inner = plain.map_or(inner, |(_, said)| said.to_owned());
+        let inner = words.iter().fold(inner, |text, (name, words)| text.replace(name, words));
         // The first line says what is wrong, in the names of scene files; the others say where.
         let said = inner.trim().lines().next().unwrap_or_default().split('`').enumerate();
         let snake = |(number, part): (usize, &str)| if number % 2 == 1 { part.replace('-', "_") } else { part.into() };

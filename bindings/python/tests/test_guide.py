@@ -1,4 +1,4 @@
-"""Programs of the guide beside those of the guide in Rust, and the example of the package's first page."""
+"""Programs of the page on Python beside those in Rust (`tests/rust`), and the example of the package's first page."""
 
 import doctest
 import json
@@ -11,21 +11,16 @@ import numpy as np
 import pytest
 
 DOCS = Path(__file__).parents[3] / "docs"
-GUIDE = DOCS / "python.md"
-PROGRAMS = re.findall(r"^## (.+?)$.*?^```python\n(.*?)^```$", GUIDE.read_text(), flags=re.M | re.S)
+GUIDE = DOCS / "reference/python.md"
+SECTIONS = re.split(r"^## ", GUIDE.read_text(), flags=re.M)
+MATCHES = (re.match(r"(.+?)\n.*?^```python\n(.*?)^```$", section, re.M | re.S) for section in SECTIONS)
+PROGRAMS = [match.groups() for match in MATCHES if match]
 
 
 def in_rust() -> dict[str, str]:
-    """Programs of the guide in Rust that do the same, by the titles here."""
-    others = {
-        "Tables and pictures": "CSV and picture",
-        "A channel with a drive, and films": "A channel with a drive",
-        "Sweeps, and runs that go on": "Sweeps",
-    }
-    sections = re.split(r"^## ", (DOCS / "guide.md").read_text(), flags=re.M)
-    found = (re.match(r"(.+?)\n.*?^```rust\n(.*?)^```$", section, re.M | re.S) for section in sections)
-    rust = dict(match.groups() for match in found if match)
-    return {title: rust[others.get(title, title)] for title, _ in PROGRAMS}
+    """Programs in Rust that do the same, by the titles of the page."""
+    place = Path(__file__).parent / "rust"
+    return {title: (place / f"{re.sub('[^a-z]+', '_', title.lower())}.rs").read_text() for title, _ in PROGRAMS}
 
 
 @pytest.fixture(scope="module")
@@ -78,16 +73,6 @@ def test_program(
 def test_first_page() -> None:
     failures, count = doctest.testmod(motile)
     assert count > 0 and not failures
-
-
-def test_lines_beside_rust() -> None:
-    def lines(program: str, comment: str) -> str:
-        stripped = (line.strip() for line in program.splitlines())
-        return str(sum(1 for line in stripped if line and not line.startswith(comment)))
-
-    rows = re.findall(r"^\| (.+?) \| (\d+) \| (\d+) \|$", GUIDE.read_text(), flags=re.M)
-    rust = in_rust()
-    assert rows == [(title, lines(program, "#"), lines(rust[title], "//")) for title, program in PROGRAMS]
 
 
 def test_notebook() -> None:

@@ -450,6 +450,6 @@ def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
         motile.sweep(small(), {"viscosity": [100]}, 0.1, folder=alone)
         (file,) = alone.iterdir()
         file.write_bytes(broken)
-        with pytest.raises(motile.Error, match="remove it"):
+        with pytest.raises(motile.Error, match="Remove it"):
             motile.sweep(small(), {"viscosity": [100]}, 0.1, folder=alone)
         file.unlink()

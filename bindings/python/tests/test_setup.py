@@ -156,7 +156,7 @@ def test_wrong_keys_at_every_depth() -> None:
         with pytest.raises(motile.Error) as raised:
             motile.Setup.from_dict(_changed(wrong, 1))
         # Where one of several kinds has to be given, a second entry is an error of the whole.
-        assert raised.value.key == wrong or "give one entry" in str(raised.value), (wrong, str(raised.value))
+        assert raised.value.key == wrong or "use exactly one entry" in str(raised.value), (wrong, str(raised.value))
         assert raised.value.key in (wrong, place)
 
 
@@ -232,7 +232,7 @@ def test_lists_that_hold_themselves() -> None:
 def test_remedies() -> None:
     with pytest.raises(motile.Error) as raised:
         motile.Setup(viscosity=-1)
-    assert (raised.value.value, raised.value.remedy) == ("-1", "give a positive finite number")
+    assert (raised.value.value, raised.value.remedy) == ("-1", "use a positive finite number")
     two = [motile.droplet(), motile.droplet(centre=(0.5, 0))]
     with pytest.raises(motile.Error, match="overlaps") as raised:
         motile.Setup(droplets=two).build()

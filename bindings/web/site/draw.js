@@ -3,6 +3,8 @@ import { LEVELS, particles, pressure, property, rgb, theme } from "./colours.js"
 
 const FRESH = { x: 0, y: 0, zoom: 1 };
 const [DROPLET, OPEN, AREA, HOLE] = [0, 1, 2, 3];
+/** Number of arrows about a droplet. */
+const ARROWS = 24;
 
 /** Shapes of a flat list: kind, number of points, then x, y and concentration of each. */
 export function shapesOf(list) {
@@ -34,7 +36,8 @@ function between(before, after, part) {
     const points = new Float32Array(shape.points.length);
     for (let k = 0; k < points.length; k += 1)
       points[k] = other.points[k] + part * (shape.points[k] - other.points[k]);
-    return { ...shape, points };
+    const gradient = shape.gradient?.map((value, k) => value + (1 - part) * ((other.gradient?.[k] ?? value) - value));
+    return { ...shape, points, gradient };
   });
 }
 
@@ -47,7 +50,7 @@ export class Picture {
     this.about = null;
     this.frames = [];
     this.trails = [];
-    this.look = { tracers: true, streamlines: false, pressure: false, trail: true };
+    this.look = { tracers: true, streamlines: false, pressure: false, trail: true, arrows: false };
     this.held = false;
     this.restyle();
   }
@@ -71,6 +74,7 @@ export class Picture {
     this.flow = null;
     this.centre = null;
     this.top = null;
+    this.steepest = 0;
     this.camera = { ...FRESH };
     this.held = false;
   }
@@ -79,6 +83,13 @@ export class Picture {
     const frame = { time: message.time, tilt: message.tilt, shapes: shapesOf(message.shapes), dust: message.dust };
     const drops = frame.shapes.filter(({ kind }) => kind === DROPLET);
     frame.middles = drops.map(middle);
+    // Derivatives of the tension at the points of each droplet.
+    let from = 0;
+    for (const drop of message.gradients ? drops : []) {
+      drop.gradient = message.gradients.subarray(from, from + drop.count);
+      from += drop.count;
+      for (const value of drop.gradient) this.steepest = Math.max(this.steepest, Math.abs(value));
+    }
     // A step back in time, or a state that was moved by hand, does not connect.
     const last = this.frames.at(-1);
     if (last && frame.time <= last.time) this.frames = [];
@@ -228,6 +239,7 @@ export class Picture {
     if (this.look.trail) this.drawTrails(view, pixel, state);
     this.drawBounds(view, pixel);
     this.drawShapes(state, view, pixel);
+    this.drawScaleBar(view, pixel);
     return going;
   }
 
@@ -432,6 +444,60 @@ export class Picture {
     context.fillStyle = inside;
     context.fill();
     this.drawCarrier(shape, thick, false);
+    if (this.look.arrows && shape.gradient) this.drawArrows(shape);
+  }
+
+  /** The pull of the interface on the fluid along it: arrows outside of it, towards higher tension. */
+  drawArrows({ points, count, gradient }) {
+    const { context } = this;
+    const at = (k) => [points[3 * ((k + count) % count)], points[3 * ((k + count) % count) + 1]];
+    context.strokeStyle = context.fillStyle = this.colours.ink;
+    context.lineWidth = 0.035;
+    for (let arrow = 0; arrow < ARROWS; arrow += 1) {
+      const k = Math.floor((arrow * count) / ARROWS);
+      const part = gradient[k] / (this.steepest || 1);
+      if (Math.abs(part) < 0.02) continue;
+      const [[ax, ay], [bx, by], [x, y]] = [at(k - 1), at(k + 1), at(k)];
+      const size = Math.hypot(bx - ax, by - ay) || 1;
+      const [tx, ty] = [(bx - ax) / size, (by - ay) / size];
+      // Lengths grow as the square root, so that weak pulls are seen too.
+      const length = Math.sign(part) * (0.1 + 0.24 * Math.sqrt(Math.abs(part)));
+      const head = 0.11 * Math.sign(part);
+      const [px, py] = [x + 0.13 * ty - 0.5 * length * tx, y - 0.13 * tx - 0.5 * length * ty];
+      const [qx, qy] = [px + length * tx, py + length * ty];
+      context.beginPath();
+      context.moveTo(px, py);
+      context.lineTo(qx - 0.7 * head * tx, qy - 0.7 * head * ty);
+      context.stroke();
+      context.beginPath();
+      context.moveTo(qx, qy);
+      for (const side of [-1, 1])
+        context.lineTo(qx - head * tx + 0.5 * side * head * ty, qy - head * ty - 0.5 * side * head * tx);
+      context.fill();
+    }
+  }
+
+  /** A bar of a round length in micrometres, at the lower left. */
+  drawScaleBar(view, pixel) {
+    const unit = this.about.units.length;
+    const most = 0.25 * (view.right - view.left) * unit;
+    const power = 10 ** Math.floor(Math.log10(most));
+    const size = [5, 2, 1].find((step) => step * power <= most) * power;
+    const { context } = this;
+    const [x, y] = [view.left + 14 * pixel, view.low + 14 * pixel];
+    context.strokeStyle = context.fillStyle = this.colours.ink;
+    context.lineWidth = 2.5 * pixel;
+    context.lineCap = "butt";
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(x + size / unit, y);
+    context.stroke();
+    context.save();
+    context.translate(x, y + 6 * pixel);
+    context.scale(pixel, -pixel);
+    context.font = "12px system-ui, sans-serif";
+    context.fillText(`${size} µm`, 0, 0);
+    context.restore();
   }
 
   /** The interface, coloured by its particles: neighbours of one colour are one line. */

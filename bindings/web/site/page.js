@@ -1,12 +1,13 @@
 // The page: buttons, sliders, drag and drop of droplets, links and downloads around a simulation in a worker.
 import { Picture } from "./draw.js";
-import { ActivityMap, Plots, short } from "./plots.js";
+import { ActivityMap, Plots, clock, short } from "./plots.js";
+import { plain } from "./problem.js";
 import { packed, unpacked } from "./link.js";
 
 const $ = (id) => document.getElementById(id);
 const worker = new Worker("worker.js", { type: "module" });
 const picture = new Picture($("canvas"));
-const plots = new Plots($("plots"));
+const plots = new Plots($("plots"), $("more"));
 const map = new ActivityMap($("map"));
 
 let about = null;
@@ -44,9 +45,22 @@ function note(text, bad = false) {
   if (text && !bad) noteTimer = setTimeout(() => note(""), 3500);
 }
 
-function said(error) {
-  return error.message.replace(/^the scene file is not valid: /, "");
+/** Questions about the scenes, with their answers. */
+const lessons = fetch("lessons.json").then((found) => found.json());
+async function showLesson() {
+  const lesson = (await lessons)[preset];
+  $("lesson").hidden = !lesson;
+  $("answer").hidden = true;
+  $("reveal").setAttribute("aria-expanded", "false");
+  $("reveal").textContent = "Show the answer";
+  if (lesson) [$("question").textContent, $("answer").textContent] = [lesson.question, lesson.answer];
 }
+$("reveal").addEventListener("click", () => {
+  const shown = $("answer").hidden;
+  $("answer").hidden = !shown;
+  $("reveal").setAttribute("aria-expanded", String(shown));
+  $("reveal").textContent = shown ? "Hide the answer" : "Show the answer";
+});
 
 // ---------------------------------------------------------------------------------------------------- scenes
 
@@ -54,6 +68,7 @@ function load(text, { name = null, play = false } = {}) {
   previous = number;
   number += 1;
   preset = name;
+  showLesson();
   for (const button of $("presets").children)
     button.setAttribute("aria-pressed", String(button.dataset.name === name));
   wanted = { play, text };
@@ -114,6 +129,8 @@ const knobs = new Map();
 function showAbout(message) {
   const fresh = message.number !== picture.number;
   about = message.about;
+  plots.units = about.units;
+  map.unit = about.units.length / about.units.time;
   scene = message.scene;
   if (fresh) {
     picture.begin(about);
@@ -130,8 +147,8 @@ function showAbout(message) {
   showCode();
   $("quality").textContent =
     about.error === null
-      ? "The error of these settings was not measured for a scene like this."
-      : `Settings of this scene: speeds of steady swimmers err by at most ${(100 * about.error).toPrecision(1)} %.`;
+      ? "We have not measured the error of these settings for a scene like this one."
+      : `With these settings, the speed of a steady swimmer has an error of at most ${(100 * about.error).toPrecision(1)} %.`;
   followBranch();
   changed = true;
 }
@@ -167,11 +184,29 @@ function showKnobs() {
   }
 }
 
-function showValue(row, value) {
-  row.output.textContent = short(value)
+/** A number without zeros at its end. */
+const brief = (value) =>
+  short(value)
     .replace(/(\.\d*?)0+$/, "$1")
     .replace(/\.$/, "");
-  row.input.setAttribute("aria-valuetext", row.output.textContent);
+
+/** A value of a parameter in the units of a cell; nothing for ratios. */
+function inUnits(name, value) {
+  const { length, time, activity } = about.units;
+  const [factor, unit] =
+    {
+      activity: [activity, "pN"],
+      diffusion: [length ** 2 / time, "µm²/s"],
+      size: [length, "µm"],
+    }[name] ?? [];
+  return unit ? `${brief(factor * value)} ${unit}` : "";
+}
+
+function showValue(row, value) {
+  const units = document.createElement("small");
+  units.textContent = inUnits(row.knob.name, value);
+  row.output.replaceChildren(brief(value), " ", units);
+  row.input.setAttribute("aria-valuetext", row.output.textContent.trim());
 }
 
 function toSlider({ least, most, logarithmic }, value) {
@@ -275,13 +310,13 @@ function showRun() {
   const state = picture.state();
   if (!state) return;
   $("time").textContent = `t = ${state.time.toFixed(2)}`;
+  $("seconds").textContent = `(${clock(state.time * about.units.time)})`;
   const rate = $("rate");
   if (playing && last?.rate) {
     const slow = Number.isFinite(pace()) && last.pace > 0 && last.pace < 0.85 * pace();
     rate.textContent =
-      `${Math.round(last.rate)} steps a second` +
-      (slow ? `, slower than the pace: ${last.pace.toFixed(1)} a second` : "");
-    rate.classList.toggle("bad", slow);
+      `${Math.round(last.rate)} steps per second` +
+      (slow ? `; this device manages ${(last.pace * about.units.time).toFixed(0)}× real` : "");
   }
 }
 
@@ -320,9 +355,17 @@ worker.onmessage = ({ data }) => {
   } else if (data.kind === "frame") take(data);
   else if (data.kind === "ended") {
     setPlaying(false);
-    note(`The run has reached t = ${data.time.toFixed(2)}.`);
+    note(`The run has reached t = ${data.time.toFixed(2)} (${clock(data.time * about.units.time)}).`);
   }
 };
+
+function loadingFailed() {
+  $("loading").hidden = false;
+  $("loading").firstElementChild.textContent =
+    "The page could not load its program (motile_bg.wasm). Check the connection, then load the page again. " +
+    "The page needs a browser from 2023 or later.";
+}
+worker.onerror = loadingFailed;
 
 function complain({ error, place, id }) {
   if (answers.has(id)) {
@@ -335,17 +378,18 @@ function complain({ error, place, id }) {
     number = previous;
     // That of a link is not in the box yet.
     $("scene").value = wanted.text;
-    $("problem").textContent = said(error);
-    note("This text is no scene that can be run; what is wrong stands below it.", true);
+    $("problem").textContent = plain(error);
+    note("This scene cannot run. The text box below says why and what to do.", true);
     $("loading").hidden = true;
-  } else if (place === "drag") note("There is no room there.");
+  } else if (place === "drag") note("There is no room for the droplet there: it would overlap a wall or another body.");
   else if (place === "turn") {
-    note(said(error), true);
+    note(plain(error), true);
     for (const row of knobs.values()) row.busy = false;
     if (about) showKnobs();
-  } else {
+  } else if (place === "init") loadingFailed();
+  else {
     setPlaying(false);
-    note(said(error), true);
+    note(plain(error, place === "run" || place === "step"), true);
   }
 }
 
@@ -382,7 +426,7 @@ let described = 0;
 async function warn() {
   try {
     const list = JSON.parse(await ask({ kind: "ask", what: "warnings" }));
-    $("warnings").textContent = list.join(" ");
+    $("warnings").textContent = list.map((text) => `These results may be inaccurate. ${text}.`).join("\n");
   } catch {
     // Another scene has come in between.
   }
@@ -393,11 +437,11 @@ function describe() {
   if (now - described < 1500) return;
   described = now;
   warn();
-  const speed = short(plots.last(0, 0));
+  const speed = short((plots.last(0, 0) * about.units.length) / about.units.time);
   const count = droplets === 1 ? "One droplet" : `${droplets} droplets`;
   $("canvas").setAttribute(
     "aria-label",
-    `${count} at time ${picture.state().time.toFixed(1)}; speed of the first ${speed} radii per time`,
+    `${count} at time ${picture.state().time.toFixed(1)}; speed of the first ${speed} micrometres per second`,
   );
   $("map").setAttribute(
     "aria-label",
@@ -600,6 +644,7 @@ document.addEventListener("keydown", (event) => {
   else if (event.key === "r" || event.key === "R") reset();
   else if (event.key === "+" || event.key === "=") zoomTo(picture.camera.zoom * 1.25);
   else if (event.key === "-") zoomTo(picture.camera.zoom / 1.25);
+  else if (event.key === "f" || event.key === "F") fill();
   else if (/^[1-9]$/.test(event.key) && presets[event.key - 1]) choose(presets[event.key - 1].name);
   else if (event.target === canvas && event.key.startsWith("Arrow")) {
     const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
@@ -610,6 +655,20 @@ document.addEventListener("keydown", (event) => {
 
 // ---------------------------------------------------------------------------------------------------- text
 
+/** Fills the screen with the picture and its buttons: the window, in browsers that fill the screen only with films. */
+function fill() {
+  const on = !$("stage").classList.contains("full");
+  filled(on);
+  if (on) $("stage").requestFullscreen?.().catch(() => {});
+  else if (document.fullscreenElement) document.exitFullscreen();
+}
+function filled(on) {
+  $("stage").classList.toggle("full", on);
+  $("full").setAttribute("aria-pressed", String(on));
+  changed = true;
+}
+document.addEventListener("fullscreenchange", () => filled(Boolean(document.fullscreenElement)));
+$("full").addEventListener("click", fill);
 $("play").addEventListener("click", play);
 $("step").addEventListener("click", step);
 $("reset").addEventListener("click", reset);

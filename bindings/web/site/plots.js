@@ -33,28 +33,35 @@ export function short(value) {
   return text.replace("-", "−");
 }
 
+/** A time in seconds, in words. */
+export function clock(seconds) {
+  return seconds < 600 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`;
+}
+
 const KINDS = [
-  { title: "Speed", unit: "radii per time", zero: true },
+  { title: "Speed", unit: "µm/s", zero: true },
   { title: "Aspect ratio", unit: "along over across", zero: false },
   { title: "Stresslet, xx", unit: "force × length", zero: false },
 ];
 
 export class Plots {
-  constructor(box) {
+  /** The last plot is in a box of its own. */
+  constructor(box, more) {
     this.rows = [];
-    this.plots = KINDS.map((kind) => {
+    this.units = { length: 1, time: 1 };
+    this.plots = KINDS.map((kind, number) => {
       const section = document.createElement("div");
       section.className = "plot";
       const head = document.createElement("h3");
       const name = document.createElement("span");
-      name.textContent = `${kind.title} (${kind.unit})`;
+      name.textContent = kind.zero ? kind.title : `${kind.title} (${kind.unit})`;
       const output = document.createElement("output");
       const canvas = document.createElement("canvas");
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", `${kind.title} over time`);
       head.append(name, output);
       section.append(head, canvas);
-      box.append(section);
+      (number === KINDS.length - 1 ? more : box).append(section);
       return { ...kind, output, canvas };
     });
   }
@@ -77,13 +84,15 @@ export class Plots {
   }
 
   draw() {
-    this.plots.forEach((plot, number) => this.drawOne(plot, number));
+    // What is folded away has no width.
+    this.plots.forEach((plot, number) => plot.canvas.clientWidth && this.drawOne(plot, number));
   }
 
   drawOne({ canvas, output, zero }, number) {
     const [context, width, height] = fitted(canvas);
     const { rows } = this;
-    output.textContent = short(this.last(number));
+    const unit = zero ? this.units.length / this.units.time : 1;
+    output.textContent = short(this.last(number) * unit) + (zero ? " µm/s" : "");
     if (rows.length === 0) return;
     const droplets = (rows[0].length - 1) / 3;
     const span = Math.max(rows.at(-1)[0], 5);
@@ -92,7 +101,7 @@ export class Plots {
     let [low, high] = [zero ? 0 : Infinity, -Infinity];
     for (let k = 0; k < rows.length; k += stride) {
       for (let d = 0; d < droplets; d += 1) {
-        const value = rows[k][1 + 3 * d + number];
+        const value = unit * rows[k][1 + 3 * d + number];
         if (value < low) low = value;
         if (value > high) high = value;
       }
@@ -120,7 +129,7 @@ export class Plots {
       context.fillText(tick(value, step), left - 6, y(value));
     }
     context.textBaseline = "alphabetic";
-    context.fillText(`t = ${short(span)}`, right, height - 3);
+    context.fillText(`t = ${short(span)} (${clock(span * this.units.time)})`, right, height - 3);
     context.textAlign = "left";
     context.fillText(short(begin).replace(/\.0+$/, ""), left, height - 3);
     context.strokeStyle = property("--accent");
@@ -129,7 +138,7 @@ export class Plots {
       context.globalAlpha = droplets === 1 || d === 0 ? 1 : 0.35;
       context.lineWidth = d === 0 ? 1.8 : 1;
       context.beginPath();
-      for (let k = 0; k < rows.length; k += stride) context.lineTo(x(rows[k][0]), y(rows[k][1 + 3 * d + number]));
+      for (let k = 0; k < rows.length; k += stride) context.lineTo(x(rows[k][0]), y(unit * rows[k][1 + 3 * d + number]));
       context.stroke();
     }
     context.globalAlpha = 1;
@@ -139,6 +148,7 @@ export class Plots {
 export class ActivityMap {
   constructor(canvas) {
     this.canvas = canvas;
+    this.unit = 1;
     this.begin();
     this.here = null;
   }

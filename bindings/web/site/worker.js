@@ -16,7 +16,7 @@ let waiting = false;
 let pace = 3;
 let until = NaN;
 let started = { at: 0, time: 0 };
-let look = { tracers: true, streamlines: false, pressure: false, view: [-3, -3, 3, 3] };
+let look = { tracers: true, streamlines: false, pressure: false, arrows: false, view: [-3, -3, 3, 3] };
 let sent = { records: 0, flow: -Infinity, cost: 0, shapes: -1 };
 let meter = { at: 0, steps: 0, time: 0, rate: 0, pace: 0 };
 
@@ -37,11 +37,7 @@ function rebase() {
 
 function load(scene, id) {
   const made = new Engine(scene);
-  try {
-    engine?.free();
-  } catch {
-    // It is in the middle of a call for which the rest of the module did not come.
-  }
+  engine?.free();
   [engine, text, number] = [made, scene, id];
   sent = { records: 0, flow: -Infinity, cost: 0, shapes: -1 };
   meter = { at: now(), steps: 0, time: 0, rate: 0, pace: 0 };
@@ -69,6 +65,10 @@ function frame(fresh) {
     shapes: engine.shapes(),
   };
   const lists = [message.shapes.buffer];
+  if (look.arrows) {
+    message.gradients = engine.tension_gradients();
+    lists.push(message.gradients.buffer);
+  }
   const wanted = look.tracers || look.streamlines || look.pressure;
   const began = now();
   if (wanted && (fresh || (engine.time() !== sent.time && sent.cost < FLOW_SHARE * (began - sent.flow)))) {
@@ -217,7 +217,10 @@ const acts = {
   },
 };
 
-const ready = init().then(() => postMessage({ kind: "ready", presets: JSON.parse(presets()) }));
+const ready = init().then(
+  () => postMessage({ kind: "ready", presets: JSON.parse(presets()) }),
+  (error) => postMessage({ kind: "error", error: problem(error), place: "init" }),
+);
 onmessage = async ({ data }) => {
   await ready;
   try {

@@ -36,6 +36,18 @@ pub fn shapes(seen: &Snapshot) -> Vec<f32> {
     list
 }
 
+/// Derivative of the tension along a closed interface at its markers (force per length), from the tension (force) and
+/// the length of each element. The element of a marker is the one that begins there.
+#[must_use]
+pub fn tension_gradient(tensions: &[f64], lengths: &[f64]) -> Vec<f32> {
+    let count = tensions.len();
+    let slope = |k: usize| {
+        let before = (k + count - 1) % count;
+        (tensions[k] - tensions[before]) / (0.5 * (lengths[k] + lengths[before]))
+    };
+    (0..count).map(|k| slope(k) as f32).collect()
+}
+
 /// Streamlines of a state: for each the number of points, then x and y (length) of each.
 ///
 /// # Errors

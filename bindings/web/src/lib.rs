@@ -16,6 +16,7 @@ mod refusal;
 
 pub use refusal::Refusal;
 
+use motile::active_interface::{Quantity, Units};
 use motile::base::Vec2;
 use motile::setup::Setup;
 use serde_json::json;
@@ -87,12 +88,13 @@ impl Engine {
     }
 
     /// Data that do not change from step to step, as JSON: corner, periods and walls of the region, whether it is of
-    /// revolution, mean concentrations, knobs with their labels, ranges and values, the error of the settings, and
-    /// whether there is a map of speeds.
+    /// revolution, mean concentrations, knobs with their labels, ranges and values, the error of the settings,
+    /// whether there is a map of speeds, and Cowley's units: a length of 1 in um, a time of 1 in s, an activity of 1 in
+    /// pN.
     #[must_use]
     pub fn about(&self) -> String {
         let setup = self.live.described();
-        let domain = self.live.domain();
+        let (domain, units) = (self.live.domain(), Units::thesis());
         let known = Knob::NAMES.iter().filter_map(|(name, knob)| {
             let ([least, most], logarithmic) = knob.range(setup);
             let (value, label) = (knob.value(setup)?, knob.label(setup));
@@ -111,6 +113,8 @@ impl Engine {
             "knobs": known.collect::<Vec<_>>(),
             "error": setup.expected_error(),
             "map": branch::mapped(setup).is_some(),
+            "units": { "length": 1e6 * units.unit(Quantity::Length), "time": units.unit(Quantity::Time),
+                       "activity": 1e12 * units.unit(Quantity::Activity) },
         })
         .to_string()
     }
@@ -127,6 +131,12 @@ impl Engine {
     /// A flow that cannot be computed.
     pub fn shapes(&mut self) -> Result<Vec<f32>, JsValue> {
         Ok(frame::shapes(&self.live.outlined().map_err(thrown)?))
+    }
+
+    /// Derivative of the tension along the interface at the markers of all droplets ([`Live::tension_gradients`]).
+    #[must_use]
+    pub fn tension_gradients(&self) -> Vec<f32> {
+        self.live.tension_gradients()
     }
 
     /// Flow of the present state, which tracers follow from now on: the corner, size and numbers of cells of its

@@ -15,7 +15,7 @@ const MOST_NUMBERS: usize = 4_000_000;
 /// Time after which no run goes on (time scales of the scene).
 const FOREVER: f64 = 1e5;
 /// Fluid shown around the bodies of a region without an end (length scales of the scene).
-const MARGIN: f64 = 2.5;
+const MARGIN: f64 = 4.0;
 /// Number of cells of the flow along the longer side of the picture.
 const CELLS: f64 = 56.0;
 /// Cells of the flow in pictures that are kept.
@@ -288,6 +288,16 @@ impl Live {
     pub fn outlined(&mut self) -> Result<Snapshot, Refusal> {
         let raster = self.raster(1.0)?;
         Ok(Snapshot::of_bodies(self.built.scene.system(), raster)?)
+    }
+
+    /// Derivative of the tension along the interface at the markers of all droplets (force per length), in the order of
+    /// [`crate::frame::shapes`].
+    #[must_use]
+    pub fn tension_gradients(&self) -> Vec<f32> {
+        let gradient = |(_, droplet): (_, &ActiveDroplet)| {
+            crate::frame::tension_gradient(droplet.tensions(), droplet.element_lengths())
+        };
+        self.built.scene.system().bodies().flat_map(gradient).collect()
     }
 
     /// Picture of the present state as SVG, drawn by `motile-output`.

@@ -1,21 +1,11 @@
 // The compiled page in node against native numbers, and against the command line's of a scene that the tests of the
 // Python package compare with the same command: `node tests/node.mjs FOLDER NUMBERS SCENE SUMMARY`.
 import { existsSync, readFileSync } from "node:fs";
-import { basename, join, resolve } from "node:path";
+import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const [folder, numbers, scene, summary] = process.argv.slice(2);
 const bytes = (name) => readFileSync(join(folder, name));
-/** What `rest.js` asks of a browser, of files. */
-globalThis.XMLHttpRequest = class {
-  open(_method, address) {
-    this.name = basename(address.pathname);
-  }
-  overrideMimeType() {}
-  send() {
-    [this.status, this.responseText] = [200, bytes(this.name).toString("latin1")];
-  }
-};
 const { default: init, Engine, presets } = await import(pathToFileURL(resolve(folder, "motile.js")));
 await init({ module_or_path: bytes("motile_bg.wasm") });
 const expected = JSON.parse(readFileSync(numbers, "utf8"));
@@ -48,6 +38,27 @@ try {
 } catch (error) {
   const { key, remedy } = JSON.parse(error);
   if (key !== "viscosity" || !remedy) throw new Error(`an error without key and remedy: ${error}`);
+}
+// Errors in words for people: where, what, and what to do.
+const { plain } = await import(pathToFileURL(resolve(folder, "problem.js")));
+for (const [text, ...words] of [
+  ["viscosity = -1.0", "“viscosity = -1” is not possible.", "Give a positive finite number."],
+  ["viscosty = 1.0", "Line 1 (viscosty = 1.0)", "no key “viscosty”", "Did you mean “viscosity”?"],
+  ["[[droplets]]\nradius = 1", "Line 2 (radius = 1)", "no key “radius”", "shape"],
+  ["no scene", "Line 1 (no scene)", "A key needs a value. Write: key = value."],
+  ["[[droplets]]\ncentre = [1", "Line 2", "is not closed. Close it."],
+  ["[[droplets]]\nparticles.activity = 'a'", "Line 2", 'the text "a"', "Give a number instead."],
+  ["region.box.lengths = [1.5, 1.5]\n[[droplets]]", "Droplet 1", "does not fit", "enlarge the region"],
+  ["[[droplets]]\n[[droplets]]", "Droplet 2 overlaps droplet 1"],
+]) {
+  let told = "";
+  try {
+    new Engine(text);
+  } catch (error) {
+    told = plain(JSON.parse(error));
+  }
+  for (const word of words) if (!told.includes(word)) throw new Error(`the error of ${text} is ${told}, without ${word}`);
+  if (/[\[\]{}|^`]/.test(told.replace(/\(.*?\)/, ""))) throw new Error(`the error of ${text} has marks: ${told}`);
 }
 // Links of the page's own text, and links to scenes with what messages add, or cut.
 const page = readFileSync(join(folder, "index.html"), "utf8");

@@ -23,13 +23,11 @@ export const FLAGS = [
   "--disable-sync",
 ];
 
-/** A server and its address, the files that were asked for, and those that it does not give. */
+/** A server, its address, and the files that it does not give. */
 export async function serve(folder) {
-  const asked = new Set();
   const missing = new Set();
   const server = createServer((request, response) => {
     const path = join(folder, normalize(new URL(request.url, "http://x").pathname).replace(/\/$/, "/index.html"));
-    asked.add(path);
     if (missing.has(path) || !existsSync(path) || !statSync(path).isFile()) {
       response.writeHead(404).end();
       return;
@@ -38,5 +36,5 @@ export async function serve(folder) {
     createReadStream(path).pipe(response);
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  return { server, asked, missing, address: `http://127.0.0.1:${server.address().port}/` };
+  return { server, missing, address: `http://127.0.0.1:${server.address().port}/` };
 }

@@ -6,7 +6,7 @@ import { FLAGS, serve } from "./serve.mjs";
 
 const [folder, out] = process.argv.slice(2);
 /** Time at which each is drawn. */
-const TIMES = { swimmer: 8, meeting: 5.5, channel: 9, nucleus: 12, sixteen: 3, constriction: 6, tube: 6 };
+const TIMES = { swimmer: 8, meeting: 5.5, channel: 9, nucleus: 12, sixteen: 3, constriction: 22, tube: 6 };
 mkdirSync(out, { recursive: true });
 const { server, address } = await serve(folder);
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: FLAGS });
@@ -15,7 +15,7 @@ await page.goto(address);
 await page.waitForFunction(() => document.documentElement.dataset.first);
 for (const [name, time] of Object.entries(TIMES)) {
   await page.click(`[data-name=${name}]`);
-  await page.waitForTimeout(300);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.steps) > 0);
   await page.evaluate((time) => window.motile.go({ time }), time);
   await page.waitForTimeout(300);
   const data = await page.evaluate(() => {

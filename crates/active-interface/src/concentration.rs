@@ -12,24 +12,25 @@ use positivity::repair_positivity;
 pub use initial::{InitialConcentration, SplitMix64};
 pub use positivity::Repair;
 
-/// Reconstruction of the concentration at a marker from that of the segments around it, for the advective flux.
+/// Reconstruction of the concentration at a marker from the concentrations of the segments around it, for the advective
+/// flux.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Flux {
     /// Concentration of the segment upstream: of first order, it smears the edge of the concentration. The speed of a
-    /// swimmer in a 6 x 6 box with 192 cells is 2.9, 4.6 and 6.6 per cent too high at activities of -2, -3 and -4, with
-    /// 288 cells 2.0, 3.4 and 4.8 per cent; runs warn of it.
+    /// swimmer in a 6 x 6 box with 192 cells is 2.9, 4.6 and 6.6 % too high at activities of -2, -3 and -4. With 288
+    /// cells, it is 2.0, 3.4 and 4.8 % too high. Runs warn of it.
     Upwind,
-    /// Weighted essentially non-oscillatory reconstruction from five segments, two of them downstream: fifth order
-    /// where the concentration is smooth, without oscillations where it is not (Jiang and Shu 1996, with the weights of
-    /// Borges, Carmona, Costa and Don 2008).
+    /// Weighted essentially non-oscillatory reconstruction from five segments, two of them downstream. It is of fifth
+    /// order where the concentration is smooth, and without oscillations where it is not (Jiang and Shu 1996, with the
+    /// weights of Borges, Carmona, Costa and Don 2008).
     #[default]
     Weno5,
 }
 
-/// Value at the end between the third and the fourth of five cells of equal size, from their averages: the WENO-Z
-/// scheme, upwinded towards the first cell.
+/// Returns the value at the end between the third and the fourth of five cells of equal size, from their averages: the
+/// WENO-Z scheme, upwinded towards the first cell.
 ///
 /// With the three parabolas' values p_i, their smoothness indicators b_i and t = |b_0 - b_2|, the weights are
 /// proportional to d_i (1 + (t / (b_i + e))^2), d = (1, 6, 3)/10. The small number e is 1e-12 of the mean square of the
@@ -61,16 +62,16 @@ pub(crate) fn weno5(v: [f64; 5]) -> f64 {
 /// dn_k/dt = Phi_k - Phi_{k+1},   Phi_k = (face value of c) (V_t - W)_k - D_k (c_k - c_{k-1}) / ds_k,
 /// ds_k = (l_{k-1} + l_k)/2
 /// ```
-/// (Cowley, eq. 2.3, in finite volumes), with V_t the tangential velocity of the fluid at marker k, W that of the
-/// marker itself and D_k the diffusivity there (length squared per time). The first part is for explicit, the second,
-/// linear in n, for implicit time stepping. Every change is a difference of fluxes, so the total number is kept to
-/// round-off.
+/// (Cowley, eq. 2.3, in finite volumes), with V_t the tangential velocity of the fluid at marker k, W the velocity of
+/// the marker itself and D_k the diffusivity there (length squared per time). The first part is for explicit, the
+/// second, linear in n, for implicit time stepping. Every change is a difference of fluxes, so the total number is kept
+/// to round-off.
 ///
 /// On a surface of revolution a segment stands for half of a ring: numbers are over its area, and Phi_k has the length
 /// of its edge as a factor ([`Cells`]).
 ///
-/// All velocities, fluxes and diffusivities are lists of M values, one a marker; numbers and lengths are lists of M
-/// values, one a segment. Values that are not finite stay so, and the state that follows is refused when it is read.
+/// All velocities, fluxes and diffusivities are lists of M values, one per marker; numbers and lengths are lists of M
+/// values, one per segment. Values that are not finite stay so, and the state that follows is refused when it is read.
 /// Nothing is allocated after construction.
 #[derive(Debug, Clone)]
 pub(crate) struct Transport {
@@ -90,7 +91,7 @@ pub(crate) struct Cells<'a> {
     pub(crate) sizes: &'a [f64],
     /// Lengths along the curve (length).
     pub(crate) lengths: &'a [f64],
-    /// Lengths of the faces, halves of circles (length); empty in the plane, where they have none.
+    /// Lengths of the faces, halves of circles (length); empty in the plane, if they have none.
     pub(crate) faces: &'a [f64],
 }
 
@@ -102,14 +103,14 @@ impl Cells<'_> {
 }
 
 impl<'a, T: AsRef<[f64]> + ?Sized> From<&'a T> for Cells<'a> {
-    /// Cells in the plane of these lengths.
+    /// Creates cells in the plane of these lengths.
     fn from(lengths: &'a T) -> Self {
         Self { sizes: lengths.as_ref(), lengths: lengths.as_ref(), faces: &[] }
     }
 }
 
 impl Transport {
-    /// Transport over `segments` segments, at least as many as a reconstruction takes.
+    /// Creates a transport over `segments` segments, at least as many as a reconstruction takes.
     pub(crate) fn new(segments: usize, flux: Flux) -> Self {
         let zeros = || vec![0.0; segments];
         Self {
@@ -123,12 +124,12 @@ impl Transport {
         }
     }
 
-    /// Number of segments.
+    /// Returns the number of segments.
     pub(crate) fn len(&self) -> usize {
         self.concentrations.len()
     }
 
-    /// The flux in use.
+    /// Returns the flux in use.
     pub(crate) fn flux(&self) -> Flux {
         self.flux
     }
@@ -187,7 +188,7 @@ impl Transport {
     /// [`Transport::add_diffusion`] and `factor` (time) and the diffusivities are not negative.
     ///
     /// The result is n plus a difference of fluxes, so that the total is kept to round-off; where all n are positive,
-    /// so are all y, but for round-off. Not a number where a length is not positive.
+    /// so are all y, except for round-off. Not a number where a length is not positive.
     pub(crate) fn solve_diffusion<'a>(
         &mut self,
         cells: impl Into<Cells<'a>>,
@@ -245,7 +246,7 @@ fn add_flux_differences(fluxes: &[f64], factor: f64, out: &mut [f64]) {
     }
 }
 
-/// Distance between the midpoints of the two segments at marker k, along the curve (length).
+/// Returns the distance between the midpoints of the two segments at marker k, along the curve (length).
 fn spacing_at(lengths: &[f64], k: usize) -> f64 {
     0.5 * (lengths[k] + lengths[before(k, 1, lengths.len())])
 }
@@ -261,10 +262,10 @@ fn after(k: usize, distance: usize, m: usize) -> usize {
     if next >= m { next - m } else { next }
 }
 
-/// The largest element Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative velocities at
-/// the markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
+/// Returns the largest element Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative
+/// velocities at the markers, segment lengths and the diffusivity D. It is infinite for D = 0 if anything moves.
 ///
-/// Above 0.35 the edge of the concentration is not resolved: use a smaller marker spacing.
+/// Above 0.35, the edge of the concentration is not resolved: use a smaller marker spacing.
 pub(crate) fn element_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> f64 {
     let largest = relative_velocities
         .iter()

@@ -84,7 +84,7 @@ enum Shape {
     },
 }
 
-/// Radius over its mean at the polar angle `angle`.
+/// Returns the radius over its mean at the polar angle `angle`.
 fn fourier_factor(cosines: &[f64], sines: &[f64], angle: f64) -> f64 {
     let wave = |amplitudes: &[f64], f: fn(f64) -> f64| -> f64 {
         amplitudes.iter().zip(1u32..).map(|(amplitude, k)| amplitude * f(f64::from(k) * angle)).sum()
@@ -93,7 +93,7 @@ fn fourier_factor(cosines: &[f64], sines: &[f64], angle: f64) -> f64 {
 }
 
 impl Shape {
-    /// Point at the fraction `t` of the parameter, t in [0, 1].
+    /// Returns the point at the fraction `t` of the parameter, t in [0, 1].
     fn point(&self, t: f64) -> Vec2 {
         match self {
             Self::Ellipse(a, b) => {
@@ -115,7 +115,7 @@ impl Shape {
         }
     }
 
-    /// Signed area (length squared) where there is a formula.
+    /// Returns the signed area (length squared) if there is a formula.
     fn area(&self) -> Option<f64> {
         match self {
             Self::Ellipse(a, b) => Some(PI * a * b),
@@ -131,30 +131,31 @@ impl Shape {
 }
 
 impl Curve {
-    /// A circle about the origin with this radius (length).
+    /// Creates a circle about the origin with this radius (length).
     ///
     /// # Errors
-    /// A radius that is not positive.
+    /// Returns an error for a radius that is not positive.
     pub fn circle(radius: f64) -> Result<Self, InterfaceError> {
         positive("the radius", radius)?;
         Self::build(Shape::Ellipse(radius, radius))
     }
 
-    /// The ellipse (a cos t, b sin t) with the half axes a along x and b along y (length).
+    /// Creates the ellipse (a cos t, b sin t) with the half axes a along x and b along y (length).
     ///
     /// # Errors
-    /// Half axes that are not positive.
+    /// Returns an error for half axes that are not positive.
     pub fn ellipse(a: f64, b: f64) -> Result<Self, InterfaceError> {
         Self::build(Shape::Ellipse(positive("the half axis along x", a)?, positive("the half axis along y", b)?))
     }
 
-    /// The curve r(theta) = R (1 + sum over k >= 1 of a_k cos k theta + b_k sin k theta) about the origin, with
+    /// Creates the curve r(theta) = R (1 + sum over k >= 1 of a_k cos k theta + b_k sin k theta) about the origin, with
     /// `cosines` = a_1, a_2, ... and `sines` = b_1, b_2, ... (no dimension) and the radius R (length).
     ///
     /// The area inside is pi R^2 (1 + sum (a_k^2 + b_k^2) / 2).
     ///
     /// # Errors
-    /// A radius R that is not positive, amplitudes that are not finite or so large that r is not positive everywhere.
+    /// Returns an error for a radius R that is not positive, amplitudes that are not finite or so large that r is not
+    /// positive everywhere.
     pub fn fourier(radius: f64, cosines: &[f64], sines: &[f64]) -> Result<Self, InterfaceError> {
         positive("the radius", radius)?;
         all_finite("the cosine amplitudes", cosines)?;
@@ -169,11 +170,11 @@ impl Curve {
         Self::build(Shape::Fourier { radius, cosines: cosines.to_vec(), sines: sines.to_vec() })
     }
 
-    /// The curve of a function of a parameter that runs from 0 to 2 pi and need not be the polar angle nor the arc
-    /// length. Area and length are right to round-off for smooth curves, to 1e-7 for curves with corners.
+    /// Returns the curve of a function of a parameter that runs from 0 to 2 pi and need not be the polar angle nor the
+    /// arc length. Area and length are right to round-off for smooth curves, to 1e-7 for curves with corners.
     ///
     /// # Errors
-    /// Points that are not finite, an end that is not the start, a crossing, no area.
+    /// Returns an error for points that are not finite, an end that is not the start, a crossing, no area.
     pub fn parametric(point: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, InterfaceError> {
         let (start, end) = (point(0.0), point(TAU));
         all_points_finite("the ends of the curve", &[start, end])?;
@@ -185,15 +186,15 @@ impl Curve {
         Self::build(Shape::Parametric(Function::new(point)))
     }
 
-    /// The smooth closed curve through these points; the last is joined to the first and must not repeat it.
+    /// Creates the smooth closed curve through these points; the last is joined to the first and must not repeat it.
     ///
     /// It is a cubic spline that stays near the polygon through the points ([`Curve::distance_from_polygon`]): its
     /// distance from a side is at most 0.15 of the shortest of the side and its two neighbours. If the points are
     /// uneven or have sharp corners, the curve follows the sides there.
     ///
     /// # Errors
-    /// Fewer than three points, points that are not finite or coincide, a crossing (by the numbers of the points), no
-    /// area.
+    /// Returns an error for fewer than three points, points that are not finite or coincide, a crossing (by the numbers
+    /// of the points), no area.
     pub fn through_points(points: &[Vec2]) -> Result<Self, InterfaceError> {
         check_list(points, 3)?;
         let crossing = |spline: &PeriodicSpline| {
@@ -204,17 +205,17 @@ impl Curve {
         Self::build(Shape::Spline(NearPolygon::new(points, Vec2::ZERO, crossing)?))
     }
 
-    /// Largest distance of the curve from the polygon through the points that it was made from (length); `None` for
-    /// curves that are no [`Curve::through_points`].
+    /// Returns the largest distance of the curve from the polygon through the points that it was made from (length);
+    /// `None` for curves that were not made with [`Curve::through_points`].
     #[must_use]
     pub fn distance_from_polygon(&self) -> Option<f64> {
         if let Shape::Spline(curve) = &self.shape { Some(curve.distance) } else { None }
     }
 
-    /// The polygon with these corners; the last is joined to the first and must not repeat it.
+    /// Creates the polygon with these corners; the last is joined to the first and must not repeat it.
     ///
     /// # Errors
-    /// Fewer than three points, points that are not finite or coincide, a crossing, no area.
+    /// Returns an error for fewer than three points, points that are not finite or coincide, a crossing, no area.
     pub fn polygon(points: &[Vec2]) -> Result<Self, InterfaceError> {
         check_list(points, 3)?;
         let mut length = 0.0;
@@ -227,12 +228,12 @@ impl Curve {
         Self::build(Shape::Polygon { points: points.to_vec(), ends })
     }
 
-    /// Two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by straight sides
-    /// of the length 2 `straight`, as a polygon of 720 corners on it that starts on the x axis: an even number of
-    /// markers is its own mirror image there.
+    /// Creates two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by
+    /// straight sides of the length 2 `straight`. They form a polygon of 720 corners that starts on the x axis: an even
+    /// number of markers is its own mirror image there.
     ///
     /// # Errors
-    /// A radius that is not positive, a negative length.
+    /// Returns an error for a radius that is not positive, a negative length.
     pub fn stadium(straight: f64, radius: f64) -> Result<Self, InterfaceError> {
         const CORNERS: u32 = 720;
         positive("the radius", radius)?;
@@ -282,19 +283,19 @@ impl Curve {
         self
     }
 
-    /// Area inside (length squared).
+    /// Returns the area inside (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// Length of the curve (length).
+    /// Returns the length of the curve (length).
     #[must_use]
     pub fn perimeter(&self) -> f64 {
         self.perimeter
     }
 
-    /// Point (length) at the fraction `t` of the curve's own parameter, t in [0, 1], counter-clockwise.
+    /// Returns the point (length) at the fraction `t` of the curve's own parameter, t in [0, 1], counter-clockwise.
     #[must_use]
     pub fn point(&self, t: f64) -> Vec2 {
         let t = t.clamp(0.0, 1.0);
@@ -302,16 +303,19 @@ impl Curve {
         Vec2::from_angle(self.rotation).rotate(point) + self.translation
     }
 
-    /// `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
+    /// Returns `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
     ///
     /// Chords between neighbours are equal, to 1e-12 of their length; around corners that are sharper than their
     /// distance, where there need be no equal chords, arc lengths are. The polygon through the markers is scaled about
-    /// its centroid so that its area is that of the curve; the markers then lie outside the curve by about (spacing)^2
+    /// its centroid so that it has the area of the curve; the markers then lie outside the curve by about (spacing)^2
     /// times its curvature / 12.
     ///
     /// # Errors
-    /// Fewer than eight or more than a million markers; so few that the polygon crosses itself; a curve whose chords
-    /// could not be made equal; rotations or translations that are not finite.
+    /// Returns an error for:
+    /// * fewer than eight or more than a million markers,
+    /// * so few that the polygon crosses itself,
+    /// * a curve whose chords could not be made equal,
+    /// * rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
         at_least("markers", count, MINIMUM_MARKERS)?;
         within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
@@ -336,23 +340,24 @@ impl Curve {
         }
     }
 
-    /// Markers about `spacing` apart (length): as [`Curve::markers`], with the perimeter divided by the spacing,
-    /// rounded, as their number.
+    /// Returns the markers about `spacing` apart (length): as [`Curve::markers`], with the perimeter divided by the
+    /// spacing, rounded, as their number.
     ///
     /// # Errors
-    /// A spacing that is not positive or gives fewer than eight markers, and those of [`Curve::markers`].
+    /// Returns an error for a spacing that is not positive or gives fewer than eight markers, and the errors of
+    /// [`Curve::markers`].
     pub fn markers_with_spacing(&self, spacing: f64) -> Result<Vec<Vec2>, InterfaceError> {
         positive("the marker spacing", spacing)?;
         self.markers((self.perimeter / spacing).round() as usize)
     }
 }
 
-/// Markers of an interface from points (length): checked, and turned around where they run clockwise (the first stays
-/// the first).
+/// Returns the markers of an interface from points (length): checked, and turned around where they run clockwise (the
+/// first stays the first).
 ///
 /// # Errors
-/// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more
-/// than a factor of four, a crossing, no area.
+/// Returns an error for fewer than eight points, points that are not finite or coincide, distances between neighbours
+/// that differ by more than a factor of four, a crossing, no area.
 pub(crate) fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
@@ -393,8 +398,8 @@ fn every(points: &[Vec2], stride: usize) -> Vec<Vec2> {
     points.iter().step_by(stride).copied().collect()
 }
 
-/// Richardson extrapolation of a quantity of the inscribed polygon with every stride-th sample, whose error is a series
-/// in the square of the spacing.
+/// Returns the Richardson extrapolation of a quantity of the inscribed polygon with every stride-th sample, whose error
+/// is a series in the square of the spacing.
 fn extrapolate(quantity: impl Fn(usize) -> f64) -> f64 {
     let mut column: Vec<f64> = [8, 4, 2, 1].into_iter().map(quantity).collect();
     let mut factor = 4.0;

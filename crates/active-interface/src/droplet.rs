@@ -13,8 +13,8 @@ use crate::{
     exchange::Pool,
 };
 
-/// A droplet: a closed [`ActiveInterface`], to which it dereferences for all that can be read of it, with what is
-/// inside.
+/// A droplet: a closed [`ActiveInterface`] and what is inside. It dereferences to the interface, so you can read
+/// everything there.
 #[derive(Debug, Clone)]
 pub struct ActiveDroplet {
     pub(crate) interface: ActiveInterface,
@@ -37,14 +37,15 @@ impl From<ActiveInterface> for ActiveDroplet {
 }
 
 impl ActiveDroplet {
-    /// A droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the particle
-    /// numbers of the segments that follow them, the tension law and the particles' diffusion constant along the
-    /// interface (length squared per time).
+    /// Creates a droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the
+    /// particle numbers of the segments that follow them, the tension law and the particles' diffusion constant along
+    /// the interface (length squared per time).
     ///
     /// # Errors
-    /// Fewer than eight markers, lists of different length, positions that are not finite, coincide, are spaced by more
-    /// than a factor of four unevenly, or whose curve crosses itself or has no area; negative or non-finite numbers, a
-    /// negative diffusion constant.
+    /// Returns an error for:
+    /// * fewer than eight markers, lists of different length, positions that are not finite, coincide, are spaced by
+    ///   more than a factor of four unevenly, or whose curve crosses itself or has no area,
+    /// * negative or non-finite numbers, a negative diffusion constant.
     pub fn new(
         markers: &[Vec2],
         numbers: Vec<f64>,
@@ -55,16 +56,16 @@ impl ActiveDroplet {
         Ok(ActiveInterface::build(markers, 0.0, numbers, Arc::new(tension), Some(diffusion))?.into())
     }
 
-    /// A droplet without particles, of constant tension (force): it relaxes to a circle and is carried along.
+    /// Creates a droplet without particles, of constant tension (force): it relaxes to a circle and is carried along.
     ///
     /// # Errors
-    /// Those of [`ActiveDroplet::new`], and a tension that is negative or not finite.
+    /// Returns the errors of [`ActiveDroplet::new`], and a tension that is negative or not finite.
     pub fn passive(markers: &[Vec2], tension: f64) -> Result<Self, InterfaceError> {
         let tension = Arc::new(crate::ConstantTension::new(tension)?);
         Ok(ActiveInterface::build(markers_from_points(markers)?, 0.0, Vec::new(), tension, None)?.into())
     }
 
-    /// The droplet with another interface.
+    /// Returns the droplet with another interface.
     fn map(self, change: impl FnOnce(ActiveInterface) -> ActiveInterface) -> Self {
         Self { interface: change(self.interface), ..self }
     }
@@ -101,7 +102,7 @@ impl ActiveDroplet {
     /// See [`ActiveInterface::with_bounds`].
     ///
     /// # Errors
-    /// A bound that is negative or not a number.
+    /// Returns an error for a bound that is negative or not a number.
     pub fn with_bounds(self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
         Ok(Self { interface: self.interface.with_bounds(area, particles)?, ..self })
     }
@@ -109,7 +110,7 @@ impl ActiveDroplet {
     /// See [`ActiveInterface::axisymmetric`].
     ///
     /// # Errors
-    /// Those of [`ActiveInterface::axisymmetric`].
+    /// Returns the errors of [`ActiveInterface::axisymmetric`].
     pub fn axisymmetric(self) -> Result<Self, InterfaceError> {
         Ok(Self { interface: self.interface.axisymmetric()?, ..self })
     }
@@ -123,7 +124,7 @@ impl ActiveDroplet {
     /// See [`ActiveInterface::with_viscosity_inside`].
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite.
+    /// Returns an error for a viscosity that is not positive and finite.
     pub fn with_viscosity_inside(self, viscosity: f64) -> Result<Self, InterfaceError> {
         Ok(Self { interface: self.interface.with_viscosity_inside(viscosity)?, ..self })
     }
@@ -131,7 +132,7 @@ impl ActiveDroplet {
     /// See [`ActiveInterface::with_bending`].
     ///
     /// # Errors
-    /// A modulus that is negative or not finite, a reference curvature that is not finite.
+    /// Returns an error for a modulus that is negative or not finite, a reference curvature that is not finite.
     pub fn with_bending(self, modulus: f64, reference_curvature: f64) -> Result<Self, InterfaceError> {
         Ok(Self { interface: self.interface.with_bending(modulus, reference_curvature)?, ..self })
     }
@@ -146,7 +147,7 @@ impl ActiveDroplet {
     /// the particles on the interface and inside is conserved; the exchange is implicit and sets no time step.
     ///
     /// # Errors
-    /// A droplet without particles on its interface; a number that is negative or not finite.
+    /// Returns an error for a droplet without particles on its interface; a number that is negative or not finite.
     pub fn with_well_mixed_interior(mut self, exchange: Exchange, number: f64) -> Result<Self, InterfaceError> {
         let numbers = self.interface.state.numbers.len();
         at_least("particle numbers of a droplet that exchanges particles", numbers, MINIMUM_MARKERS)?;
@@ -155,19 +156,20 @@ impl ActiveDroplet {
         Ok(self)
     }
 
-    /// Number of particles in the pool inside; `None` without a pool.
+    /// Returns the number of particles in the well-mixed interior; `None` without one.
     #[must_use]
     pub fn number_inside(&self) -> Option<f64> {
         self.pool.map(|pool| pool.number)
     }
 
-    /// Particles that bind to the interface less those that unbind (1/time); `None` without a pool.
+    /// Returns the particles that bind to the interface less those that unbind (1/time); `None` without a well-mixed
+    /// interior.
     #[must_use]
     pub fn exchange_flux(&self) -> Option<f64> {
         self.pool.map(|pool| pool.flux(self.element_lengths(), self.interface.number()))
     }
 
-    /// Particles on the interface and inside.
+    /// Returns the particles on the interface and inside.
     fn total_number(&self) -> f64 {
         self.interface.number() + self.pool.map_or(0.0, |pool| pool.number)
     }

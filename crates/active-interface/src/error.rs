@@ -2,7 +2,7 @@
 
 use motile_base::{
     InputError, Refusal, Vec2,
-    internal::{Refuse, place, told, told_apart},
+    internal::{Refuse, given, place, told, told_apart},
 };
 
 /// An error of this crate; its message has the offending values and the remedy.
@@ -22,7 +22,7 @@ pub enum InterfaceError {
     },
     /// An iteration that did not converge.
     #[error(
-        "{what} stopped at a residual of {}, above {}: {remedy}",
+        "{what} stopped at a residual of {}, above {}. {remedy}",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
     NoConvergence {
@@ -37,8 +37,8 @@ pub enum InterfaceError {
     },
     /// A tension law without a plateau has drawn the particles together to a point.
     #[error(
-        "{part:.2} of all particles are on one segment: the tension law has no plateau, so they collapse towards a \
-         point at any resolution. Use an activity below the strength of the excluded volume"
+        "{part:.2} of all particles are on one interface element: the tension law does not level off, so they collapse \
+         towards a point at any resolution. Use an activity below the strength of the excluded volume"
     )]
     Collapse {
         /// Fraction of the particles on the fullest segment.
@@ -52,18 +52,18 @@ pub enum InterfaceError {
 motile_base::debug_as_explanation!(InterfaceError);
 
 impl InterfaceError {
-    /// A marker of an axisymmetric interface that has no mirror image.
+    /// Returns the error for a marker of an axisymmetric interface that has no mirror image.
     pub(crate) fn not_axisymmetric(marker: Vec2) -> Self {
         let what = format!("the marker at {} has no mirror image in the x axis", place(marker.x, marker.y));
         Self::refused(what, "", AXISYMMETRIC)
     }
 
-    /// An axisymmetric interface whose markers move with the fluid.
+    /// Returns the error for an axisymmetric interface whose markers move with the fluid.
     pub(crate) fn moving_meridian() -> Self {
         Self::refused("the markers of an axisymmetric interface cannot move with the fluid", "", AXISYMMETRIC)
     }
 
-    /// Particles of an axisymmetric interface that are not those of their mirror image.
+    /// Returns the error for particles of an axisymmetric interface that differ from their mirror image.
     pub(crate) fn particles_not_axisymmetric(segment: usize, number: f64, image: f64) -> Self {
         let [number, image] = told_apart([number, image]);
         let value = format!("segment {segment} has {number} particles and its mirror image has {image}");
@@ -71,18 +71,18 @@ impl InterfaceError {
         Self::refused("the particles of an axisymmetric interface are not symmetric", value, remedy)
     }
 
-    /// An entry that is not positive in a list of positive numbers.
+    /// Returns the error for an entry that is not positive in a list of positive numbers.
     pub(crate) fn entry_not_positive(name: &str, index: usize, value: f64) -> Self {
-        Self::refused(format!("entry {index} of {name} is {value}"), "", "Use positive finite numbers only")
+        Self::refused(format!("entry {index} of {name} is {}", given(value)), "", "Use positive finite numbers only")
     }
 
-    /// A curve whose end is not its start.
+    /// Returns the error for a curve whose end is not its start.
     pub(crate) fn not_closed(gap: f64) -> Self {
         let value = format!("its end is {gap:.3e} away from its start");
         Self::refused("the curve is not closed", value, "Make it periodic in its parameter")
     }
 
-    /// A curve that does not meet its next image.
+    /// Returns the error for a curve that does not meet its next image.
     pub(crate) fn not_periodic(gap: f64, advance: f64, spacing: f64) -> Self {
         let value = format!(
             "the image of its first point, {advance} further along x, is {gap:.3e} from its last point, but neighbours \
@@ -92,93 +92,96 @@ impl InterfaceError {
         Self::refused("the curve does not close across the period", value, remedy)
     }
 
-    /// Elasticity of a closed interface.
+    /// Returns the error for elasticity of a closed interface.
     pub(crate) fn closed_membrane() -> Self {
         let remedy = "Use a shell for a closed elastic membrane";
         Self::refused("only interfaces that are periodic along x can be elastic", "this interface is closed", remedy)
     }
 
-    /// A concentration by the polar angle on a curve that goes around nothing.
+    /// Returns the error for a concentration by the polar angle on a curve that goes around nothing.
     pub(crate) fn no_polar_angle() -> Self {
         let what = "an interface that is periodic along x has no polar angle";
         Self::refused(what, "", "Describe the concentration by the arc length")
     }
 
-    /// A polygon whose moments of area are not those of a shape.
+    /// Returns the error for a polygon whose moments of area belong to no shape.
     pub(crate) fn crossed() -> Self {
         let what = "the second moments of area of the polygon are not positive";
         Self::refused(what, "it crosses itself", "Reorder or move its points")
     }
 
-    /// Two successive points of a curve that coincide.
+    /// Returns the error for two successive points of a curve that coincide.
     pub(crate) fn coincident_points(index: usize) -> Self {
         Self::refused(format!("point {index} of the curve coincides with the next one"), "", "Remove one of them")
     }
 
-    /// An elastic interface that is compressed to nearly nothing, which the energy of its stretching does not prevent.
+    /// Returns the error for an elastic interface that is compressed to nearly nothing, which the energy of its
+    /// stretching does not prevent.
     pub(crate) fn crushed(stretch: f64, least: f64, Vec2 { x, y }: Vec2) -> Self {
         let what = format!("the elastic interface is compressed to {stretch:.3} of its length near {}", place(x, y));
         let value = format!("below {least} of the length at rest, its stretching energy no longer resists");
         Self::refused(what, value, "Use a larger modulus, or weaker activity of its particles")
     }
 
-    /// A curve through points, two segments of which cross, by their first points.
+    /// Returns the error for a curve through points, two segments of which cross, by their first points.
     pub(crate) fn crossing_points(first: usize, second: usize) -> Self {
         let place = format!("between the segments that start at points {first} and {second}");
-        Self::SelfCrossing { place, remedy: "move or reorder its points" }
+        Self::SelfCrossing { place, remedy: "Move or reorder its points" }
     }
 
-    /// A curve of a function that crosses itself at two parameters.
+    /// Returns the error for a curve of a function that crosses itself at two parameters.
     pub(crate) fn crossing_parameters(first: f64, second: f64) -> Self {
         let place = format!("near the parameters {first:.4} and {second:.4}");
-        Self::SelfCrossing { place, remedy: "use a function whose values are different between 0 and 2 pi" }
+        Self::SelfCrossing { place, remedy: "Use a function whose values are different between 0 and 2 pi" }
     }
 
-    /// Markers on a simple curve that are too few, so that the polygon through them crosses itself.
+    /// Returns the error for markers on a simple curve that are too few, so that the polygon through them crosses
+    /// itself.
     pub(crate) fn crossing_markers(place: Vec2, count: usize) -> Self {
         let place = format!("near ({:.4}, {:.4}), as the polygon of {count} markers on it", place.x, place.y);
-        Self::SelfCrossing { place, remedy: "use more markers, or a curve with wider necks" }
+        Self::SelfCrossing { place, remedy: "Use more markers, or a curve with wider necks" }
     }
 
-    /// A smooth curve through points that leaves their polygon, however many points it goes through on a side.
+    /// Returns the error for a smooth curve through points that leaves their polygon, however many points it goes
+    /// through on a side.
     pub(crate) fn strays(point: usize) -> Self {
         let what = format!("the smooth curve through the points leaves the polygon through them next to point {point}");
         let value = "the distances between its neighbours are too different";
-        Self::refused(what, value, "Leave points out that nearly coincide, or give more points there")
+        Self::refused(what, value, "Remove points that nearly coincide, or add points there")
     }
 
-    /// Points whose distances are too uneven.
+    /// Returns the error for points whose distances are too uneven.
     pub(crate) fn uneven_spacing(ratio: f64, bound: f64) -> Self {
         let [ratio, bound] = told_apart([ratio, bound]);
         let value = format!("the longest distance between neighbours is {ratio} times the shortest, more than {bound}");
         Self::refused("the points of the curve are spaced too unevenly", value, "Space them evenly")
     }
 
-    /// A curve that encloses no area.
+    /// Returns the error for a curve that encloses no area.
     pub(crate) fn no_area(area: f64, length: f64) -> Self {
         let value = format!("it is {area:.3e}, too small for the length {length:.4} of the curve");
         Self::refused("the curve encloses no area", value, "Use points that do not lie on a line")
     }
 
-    /// A curve in polar form whose radius is not positive everywhere.
+    /// Returns the error for a curve in polar form whose radius is not positive everywhere.
     pub(crate) fn radius_not_positive(radius: f64, angle: f64) -> Self {
         let what = format!("the radius is {radius:.3e} at the polar angle {angle:.4}");
         Self::refused(what, "it must be positive everywhere", "Use smaller amplitudes of the modes")
     }
 
-    /// Bending of an interface through whose markers no smooth curve goes.
+    /// Returns the error for bending of an interface through whose markers no smooth curve goes.
     pub(crate) fn uneven_bending() -> Self {
         let what = "bending needs a fixed number of markers in two dimensions";
         Self::refused(what, "", "Move the markers by Motion::Equidistributed")
     }
 
-    /// Particle numbers with a negative sum.
+    /// Returns the error for particle numbers with a negative sum.
     pub(crate) fn no_particles(total: f64) -> Self {
         let what = format!("the particle numbers add up to {}", told(total));
         Self::refused(what, "", "Use numbers with a positive sum, or a smaller time step")
     }
 
-    /// Points that do not determine what is fitted to them.
+    /// Returns the error for points that do not determine what is fitted to them.
     pub(crate) fn no_fit(what: &str, points: usize) -> Self {
         let what = format!("the {points} points do not determine a fit of {what}");
         Self::refused(what, "", "Use more points, or a longer part of the curve")

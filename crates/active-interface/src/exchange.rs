@@ -5,40 +5,41 @@ use motile_base::{not_negative, positive};
 use crate::InterfaceError;
 
 /// Rates of binding to the interface of a droplet and unbinding into its inside, `dc/dt = ... + k_on C - k_off c`, c
-/// the concentration on the interface (particles per length), C that inside beside it (particles per area). Whitfield
-/// and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11 (2016) e0162474, have such a
-/// model.
+/// the concentration on the interface (particles per length), C the concentration inside, next to the interface
+/// (particles per area). Whitfield and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11
+/// (2016) e0162474, have such a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("binding", "unbinding", "adsorption", "desorption", "soluble surfactant"))]
 pub struct Exchange {
     binding: f64,
     unbinding: f64,
 }
 
 impl Exchange {
-    /// The rates k_on of binding (length per time) and k_off of unbinding (1/time).
+    /// Creates the rates k_on of binding (length per time) and k_off of unbinding (1/time).
     ///
     /// # Errors
-    /// Rates that are negative or not finite.
+    /// Returns an error for rates that are negative or not finite.
     pub fn new(binding: f64, unbinding: f64) -> Result<Self, InterfaceError> {
         not_negative("the rate of binding", binding)?;
         not_negative("the rate of unbinding", unbinding)?;
         Ok(Self { binding, unbinding })
     }
 
-    /// The rate k_on of binding (length per time).
+    /// Returns the rate k_on of binding (length per time).
     #[must_use]
     pub fn binding(&self) -> f64 {
         self.binding
     }
 
-    /// The rate k_off of unbinding (1/time).
+    /// Returns the rate k_off of unbinding (1/time).
     #[must_use]
     pub fn unbinding(&self) -> f64 {
         self.unbinding
     }
 
-    /// Concentration inside (particles per area) in equilibrium with the concentration c = `on` of the interface
-    /// (particles per length), `C = k_off c/k_on`; `None` where nothing binds, so that all particles leave the
+    /// Returns the concentration inside (particles per area) in equilibrium with the concentration c = `on` of the
+    /// interface (particles per length), `C = k_off c/k_on`; `None` if nothing binds, so that all particles leave the
     /// interface.
     #[must_use]
     pub fn concentration_at_rest(&self, on: f64) -> Option<f64> {
@@ -65,12 +66,12 @@ impl Pool {
         Ok(Self { exchange, number, area: positive("the area of a droplet", area)? })
     }
 
-    /// Rate at which a particle inside goes to an interface of this length (1/time).
+    /// Returns the rate at which a particle inside goes to an interface of this length (1/time).
     fn rate(&self, perimeter: f64) -> f64 {
         self.exchange.binding * perimeter / self.area
     }
 
-    /// Particles that bind less those that unbind (1/time).
+    /// Returns the particles that bind less those that unbind (1/time).
     pub(crate) fn flux(&self, lengths: &[f64], on: f64) -> f64 {
         self.rate(lengths.iter().sum()) * self.number - self.exchange.unbinding * on
     }
@@ -92,8 +93,8 @@ impl Pool {
     /// and inside; `diffuse(f, numbers)` solves one of diffusion alone. The sum of all numbers is kept.
     ///
     /// With the numbers n on the segments and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` has the solution
-    /// `n = a + b P`, where b is `f k_on l/(A (1 + f k_off))`, as numbers in proportion to the lengths l do not
-    /// diffuse, and a solves the diffusion of `r/(1 + f k_off)` over the time `f/(1 + f k_off)`.
+    /// `n = a + b P`, where b is `f k_on l/(A (1 + f k_off))`. Numbers in proportion to the lengths l do not diffuse,
+    /// and a solves the diffusion of `r/(1 + f k_off)` over the time `f/(1 + f k_off)`.
     pub(crate) fn solve(
         &self,
         factor: f64,

@@ -38,8 +38,8 @@ use spectral::SpectralCurve;
 #[non_exhaustive]
 pub enum Motion {
     /// Markers move with the fluid's normal velocity (its mean removed, which keeps the area) and with a tangential
-    /// velocity W of their own that keeps them equally spaced; the default (docs/method.md). The mobility
-    /// correction of the immersed boundary method needs equal spacing.
+    /// velocity W of their own that keeps them equally spaced; the default (docs/explanation/time-stepping.md). The
+    /// mobility correction of the immersed boundary method needs equal spacing.
     Equidistributed {
         /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
         /// R the perimeter; without particles, in units of a fifth of the tension over mean viscosity and R, so that
@@ -77,7 +77,7 @@ pub(crate) struct Law {
     /// Switch of the stabiliser, which treats the fast relaxation of crowded particles implicitly, see
     /// [`ActiveInterface::prepare_step`].
     pub(crate) stabilised: bool,
-    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid outside.
+    /// Viscosity of the fluid inside (stress times time); `None` for the viscosity of the fluid outside.
     pub(crate) viscosity_inside: Option<f64>,
     /// Switch of the area constraint, which restores the area after each step.
     pub(crate) keeps_area: bool,
@@ -110,16 +110,16 @@ pub(crate) struct Derived {
     pub(crate) relaxation: f64,
 }
 
-/// FluidView of an interface and its working arrays.
+/// View of the fluid around an interface, and its working arrays.
 #[derive(Debug, Clone)]
 struct Scheme {
     /// Transport of the particles; `None` without particles.
     transport: Option<Transport>,
-    /// Diffusivities at the markers (length squared per time): of the stabiliser alone (empty where it is off), and of
+    /// Diffusivities at the markers (length squared per time): of the stabiliser alone (empty if it is off), and of
     /// diffusion and stabiliser together.
     stabiliser: Vec<f64>,
     diffusivities: Vec<f64>,
-    /// Shape of a second state: that of the start of a step, or one that an implicit equation is solved for.
+    /// Shape of a second state: the start of a step, or one that an implicit equation is solved for.
     other: Shape,
     filter: ShortWaveFilter,
     /// Truncation of the motion to a number of modes, where the flow resolves fewer modes than there are markers.
@@ -160,6 +160,7 @@ pub(crate) struct Account {
 /// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (Cowley (2.3)).
 /// An interface may resist bending ([`ActiveInterface::with_bending`]).
 #[derive(Debug, Clone)]
+#[doc(alias("surfactant", "Marangoni", "surface tension", "drop", "active droplet"))]
 pub struct ActiveInterface {
     name: String,
     pub(crate) law: Law,
@@ -183,12 +184,12 @@ impl ActiveInterface {
         &self.state.shape.geometry
     }
 
-    /// `true` for an interface with particles.
+    /// Returns `true` for an interface with particles.
     pub(crate) fn carries(&self) -> bool {
         self.scheme.transport.is_some()
     }
 
-    /// Number of particles on the interface.
+    /// Returns the number of particles on the interface.
     pub(crate) fn number(&self) -> f64 {
         self.state.numbers.iter().sum()
     }
@@ -213,7 +214,7 @@ impl ActiveInterface {
     /// Remakes the truncation and the geometry that `view` asks for, where they have changed.
     ///
     /// # Errors
-    /// More markers than a Fourier transform takes.
+    /// Returns an error for more markers than a Fourier transform takes.
     pub(crate) fn fit(&mut self, view: &FluidView) -> Result<(), InputError> {
         let count = self.markers().len();
         // Markers of the others are inserted and removed.
@@ -235,11 +236,11 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and
-    /// those of elasticity and bending where there are any.
+    /// Writes the forces on the fluid `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (force; Cowley (2.5), (2.31)), and the
+    /// forces of elasticity and bending if there are any.
     ///
     /// # Errors
-    /// Those of [`ActiveInterface::fit`].
+    /// Returns the errors of [`ActiveInterface::fit`].
     fn all_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), InputError> {
         self.fit(view)?;
         let Shape { geometry, axisymmetric, .. } = &self.state.shape;
@@ -279,7 +280,7 @@ impl ActiveInterface {
         self.update_tensions();
     }
 
-    /// Makes all lists but those of the shape fit `count` markers.
+    /// Makes all lists except the lists of the shape fit `count` markers.
     fn resize(&mut self, count: usize) {
         if let Some(transport) = &self.scheme.transport {
             self.state.numbers.resize(count, 0.0);
@@ -292,7 +293,8 @@ impl ActiveInterface {
     }
 
     /// Writes the explicit rate of change of positions (length per time) and particle numbers (1/time) in a flow with
-    /// these velocities at the markers (length per time). A body's entries beyond those of the interface become zero.
+    /// these velocities at the markers (length per time). A body's entries beyond the entries of the interface become
+    /// zero.
     pub(crate) fn write_rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         let State { shape: Shape { markers, geometry, .. }, numbers } = &self.state;
         let count = markers.len();
@@ -339,11 +341,11 @@ impl ActiveInterface {
     /// Prepares the implicit part of a step; `viscosity` is the mean of those on both sides (stress times time).
     ///
     /// The stabiliser adds the diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` to the implicit part and subtracts it
-    /// from the explicit one: crowded particles relax at the rate `c |d gamma/dc| q / (4 eta)` at the wave number q,
+    /// from the explicit one. Crowded particles relax at the rate `c |d gamma/dc| q / (4 eta)` at the wave number q,
     /// and that diffusivity has the same rate at q = 1/h.
     ///
     /// # Errors
-    /// Those of [`ActiveInterface::fit`].
+    /// Returns the errors of [`ActiveInterface::fit`].
     fn prepare_step(&mut self, view: &FluidView, viscosity: f64, stabilised: bool) -> Result<(), InputError> {
         if let Motion::Equidistributed { relaxation, .. } = self.law.motion {
             self.derived.relaxation = relaxation * self.spacing_rate(viscosity);
@@ -373,7 +375,7 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Implicit diffusion over the interface with its markers at `positions`; `None` without particles.
+    /// Returns the implicit diffusion over the interface with its markers at `positions`; `None` without particles.
     pub(crate) fn diffusion_at(&mut self, positions: &[f64]) -> Option<Diffusion<'_>> {
         let Scheme { transport, diffusivities, other, spectral, .. } = &mut self.scheme;
         let transport = transport.as_mut()?;
@@ -387,8 +389,8 @@ impl ActiveInterface {
         Some(Diffusion { transport, cells: geometry.cells(), diffusivities })
     }
 
-    /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time): filters the markers,
-    /// where there is a grid that does not see their short waves, or inserts and removes some.
+    /// Ends a step of length `dt` (time) at the mean viscosity of both sides (stress times time). It filters the
+    /// markers if there is a grid that does not see their short waves, or inserts and removes some.
     fn move_markers(&mut self, view: &FluidView, viscosity: f64, dt: f64) {
         let State { shape: Shape { markers, geometry, advance, .. }, numbers } = &mut self.state;
         match (self.law.motion, grid_spacing(view)) {
@@ -424,7 +426,7 @@ impl ActiveInterface {
     /// Keeps particle numbers from being negative.
     ///
     /// # Errors
-    /// Numbers that are not finite or whose sum is negative.
+    /// Returns an error for numbers that are not finite or whose sum is negative.
     fn repair_numbers(&mut self) -> Result<(), crate::InterfaceError> {
         if let Some(transport) = &mut self.scheme.transport {
             self.account.last.repair = transport.repair(&mut self.state.numbers)?;

@@ -1,36 +1,36 @@
-//! Active droplets: closed fluid interfaces that carry particles, which raise the interface's tension, are carried
-//! along by the flow that the tension drives, and so make the droplet swim.
+//! Active droplets: closed fluid interfaces that swim by the particles on them.
 //!
-//! The model is that of Cowley (chapter 2): on the interface of a droplet in Stokes flow lives a concentration c of
-//! particles,
+//! The particles raise the tension of the interface. Differences of tension drive a flow, and the flow carries the
+//! particles along, so the droplet swims. Use this crate to put such a droplet into a scene, or to measure one. The
+//! model is Cowley's (chapter 2). With the concentration c of particles on the interface,
 //! ```text
 //! dc/dt = -d(c V)/ds + D d^2c/ds^2                (2.3)
 //! gamma = gamma0 - zeta_dmu c - Pi(c)             (2.39)
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
-//! [`ActiveDroplet`] is that droplet as a body of a scene ([`motile_scene::Body`]). The parts it is made of, each
-//! usable by itself, work on plain slices of markers ([`Vec2`]) and numbers:
+//! [`ActiveDroplet`] is that droplet as a body of a scene ([`motile_scene::Body`]). You can also use its parts by
+//! themselves, because they work on plain slices of markers ([`Vec2`]) and numbers:
 //!
-//! * **Shapes**: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
-//!   crossings; area, moments and perimeter of polygons, exact.
+//! * **Shapes**: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points.
+//!   It finds crossings, and the exact area, moments and perimeter of polygons.
 //! * **Particles**: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
 //!   along the interface without losing any.
-//! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
+//! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or your own [`Tension`].
 //! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_well_mixed_interior`].
-//! * [`observables`]: [`observables::observe`] for all of them at once, and a function for each; fluxes along a
-//!   channel.
-//! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`Units`] converts to SI.
+//! * **Measurements**: [`observables::observe`] returns all [`observables`] at once, and there is a function for each,
+//!   also for the fluxes along a channel.
+//! * **Theory**: [`theory::LinearTheory`] and [`theory::SquirmerFlow`], to check a result. [`Units`] converts to SI.
 //!
 //! # Conventions
 //!
 //! Markers run counter-clockwise, normals point outwards. Element k reaches from marker k to marker k + 1 and holds the
-//! particle number n_k; its concentration is n_k over its length. Forces are those of the interface on the fluid.
-//! Quantities have the units that you choose; every item names its dimension. Bad input ends in an [`InterfaceError`].
+//! particle number n_k; its concentration is n_k over its length. Forces are the forces of the interface on the fluid.
+//! Quantities have the units that you choose; every item names its dimension. Bad input returns an [`InterfaceError`].
 //!
 //! # Example
 //!
-//! Particles on a circle in a flow that you prescribe. The flow gathers them at a known rate, and diffusion spreads
-//! them at a known rate:
+//! This example puts particles on a circle in a flow that you prescribe. The flow gathers them at a known rate, and
+//! diffusion spreads them at a known rate, so you can check both:
 //!
 //! ```
 //! use std::error::Error;
@@ -65,7 +65,7 @@
 //! }
 //! ```
 //!
-//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod concentration;

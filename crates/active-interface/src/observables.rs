@@ -42,7 +42,7 @@ pub use periodic::PeriodicObservables;
 pub use profile::{ConcentrationProfile, concentration_profile};
 pub use squirmer::{SquirmerFit, VelocityFrame, squirmer_coefficients};
 
-/// State of an interface from which its observables are computed: lists of M values, one a marker or one a segment.
+/// State of an interface from which its observables are computed: lists of M values, one per marker or one per segment.
 #[derive(Debug, Clone)]
 pub struct InterfaceState<'a> {
     /// Markers in counter-clockwise order (length).
@@ -62,14 +62,14 @@ pub struct InterfaceState<'a> {
     /// Bodies inside the droplet ([`BodyFlow::enclosed`]), whose forces are among its force moments.
     pub enclosed: Vec<Enclosed>,
     /// True for a body of revolution in three dimensions, of which the markers are the meridian with its mirror image,
-    /// and forces and numbers those of halves of rings.
+    /// and forces and numbers belong to halves of rings.
     pub axisymmetric: bool,
     /// True for a flow that is computed on a grid.
     pub on_grid: bool,
 }
 
 impl<'a> InterfaceState<'a> {
-    /// State of a droplet with the flow at its markers.
+    /// Creates a state of a droplet with the flow at its markers.
     pub(crate) fn new(droplet: &'a ActiveDroplet, view: &FluidView, flow: &BodyFlow<'a>) -> Self {
         let outside = view.viscosity;
         Self {
@@ -86,10 +86,11 @@ impl<'a> InterfaceState<'a> {
         }
     }
 
-    /// Present state of a droplet of a scene, for [`observe`].
+    /// Creates the present state of a droplet of a scene, for [`observe`].
     ///
     /// # Errors
-    /// A handle of another scene; [`SceneError::Refused`] where the flow of the present state is not known.
+    /// Returns an error for a handle of another scene; [`SceneError::Refused`] if the flow of the present state is not
+    /// known.
     pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
         let view = system.fluid_around(droplet)?;
         Ok(Self::new(system.body(droplet)?, &view, &system.flow_at(droplet)?))
@@ -100,14 +101,15 @@ impl<'a> InterfaceState<'a> {
 const MODES: usize = 6;
 /// Speed of a droplet at rest over the largest speed on its interface: what the default tolerance of iterations leaves.
 const REST: f64 = 1e-6;
-/// As [`REST`] on a grid, whose points a droplet between them is not symmetric to.
+/// As [`REST`] on a grid: a droplet that lies between grid points is not symmetric to them.
 const REST_ON_GRID: f64 = 1e-4;
-/// Speed of a droplet at rest over that of an interface with its forces: round-off.
+/// Speed of a droplet at rest over the speed of an interface with its forces: round-off.
 const ROUND_OFF: f64 = 1e-11;
-/// As [`ROUND_OFF`] on a grid, to whose points a round interface of constant tension moves: at spacings of 0.1 and 0.2
-/// radii at most 2.4e-8 and 5.7e-7 of that speed, without and with correction, by both solvers.
+/// As [`ROUND_OFF`] on a grid, to whose points a round interface of constant tension moves. Measured at spacings of 0.1
+/// and 0.2 radii at most 2.4e-8 and 5.7e-7 of that speed, without and with correction, by both solvers.
 const NOISE_OF_GRID: f64 = 1e-6;
-/// Deformation below which a grid makes it: that of a round interface of constant tension grows to 5e-7 by t = 1.3.
+/// Deformation below which a grid makes it: the deformation of a round interface of constant tension grows to 5e-7 by
+/// t = 1.3.
 const ROUND_ON_GRID: f64 = 2e-6;
 
 impl InterfaceState<'_> {
@@ -131,7 +133,7 @@ impl InterfaceState<'_> {
     }
 
     /// Returns the force moments about the origin of `frame`, which must be the centroid, in the axes of `frame`, of
-    /// the droplet with the bodies inside it. Velocities are those relative to the imposed flow at the centroid.
+    /// the droplet with the bodies inside it. Velocities are relative to the imposed flow at the centroid.
     ///
     /// # Errors
     /// Returns an error if lists differ in length or a value is not finite.
@@ -146,7 +148,7 @@ impl InterfaceState<'_> {
         Ok(moments)
     }
 
-    /// Velocities relative to a velocity (length per time).
+    /// Returns the velocities relative to a velocity (length per time).
     fn relative_to(&self, drift: Vec2) -> Vec<Vec2> {
         self.velocities.iter().map(|velocity| velocity - drift).collect()
     }
@@ -155,10 +157,11 @@ impl InterfaceState<'_> {
 /// All observables of a droplet at one time.
 ///
 /// Its motion is measured relative to the imposed flow at its centroid. Shapes and stresslets in laboratory axes do not
-/// depend on the motion. Directions are those of the axes along the motion, or of x and y for a droplet at rest
+/// depend on the motion. Directions refer to the axes along the motion, or to x and y for a droplet at rest
 /// ([`InterfaceState::rest_speed`]).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[doc(alias("swimming speed", "deformation", "stresslet"))]
 pub struct Observables {
     /// Centroid of the area (length), not wrapped into the periods of the region: a droplet that swims through a box of
     /// length L has moved by L, and differences of centroids are displacements.
@@ -198,7 +201,7 @@ pub struct Observables {
     pub convention: Convention,
     /// Squirmer coefficients in the frame of the droplet.
     pub squirmer: SquirmerFit,
-    /// Squirmer coefficients in the laboratory frame, or in that of the imposed flow at the centroid.
+    /// Squirmer coefficients in the laboratory frame, or in the frame of the imposed flow at the centroid.
     pub squirmer_laboratory: SquirmerFit,
     /// Modes of r(theta) (length) about the centroid, theta from the direction of motion.
     pub shape_modes: FourierModes,
@@ -206,12 +209,12 @@ pub struct Observables {
     pub concentration_modes: FourierModes,
 }
 
-/// All observables of a droplet, in axes along its velocity relative to the imposed flow. A droplet at rest
+/// Returns all observables of a droplet, in axes along its velocity relative to the imposed flow. A droplet at rest
 /// ([`InterfaceState::rest_speed`]) has no direction, so its axes are x and y.
 ///
 /// # Errors
-/// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
-/// no area.
+/// Returns an error for lists of different length, fewer than eight markers, values that are not finite, markers that
+/// coincide or enclose no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
     let InterfaceState { markers, numbers, inside, axisymmetric, .. } = *state;
     at_least("markers", markers.len(), 8)?;
@@ -282,34 +285,34 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
 }
 
 impl Observables {
-    /// Speed of the centroid relative to the imposed flow there (length per time).
+    /// Returns the speed of the centroid relative to the imposed flow there (length per time).
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.relative_velocity.length()
     }
 
-    /// Direction of motion relative to the imposed flow (radians from x, from -pi to pi); `None` at rest.
+    /// Returns the direction of motion relative to the imposed flow (radians from x, from -pi to pi); `None` at rest.
     #[must_use]
     pub fn heading(&self) -> Option<f64> {
         self.moves.then(|| self.relative_velocity.to_angle())
     }
 
-    /// The axes about the centroid, the first one along the motion; x and y at rest.
+    /// Returns the axes about the centroid, the first one along the motion; x and y at rest.
     #[must_use]
     pub fn frame(&self) -> Frame {
         Frame::along(self.centroid, self.moves.then_some(self.relative_velocity))
     }
 
-    /// Names and values of all entries, in the order of the columns of a table. Values that do not exist, such as the
-    /// active fraction of a uniform concentration, are `None`.
+    /// Returns the names and values of all entries, in the order of the columns of a table. Values that do not exist,
+    /// such as the active fraction of a uniform concentration, are `None`.
     ///
-    /// Units of length, time and force are those of the state. `velocity_x` and `velocity_y` are those of the whole
-    /// motion; `speed` and `heading_degrees` are those relative to the imposed flow at the centroid. `deformation` is
-    /// D = (L - B)/(L + B) of the ellipse with the moments of the area and `inclination_degrees` the angle of its long
-    /// axis from x. `stresslet_xx` and `stresslet_xy` are in axes along the motion, those of `_laboratory` along x and
-    /// y. `s_ijk` and `n_ijk` are the symmetric and the mixed part
-    /// of the quadrupole `f_ijk`, `b1`, `b2`, `beta` the squirmer coefficients in the droplet's frame, `shape_mode_k`
-    /// and `concentration_mode_k` the amplitudes of mode k over the mean.
+    /// The state sets the units of length, time and force. `velocity_x` and `velocity_y` belong to the whole motion;
+    /// `speed` and `heading_degrees` are relative to the imposed flow at the centroid. `deformation` is D = (L -
+    /// B)/(L + B) of the ellipse with the moments of the area and `inclination_degrees` the angle of its long axis from
+    /// x. `stresslet_xx` and `stresslet_xy` are in axes along the motion, and with `_laboratory` along x and y. `s_ijk`
+    /// and `n_ijk` are the symmetric and the mixed part of the quadrupole `f_ijk`, `b1`, `b2`, `beta` the squirmer
+    /// coefficients in the droplet's frame, `shape_mode_k` and `concentration_mode_k` the amplitudes of mode k over the
+    /// mean.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let stresslet = self.moments.stresslet();
@@ -376,7 +379,7 @@ impl Observables {
         entries
     }
 
-    /// Value of the entry `name`; `None` for unknown names and values that do not exist.
+    /// Returns the value of the entry `name`; `None` for unknown names and values that do not exist.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<f64> {
         self.entries().into_iter().find(|entry| entry.0 == name).and_then(|entry| entry.1)

@@ -14,13 +14,14 @@ use excluded_volume::Law;
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
 ///
-/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. [`Tension::values`] is compiled for every
-/// law, so that a `dyn Tension` costs one indirect call a slice.
+/// Implement [`Tension::value`] and [`Tension::slope`] for your own law. [`Tension::values`] is compiled for every law,
+/// so that a `dyn Tension` costs one indirect call per slice.
+#[doc(alias("surface tension", "Marangoni", "equation of state", "surfactant"))]
 pub trait Tension: Debug + Send + Sync {
-    /// Tension gamma(c) (force) at the concentration `c` (particles per length).
+    /// Returns the tension gamma(c) (force) at the concentration `c` (particles per length).
     fn value(&self, c: f64) -> f64;
 
-    /// Slope d gamma / d c (force times length) at the concentration `c` (particles per length).
+    /// Returns the slope d gamma / d c (force times length) at the concentration `c` (particles per length).
     fn slope(&self, c: f64) -> f64;
 
     /// Writes the tension (force) of every concentration (particles per length).
@@ -30,9 +31,9 @@ pub trait Tension: Debug + Send + Sync {
         }
     }
 
-    /// Warning, with its remedy, of a flaw of this law that no resolution mends ([`motile_scene::Warning`]). You need
-    /// not implement it: interfaces look at the values of every law, and warn of a tension that grows in proportion to
-    /// the concentration without leveling off, and of a negative one.
+    /// Returns the warning, with its remedy, of a flaw of this law that no resolution mends
+    /// ([`motile_scene::Warning`]). You need not implement it: interfaces look at the values of every law, and warn of
+    /// a tension that grows in proportion to the concentration without leveling off, and of a negative one.
     fn warning(&self) -> Option<String> {
         None
     }
@@ -45,10 +46,10 @@ pub struct ConstantTension {
 }
 
 impl ConstantTension {
-    /// The tension gamma0 >= 0 (force).
+    /// Creates the tension gamma0 >= 0 (force).
     ///
     /// # Errors
-    /// A negative or non-finite tension.
+    /// Returns an error for a negative or non-finite tension.
     pub fn new(bare: f64) -> Result<Self, InterfaceError> {
         Ok(Self { bare: not_negative("the bare tension", bare)? })
     }
@@ -68,6 +69,7 @@ impl Tension for ConstantTension {
 ///
 /// The activity zeta_dmu is negative for particles that contract the interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("surface tension", "cortex", "myosin", "actomyosin"))]
 pub struct ContractileTension {
     bare: f64,
     activity: f64,
@@ -99,21 +101,22 @@ impl ContractileTension {
         Ok(Self { bare, activity, excluded_volume, law })
     }
 
-    /// Cowley's law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
+    /// Creates Cowley's law: step-like excluded volume of strength A (force times length), threshold 2 c0 and
+    /// steepness 20.
     ///
     /// # Errors
-    /// Those of [`ContractileTension::new`].
+    /// Returns the errors of [`ContractileTension::new`].
     pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
         Self::new(bare, activity, ExcludedVolume::Step(strength), mean_concentration)
     }
 
-    /// The bare tension gamma0 (force).
+    /// Returns the bare tension gamma0 (force).
     #[must_use]
     pub fn bare(&self) -> f64 {
         self.bare
     }
 
-    /// The activity zeta_dmu (force times length).
+    /// Returns the activity zeta_dmu (force times length).
     #[must_use]
     pub fn activity(&self) -> f64 {
         self.activity
@@ -125,8 +128,8 @@ impl ContractileTension {
         self.excluded_volume
     }
 
-    /// The concentration at which the tension is largest (particles per length): below it particles draw each other
-    /// together, above it they drive each other apart. `None` where the tension grows without bound.
+    /// Returns the concentration at which the tension is largest (particles per length): below it particles draw each
+    /// other together, above it they drive each other apart. `None` if the tension grows without bound.
     #[must_use]
     pub fn plateau(&self) -> Option<f64> {
         self.law.plateau(-self.activity)
@@ -146,7 +149,7 @@ impl Tension for ContractileTension {
         self.plateau().is_none().then(|| {
             format!(
                 "the activity {} is not balanced by the excluded volume at any concentration, the particles collapse \
-                 towards a point: use |activity| below the strength of the excluded volume",
+                 towards a point. Use |activity| below the strength of the excluded volume",
                 self.activity
             )
         })

@@ -50,10 +50,11 @@ pub struct RoundDroplet {
 pub struct LinearTheory(RoundDroplet);
 
 impl LinearTheory {
-    /// Linear theory of this droplet.
+    /// Creates a linear theory of this droplet.
     ///
     /// # Errors
-    /// A radius, viscosity or concentration that is not positive, a negative diffusivity, values that are not finite.
+    /// Returns an error for a radius, viscosity or concentration that is not positive, a negative diffusivity, values
+    /// that are not finite.
     pub fn new(droplet: RoundDroplet) -> Result<Self, InterfaceError> {
         positive("the radius", droplet.radius)?;
         positive("the viscosity inside", droplet.viscosity_inside)?;
@@ -75,10 +76,10 @@ impl LinearTheory {
         self.0.viscosity_inside + self.0.viscosity_outside
     }
 
-    /// Growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)) for k >= 2, and 0
-    /// for k = 1, which moves the circle, and k = 0, which changes its area.
+    /// Returns the growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)) for
+    /// k >= 2, and 0 for k = 1, which moves the circle, and k = 0, which changes its area.
     ///
-    /// In a periodic box the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4187
+    /// In a periodic box, the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4187
     /// gamma/(eta R0) instead of 0.5.
     #[must_use]
     pub fn shape_growth_rate(&self, k: u32) -> f64 {
@@ -88,8 +89,8 @@ impl LinearTheory {
         -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
     }
 
-    /// Growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0 (eta_in +
-    /// eta_out)) + D k / R0^2).
+    /// Returns the growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0
+    /// (eta_in + eta_out)) + D k / R0^2).
     #[must_use]
     pub fn concentration_growth_rate(&self, k: u32) -> f64 {
         let droplet = &self.0;
@@ -98,29 +99,30 @@ impl LinearTheory {
         -k * (activity + droplet.diffusivity * k / (droplet.radius * droplet.radius))
     }
 
-    /// The activity (force times length) below which the uniform state is unstable and the droplet swims, eq. (2.20):
-    /// -2 D (eta_in + eta_out) / (R0 c0).
+    /// Returns the activity (force times length) below which the uniform state is unstable and the droplet swims, eq.
+    /// (2.20): -2 D (eta_in + eta_out) / (R0 c0).
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
         let droplet = &self.0;
         -2.0 * droplet.diffusivity * self.viscosity_sum() / (droplet.radius * droplet.concentration)
     }
 
-    /// Velocity (length per time) of a round droplet with the concentration c0 + c1 cos(theta), along theta = pi, where
-    /// there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_out)).
+    /// Returns the velocity (length per time) of a round droplet with the concentration c0 + c1 cos(theta), along
+    /// theta = pi, where there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_out)).
     ///
     /// # Errors
-    /// An amplitude that is not finite.
+    /// Returns an error for an amplitude that is not finite.
     pub fn swimming_speed(&self, first_mode: f64) -> Result<f64, InterfaceError> {
         let amplitude = finite("the first mode of the concentration", first_mode)?;
         Ok(-self.0.activity * amplitude / (4.0 * self.viscosity_sum()))
     }
 
-    /// Flow due to the concentration c = c0 + concentration_amplitude cos(k theta) (particles per length) and the
-    /// radius r = R0 + radius_amplitude cos(k theta) (length), to first order in both amplitudes, eqs. (2.9) to (2.15).
+    /// Returns the flow due to the concentration c = c0 + concentration_amplitude cos(k theta) (particles per length)
+    /// and the radius r = R0 + radius_amplitude cos(k theta) (length), to first order in both amplitudes, eqs. (2.9) to
+    /// (2.15).
     ///
     /// # Errors
-    /// k = 0, amplitudes that are not finite.
+    /// Returns an error for k = 0, or amplitudes that are not finite.
     pub fn mode_flow(
         &self,
         k: u32,
@@ -157,8 +159,8 @@ impl LinearTheory {
 /// p       = 4 eta (k+1) alpha r^k cos(k theta) / k,                       inside     (2.11)
 ///           4 eta (k-1) alpha r^-k cos(k theta) / k,                      outside
 /// ```
-/// In Cowley the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame
-/// of the droplet: far away the fluid moves with `alpha_outside` along theta = 0.
+/// In Cowley the outer v_theta has the opposite sign, with which the flow has sources. For k = 1, this is the frame of
+/// the droplet: far away the fluid moves with `alpha_outside` along theta = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeFlow {
     k: u32,
@@ -171,14 +173,15 @@ pub struct ModeFlow {
 }
 
 impl ModeFlow {
-    /// Coefficients of eqs. (2.12) to (2.15): alpha and beta inside, alpha and beta outside (velocity over the power of
-    /// r in the formulas above).
+    /// Returns the coefficients of eqs. (2.12) to (2.15): alpha and beta inside, alpha and beta outside (velocity over
+    /// the power of r in the formulas above).
     #[must_use]
     pub fn coefficients(&self) -> [f64; 4] {
         [self.alpha_inside, self.beta_inside, self.alpha_outside, self.beta_outside]
     }
 
-    /// Velocity (v_r, v_theta) (length per time) at the polar coordinates r > 0 (length) and theta (radians).
+    /// Returns the velocity (v_r, v_theta) (length per time) at the polar coordinates r > 0 (length) and theta
+    /// (radians).
     #[must_use]
     pub fn velocity(&self, r: f64, theta: f64) -> [f64; 2] {
         let k = f64::from(self.k);
@@ -193,7 +196,7 @@ impl ModeFlow {
         [radial * cos, azimuthal * sin]
     }
 
-    /// Pressure (force per length), without the constants inside and outside.
+    /// Returns the pressure (force per length), without the constants inside and outside.
     #[must_use]
     pub fn pressure(&self, r: f64, theta: f64) -> f64 {
         let k = f64::from(self.k);

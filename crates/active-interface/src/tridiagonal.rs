@@ -15,7 +15,7 @@ pub(crate) struct CyclicTridiagonal {
 }
 
 impl CyclicTridiagonal {
-    /// A plan for `n` unknowns, n >= 3.
+    /// Creates a plan for `n` unknowns, n >= 3.
     pub(crate) fn new(n: usize) -> Self {
         Self { ratios: vec![0.0; n], correction: vec![0.0; n] }
     }
@@ -70,15 +70,15 @@ pub(crate) struct CirculantTridiagonal {
 }
 
 impl CirculantTridiagonal {
-    /// The operator with these coefficients, factorised.
+    /// Creates the operator with these coefficients, factorised.
     fn new(diagonal: f64, off: f64) -> Self {
         // off (E + 1/E) + diagonal = (1 - root E)(1 - root / E) / scale, |root| < 1
         let root = -2.0 * off / (diagonal + diagonal.signum() * (diagonal * diagonal - 4.0 * off * off).sqrt());
         Self { root, scale: (1.0 + root * root) / diagonal }
     }
 
-    /// The smoothing operator S^-1 = 1 - width^2 d^2/ds^2 by second differences on points `spacing` apart, so that
-    /// [`CirculantTridiagonal::solve`] applies S.
+    /// Creates the smoothing operator S^-1 = 1 - width^2 d^2/ds^2 by second differences on points `spacing` apart, so
+    /// that [`CirculantTridiagonal::solve`] applies S.
     pub(crate) fn smoothing(width: f64, spacing: f64) -> Self {
         let ratio = width / spacing;
         Self::new(1.0 + 2.0 * ratio * ratio, -ratio * ratio)

@@ -51,7 +51,7 @@ impl Quantity {
     }
 }
 
-/// The units of a calculation: those of length, viscosity and tension are chosen, all others follow.
+/// The units of a calculation: the units of length, viscosity and tension are chosen, and all others follow.
 ///
 /// ```text
 /// time = viscosity length / tension    speed = tension / viscosity          stress = tension / length
@@ -75,7 +75,7 @@ impl Units {
     /// Units of length (m), viscosity (Pa s) and tension (N/m).
     ///
     /// # Errors
-    /// Values that are not positive.
+    /// Returns an error for values that are not positive.
     pub fn new(length: f64, viscosity: f64, tension: f64) -> Result<Self, InterfaceError> {
         Ok(Self {
             length: positive("the unit of length", length)?,
@@ -84,35 +84,35 @@ impl Units {
         })
     }
 
-    /// Cowley's units (Appendix A): length R0 = 10 um; a viscosity of 100 is 1000 Pa s and a tension gamma0 of 10 is
-    /// 100 Pa um, so that the unit of time is 10 s, of speed 1 um/s.
+    /// Creates Cowley's units (Appendix A): length R0 = 10 um. A viscosity of 100 is 1000 Pa s and a tension gamma0 of
+    /// 10 is 100 Pa um, so that the unit of time is 10 s, of speed 1 um/s.
     ///
-    /// All of table A.1 follows, but for the activity: its unit is tension times length, 100 Pa um^2, where the table
-    /// has 1000 (with which the active part of the tension would be ten times that of the calculation).
+    /// All of table A.1 follows, except for the activity: its unit is tension times length, 100 Pa um^2, where the
+    /// table has 1000 (with which the active part of the tension would be ten times as large as in the calculation).
     #[must_use]
     pub fn thesis() -> Self {
         Self { length: 1e-5, viscosity: 10.0, tension: 1e-5 }
     }
 
-    /// Unit of the quantity in the calculation, in SI.
+    /// Returns the unit of the quantity in the calculation, in SI.
     #[must_use]
     pub fn unit(&self, quantity: Quantity) -> f64 {
         let [length, viscosity, tension] = quantity.dimension().1;
         self.length.powi(length) * self.viscosity.powi(viscosity) * self.tension.powi(tension)
     }
 
-    /// Value of the calculation, in SI.
+    /// Returns the value of the calculation, in SI.
     ///
     /// # Errors
-    /// A value that is not finite.
+    /// Returns an error for a value that is not finite.
     pub fn to_si(&self, quantity: Quantity, value: f64) -> Result<f64, InterfaceError> {
         Ok(finite("the value to convert", value)? * self.unit(quantity))
     }
 
-    /// Value in SI, in the units of the calculation.
+    /// Returns the value in SI, in the units of the calculation.
     ///
     /// # Errors
-    /// A value that is not finite.
+    /// Returns an error for a value that is not finite.
     pub fn from_si(&self, quantity: Quantity, value: f64) -> Result<f64, InterfaceError> {
         Ok(finite("the value to convert", value)? / self.unit(quantity))
     }

@@ -12,16 +12,17 @@ use crate::random::uniform;
 /// together by a constant tension while it is on, and is turned on and off at random.
 ///
 /// With p = on/(on + off), k = on + off, a bond is on after a step of dt with the probability `p + (1-p) exp(-k dt)` if
-/// it was on and `p (1 - exp(-k dt))` if it was off, which is exact for any step at constant rates; at the start it is
-/// on with the probability p. On a triangular lattice of spacing l the mean stress is `sqrt(3) p f/l`, an isotropic
-/// contraction, up to the boundary, where bonds pull half as much as springs there do. A free one of springs of the
-/// spring constant K shrinks by `p f/(K l)`. Rates may depend on the strain e = r/d - 1 of the edge, as `rate
-/// exp(sensitivity e)` with the strain at the end of the step: a positive sensitivity of unbinding makes slip bonds, a
-/// negative one catch bonds.
+/// it was on and `p (1 - exp(-k dt))` if it was off. This is exact for any step at constant rates. At the start, it is
+/// on with the probability p. On a triangular lattice of spacing l, the mean stress is `sqrt(3) p f/l`, an isotropic
+/// contraction. It holds up to the boundary, where bonds pull half as much, as springs there do. A free lattice of
+/// springs of the spring constant K shrinks by `p f/(K l)`. Rates may depend on the strain e = r/d - 1 of the edge, as
+/// `rate exp(sensitivity e)` with the strain at the end of the step. A positive sensitivity of unbinding makes slip
+/// bonds, a negative one catch bonds.
 ///
 /// Random numbers are functions of the seed, the number of the bond and the number of the step, so that a run is the
 /// same for any number of threads and through a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("motors", "myosin", "catch bond", "slip bond"))]
 pub struct ActiveSprings {
     tension: f64,
     rates: [f64; 2],
@@ -30,11 +31,11 @@ pub struct ActiveSprings {
 }
 
 impl ActiveSprings {
-    /// Bonds of the tension f (force) while they are on, of the rates of turning on and off (1/time).
+    /// Creates bonds with the tension f (force) while they are on, and with these rates of turning on and off (1/time).
     ///
     /// # Errors
-    /// A tension or rate of turning on that is not positive and finite; a rate of turning off that is negative or not
-    /// finite.
+    /// Returns an error for a tension or rate of turning on that is not positive and finite; a rate of turning off that
+    /// is negative or not finite.
     pub fn new(tension: f64, on: f64, off: f64, seed: u64) -> Result<Self, SolidError> {
         let tension = positive("the tension of the active springs", tension)?;
         let on = positive("the rate at which active springs turn on", on)?;
@@ -42,29 +43,30 @@ impl ActiveSprings {
         Ok(Self { tension, rates: [on, off], sensitivities: [0.0; 2], seed })
     }
 
-    /// Bonds of these tensions with rates of turning on and off that depend on the strain of their edges by
-    /// sensitivities (no dimension).
+    /// Makes the rates of turning on and off depend on the strain of the edges, with these sensitivities (no
+    /// dimension).
     ///
     /// # Errors
-    /// Sensitivities that are not finite.
+    /// Returns an error for sensitivities that are not finite.
     pub fn with_sensitivities(mut self, on: f64, off: f64) -> Result<Self, SolidError> {
         self.sensitivities = [finite("the sensitivity of turning on", on)?, finite("that of turning off", off)?];
         Ok(self)
     }
 
-    /// Tension of a bond that is on (force).
+    /// Returns the tension of a bond that is on (force).
     #[must_use]
     pub fn tension(&self) -> f64 {
         self.tension
     }
 
-    /// Part of the bonds of unstrained edges that are on in the mean (no dimension).
+    /// Returns the mean fraction of the bonds of unstrained edges that are on (no dimension).
     #[must_use]
     pub fn duty_ratio(&self) -> f64 {
         self.rates[0] / (self.rates[0] + self.rates[1])
     }
 
-    /// Probability of being on after a time `dt` for a bond of an edge of the strain `strain` (no dimension).
+    /// Returns the probability of being on after a time `dt` for a bond of an edge of the strain `strain` (no
+    /// dimension).
     fn probability(&self, on: bool, strain: f64, dt: f64) -> f64 {
         // Rates that are beyond all bounds are as good as the largest numbers.
         let rate = |k: usize| self.rates[k] * (self.sensitivities[k] * strain).clamp(-600.0, 600.0).exp();
@@ -82,7 +84,7 @@ pub(crate) struct Bonds {
     /// Bars, and the factor on the tension that each has: a half of its own on the boundary.
     bars: Vec<(Bar, f64)>,
     on: Vec<bool>,
-    /// Steps that were kept.
+    /// Accepted steps.
     steps: u64,
 }
 
@@ -99,7 +101,7 @@ impl Bonds {
     /// (length).
     ///
     /// # Errors
-    /// A factor that is negative or not finite.
+    /// Returns an error for a factor that is negative or not finite.
     pub(crate) fn graded(
         mut self,
         mesh: &TriangleMesh,
@@ -112,27 +114,27 @@ impl Bonds {
         Ok(self)
     }
 
-    /// States of the bonds, in the order of the edges.
+    /// Returns the states of the bonds, in the order of the edges.
     pub(crate) fn on(&self) -> &[bool] {
         &self.on
     }
 
-    /// Puts the bonds into these states, `true` where a number is nearer to 1 than to 0.
+    /// Puts the bonds into these states, `true` if a number is nearer to 1 than to 0.
     pub(crate) fn set(&mut self, states: &[f64]) {
         self.on.iter_mut().zip(states).for_each(|(on, state)| *on = *state > 0.5);
     }
 
-    /// Steps that were kept.
+    /// Returns the number of accepted steps.
     pub(crate) fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Goes on from that number of steps.
+    /// Continues from that number of steps.
     pub(crate) fn set_steps(&mut self, steps: u64) {
         self.steps = steps;
     }
 
-    /// Counts a step that stays.
+    /// Counts an accepted step.
     pub(crate) fn keep_step(&mut self) {
         self.steps += 1;
     }
@@ -153,21 +155,21 @@ impl Bonds {
         }
     }
 
-    /// Adds the Cauchy stresses of the bonds (force per deformed length) to those of the triangles of the mesh, none of
-    /// which is inverted.
+    /// Adds the Cauchy stresses of the bonds (force per deformed length) to the stresses of the triangles of the mesh,
+    /// none of which is inverted.
     pub(crate) fn add_stresses(&self, mesh: &TriangleMesh, positions: &[Vec2], stresses: &mut [Mat2]) {
         for (edge, ((bar, share), _)) in self.bars.iter().zip(&self.on).enumerate().filter(|(_, (_, on))| **on) {
             add_stress_of_bar((mesh, edge), (bar, share * self.law.tension), positions, stresses);
         }
     }
 
-    /// Upper bound of the stiffness that the tension adds to the lattice (force per length).
+    /// Returns the upper bound of the stiffness that the tension adds to the lattice (force per length).
     pub(crate) fn stiffness(&self, spacing: f64) -> f64 {
         let largest = self.bars.iter().fold(0.0, |largest: f64, (_, share)| largest.max(*share));
         3.0_f64.sqrt() * largest * self.law.tension / spacing
     }
 
-    /// Longest step (time) that resolves how bonds turn on and off: half of the time in which they forget.
+    /// Returns the longest step (time) that resolves how bonds turn on and off: half of the time in which they forget.
     pub(crate) fn resolved_step(&self) -> f64 {
         0.5 / (self.law.rates[0] + self.law.rates[1])
     }

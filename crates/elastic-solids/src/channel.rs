@@ -52,19 +52,19 @@ const SAMPLES: f64 = 2000.0;
 const LONGEST: f64 = 200.0;
 
 impl Channel {
-    /// Channel between two periodic outlines, which may have corners and overhang.
+    /// Creates a channel between two periodic outlines, which may have corners and overhang.
     ///
     /// # Errors
-    /// Outlines without or with different periods, that cross or touch, or the wrong way round.
+    /// Returns an error for outlines without or with different periods, that cross or touch, or the wrong way round.
     pub fn new(lower: Outline, upper: Outline) -> Result<Self, SolidError> {
         Self::with_islands(lower, upper, Vec::new())
     }
 
-    /// Channel between two periodic outlines, with closed outlines as islands between them.
+    /// Creates a channel between two periodic outlines, with closed outlines as islands between them.
     ///
     /// # Errors
-    /// Those of [`Channel::new`]; an island that is not closed, or not between the lines; lines more than 200 periods
-    /// long together.
+    /// Returns the errors of [`Channel::new`]; an island that is not closed, or not between the lines; lines more than
+    /// 200 periods long together.
     pub fn with_islands(lower: Outline, upper: Outline, islands: Vec<Outline>) -> Result<Self, SolidError> {
         let Some(period) = lower.period() else {
             return Err(SolidError::unsupported(
@@ -100,11 +100,11 @@ impl Channel {
         Ok(Self { lower, upper, islands, period })
     }
 
-    /// Channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth
-    /// everywhere.
+    /// Returns the channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length),
+    /// smooth everywhere.
     ///
     /// # Errors
-    /// Those of [`Outline::profile`] and [`Channel::new`].
+    /// Returns the errors of [`Outline::profile`] and [`Channel::new`].
     pub fn between(
         start: f64,
         period: f64,
@@ -114,22 +114,22 @@ impl Channel {
         Self::new(Outline::profile(start, period, lower)?, Outline::profile(start, period, upper)?)
     }
 
-    /// Channel with this lower side and its mirror image about y = 0 above.
+    /// Creates a channel with this lower side and its mirror image about y = 0 above.
     ///
     /// # Errors
-    /// Those of [`Channel::new`].
+    /// Returns the errors of [`Channel::new`].
     pub fn symmetric(lower: Outline) -> Result<Self, SolidError> {
         let upper = lower.mirrored(0.0)?;
         Self::new(lower, upper)
     }
 
-    /// Line that bounds the channel below.
+    /// Returns the line that bounds the channel below.
     #[must_use]
     pub fn lower(&self) -> &Outline {
         &self.lower
     }
 
-    /// Line that bounds the channel above.
+    /// Returns the line that bounds the channel above.
     #[must_use]
     pub fn upper(&self) -> &Outline {
         &self.upper
@@ -141,16 +141,16 @@ impl Channel {
         &self.islands
     }
 
-    /// Period in x (length).
+    /// Returns the period in x (length).
     #[must_use]
     pub fn period(&self) -> f64 {
         self.period
     }
 
-    /// Channel wider by `by` (length): the lower line moved down and the upper one up by half of it.
+    /// Returns the channel wider by `by` (length). It is the lower line moved down and the upper one up by half of it.
     ///
     /// # Errors
-    /// A number that is not finite, or so negative that the lines touch.
+    /// Returns an error for a number that is not finite, or so negative that the lines touch.
     pub fn widened(&self, by: f64) -> Result<Self, SolidError> {
         finite("the widening", by)?;
         let step = Vec2::new(0.0, 0.5 * by);
@@ -161,7 +161,7 @@ impl Channel {
     /// (length), and of the islands.
     ///
     /// # Errors
-    /// Those of [`Mesher::mesh`].
+    /// Returns the errors of [`Mesher::mesh`].
     pub fn walls(&self, bottom: f64, top: f64, mesher: &Mesher) -> Result<Walls, SolidError> {
         Ok(Walls {
             lower: self.lower_wall(bottom, mesher)?,
@@ -174,48 +174,48 @@ impl Channel {
         })
     }
 
-    /// Mesh of the wall from y = `bottom` (length) up to the lower line.
+    /// Returns the mesh of the wall from y = `bottom` (length) up to the lower line.
     ///
     /// # Errors
-    /// Those of [`Mesher::mesh`].
+    /// Returns the errors of [`Mesher::mesh`].
     pub fn lower_wall(&self, bottom: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
         mesher.mesh(&self.below(bottom)?)
     }
 
-    /// Mesh of the wall from the upper line up to y = `top` (length): where the channel is its own mirror image about
-    /// y = 0, that of the lower wall down to y = `-top` with y reversed.
+    /// Returns the mesh of the wall from the upper line up to y = `top` (length). If the channel is its own mirror
+    /// image about y = 0, the mesh of the lower wall down to y = `-top` with y reversed.
     ///
     /// # Errors
-    /// Those of [`Mesher::mesh`].
+    /// Returns the errors of [`Mesher::mesh`].
     pub fn upper_wall(&self, top: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
         Ok(mesher.mesh(&self.above(top)?.mirrored()?)?.mirrored())
     }
 
-    /// Outline of the island `number`, counted from 0.
+    /// Returns the outline of the island `number`, counted from 0.
     ///
     /// # Errors
-    /// [`SolidError::Refused`].
+    /// Returns [`SolidError::Refused`] if there is no island of that number.
     pub fn island(&self, number: usize) -> Result<&Outline, SolidError> {
         self.islands.get(number).ok_or_else(|| SolidError::no_such_island(number, self.islands.len()))
     }
 
-    /// Wall from y = `bottom` (length) up to the lower line.
+    /// Returns the wall from y = `bottom` (length) up to the lower line.
     ///
     /// # Errors
-    /// A height that is not finite.
+    /// Returns an error for a height that is not finite.
     pub fn below(&self, bottom: f64) -> Result<Interior, SolidError> {
         Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])
     }
 
-    /// Wall from the upper line up to y = `top` (length).
+    /// Returns the wall from the upper line up to y = `top` (length).
     ///
     /// # Errors
-    /// A height that is not finite.
+    /// Returns an error for a height that is not finite.
     pub fn above(&self, top: f64) -> Result<Interior, SolidError> {
         Interior::new([self.upper.clone(), self.level(&self.upper, top)?])
     }
 
-    /// Flat outer surface of the wall at a side of the channel.
+    /// Returns the flat outer surface of the wall at a side of the channel.
     fn level(&self, side: &Outline, height: f64) -> Result<Outline, SolidError> {
         Outline::flat(side.start().x, self.period, height)
     }

@@ -1,4 +1,4 @@
-//! Checks that every energy and every law of forces must pass, as figures: for materials of one's own.
+//! Checks that every energy and every law of forces must pass, as figures. Use them for your own materials.
 
 mod moduli;
 
@@ -10,9 +10,9 @@ use crate::{ElasticForces, EnergyDensity, SolidError};
 
 pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
 
-/// Largest entry of `P - dW/dA` (force per length) at the deformation gradient `deformation`: the error of the stress P
-/// of an energy density W, dW/dA by central differences of width `step` (no dimension; at 5e-6 round-off and truncation
-/// are about equal).
+/// Returns the largest entry of `P - dW/dA` (force per length) at the deformation gradient `deformation`. This is the
+/// error of the stress P of an energy density W, with dW/dA by central differences of width `step` (no dimension; at
+/// 5e-6 round-off and truncation are about equal).
 ///
 /// ```
 /// use elastic_solids::check::stress_error;
@@ -25,7 +25,8 @@ pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
 /// ```
 ///
 /// # Errors
-/// A step that is not positive; a deformation, or one a step away, whose determinant is not positive.
+/// Returns an error for a step that is not positive; a deformation, or one that is a step away, whose determinant is
+/// not positive.
 pub fn stress_error(energy: &dyn EnergyDensity, deformation: Mat2, step: f64) -> Result<f64, SolidError> {
     positive("the step", step)?;
     let stress = energy.stress(&DeformationGradient::new(deformation)?).to_cols_array();
@@ -42,7 +43,7 @@ pub fn stress_error(energy: &dyn EnergyDensity, deformation: Mat2, step: f64) ->
     Ok(largest)
 }
 
-/// Resultant and torque of the elastic forces over the sum of their magnitudes, both zero but for round-off.
+/// Resultant and torque of the elastic forces over the sum of their magnitudes, both zero except for round-off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ForceBalance {
@@ -52,11 +53,11 @@ pub struct ForceBalance {
     pub torque: f64,
 }
 
-/// Balance of the elastic forces of a mesh with its points at `positions` (length): zero to round-off, whatever the
-/// deformation.
+/// Returns the balance of the elastic forces of a mesh with its points at `positions` (length): zero to round-off,
+/// whatever the deformation.
 ///
 /// # Errors
-/// Positions that are not finite; those of [`ElasticForces::add_forces`].
+/// Returns an error for positions that are not finite; the errors of [`ElasticForces::add_forces`].
 pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
     all_points_finite("the positions", positions)?;
     let mut forces = vec![Vec2::ZERO; positions.len()];
@@ -66,12 +67,13 @@ pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<Forc
     Ok(ForceBalance { sum: forces.iter().sum::<Vec2>().length() / size, torque: torque.abs() / size })
 }
 
-/// Patch test: the largest force on a point inside a mesh under the uniform deformation `X = A s`, over the largest on
-/// its boundary (no dimension). It is zero to round-off for uniform hyperelastic material on any mesh that is not
-/// periodic, and for springs on a lattice of equilateral triangles.
+/// Returns the patch test. It is the largest force on a point inside a mesh under the uniform deformation `X = A s`,
+/// over the largest on its boundary (no dimension). It is zero to round-off for uniform hyperelastic material on any
+/// mesh that is not periodic, and for springs on a lattice of equilateral triangles.
 ///
 /// # Errors
-/// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
+/// Returns an error for forces made for another mesh; a deformation that is not finite; the errors of
+/// [`ElasticForces::add_forces`].
 pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation: Mat2) -> Result<f64, SolidError> {
     same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * *s).collect();

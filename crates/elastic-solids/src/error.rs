@@ -18,8 +18,8 @@ pub enum SolidError {
     Input(#[from] InputError),
     /// An inverted triangle, or one of a solid that flows which is about to be.
     #[error(
-        "triangle {triangle} near ({:.4}, {:.4}) is {}inverted (area ratio {jacobian:.4}): use a smaller time step or \
-         mesh spacing, or stiffer material", .place.x, .place.y, if *jacobian > 0.0 { "as good as " } else { "" }
+        "triangle {triangle} near ({:.4}, {:.4}) is {}inverted (area ratio {jacobian:.4}). Use a smaller time step or \
+         mesh spacing, or stiffer material", .place.x, .place.y, if *jacobian > 0.0 { "nearly " } else { "" }
     )]
     Inverted {
         /// Index of the triangle.
@@ -32,8 +32,8 @@ pub enum SolidError {
     /// A surface that has come to cross itself.
     #[error(
         "the surface crosses itself near {}, where the sides that start at the points {first} and {second} \
-         meet: the model has no contact of a solid with itself. Use a stiffer material, add surface elasticity, which \
-         keeps the surface from creasing, or use a smaller time step", at(*place)
+         meet, because the model has no contact of a solid with itself. Use a stiffer material, add surface \
+         elasticity, which keeps the surface from creasing, or use a smaller time step", at(*place)
     )]
     SelfContact {
         /// First point.
@@ -45,7 +45,7 @@ pub enum SolidError {
     },
     /// Points that found no equilibrium.
     #[error(
-        "the inner points found no equilibrium, {residual:.1e} of the force is left: use a smaller strain or a stable \
+        "the inner points found no equilibrium: {residual:.1e} of the force is left. Use a smaller strain or a stable \
          material"
     )]
     NoConvergence {
@@ -60,7 +60,7 @@ pub enum SolidError {
 motile_base::debug_as_explanation!(SolidError);
 
 impl SolidError {
-    /// A deformation that inverts the material, flattens it, or is not finite.
+    /// Returns the error for a deformation that inverts the material, flattens it, or is not finite.
     pub(crate) fn not_orientation_preserving(gradient: Mat2) -> Self {
         let [a, b] = [gradient.x_axis, gradient.y_axis].map(at);
         let what = format!("the deformation gradient with the columns {a} and {b} inverts or flattens the material");
@@ -68,74 +68,75 @@ impl SolidError {
         Self::refused(what, value, "Use a matrix with a positive determinant")
     }
 
-    /// A triangle that names a point which does not exist.
+    /// Returns the error for a triangle that names a point which does not exist.
     pub(crate) fn no_such_point(triangle: usize, point: usize, points: usize) -> Self {
         let what = format!("triangle {triangle} names point {point}, which does not exist");
         Self::refused(what, format!("the mesh has {points} points"), "Count the points from 0")
     }
 
-    /// A triangle without area.
+    /// Returns the error for a triangle without area.
     pub(crate) fn flat_triangle(triangle: usize, place: Vec2, area: f64) -> Self {
         let what = format!("triangle {triangle} near {} is flat", at(place));
         Self::refused(what, format!("its area is {area:.1e}"), "Move its points off a common line")
     }
 
-    /// A triangle of a periodic mesh whose corners cannot be told from their images.
+    /// Returns the error for a triangle of a periodic mesh whose corners cannot be distinguished from their images.
     pub(crate) fn triangle_too_wide(triangle: usize, width: f64, period: f64) -> Self {
         let value = format!("it is {} wide, which is half the period {period} or more", decimals(4, width));
         Self::refused(format!("triangle {triangle} is too wide"), value, "Use smaller triangles")
     }
 
-    /// A point that no triangle uses.
+    /// Returns the error for a point that no triangle uses.
     pub(crate) fn loose_point(point: usize, place: Vec2) -> Self {
         Self::refused(format!("point {point} at {} belongs to no triangle", at(place)), "", "Leave it out")
     }
 
-    /// Two points of triangles at one place, where the triangles are not connected.
+    /// Returns the error for two points of triangles at one place, where the triangles are not connected.
     pub(crate) fn coincident_points(first: usize, second: usize, place: Vec2) -> Self {
         let what = format!("points {first} and {second} coincide at {}", at(place));
         let remedy = "Merge them (in Gmsh, use \"Coherence Mesh;\" or the tool that removes duplicate nodes)";
         Self::refused(what, "the triangles there are not connected", remedy)
     }
 
-    /// An edge with more than one triangle on a side.
+    /// Returns the error for an edge with more than one triangle on a side.
     pub(crate) fn folded_mesh(first: usize, second: usize, triangle: usize) -> Self {
         let what = format!("triangles overlap at the edge between points {first} and {second}");
         let value = format!("two of them, one being triangle {triangle}, are on one side of it");
         Self::refused(what, value, "Remove one of them, or move its points")
     }
 
-    /// An island that a channel does not have.
+    /// Returns the error for an island that a channel does not have.
     pub(crate) fn no_such_island(number: usize, found: usize) -> Self {
         let value = format!("the channel has {found}, counted from 0");
         Self::refused(format!("island {number} does not exist"), value, "Use the number of an existing island")
     }
 
-    /// An operation that is not supported.
+    /// Returns the error for an operation that is not supported.
     pub(crate) fn unsupported(what: &str, remedy: &str) -> Self {
         Self::refused(format!("{what} is not possible"), "", remedy)
     }
 
-    /// A line that ends at `place`, at a distance `gap` from its start or the start of the next period.
+    /// Returns the error for a line that ends at `place`, at a distance `gap` from its start or the start of the next
+    /// period.
     pub(crate) fn open_outline(place: Vec2, gap: f64) -> Self {
         let value = format!("it ends at {}, {gap:.3e} from where it must", at(place));
         let remedy = "Close it, or let a profile return to its first height";
         Self::refused("the outline is not closed", value, remedy)
     }
 
-    /// A side or curve of an outline without length.
+    /// Returns the error for a side or curve of an outline without length.
     pub(crate) fn no_length(place: Vec2) -> Self {
         let what = format!("a side of the outline at {} has no length", at(place));
         Self::refused(what, "", "Use successive points that differ")
     }
 
-    /// Corners of a curve that do not increase.
+    /// Returns the error for corners of a curve that do not increase.
     pub(crate) fn corners_out_of_order(value: f64, [start, end]: [f64; 2]) -> Self {
         let remedy = format!("Use increasing numbers above {start} and below {end}");
         Self::refused("the corners of the curve are out of order", format!("{value}"), remedy)
     }
 
-    /// A rounded corner that does not fit on the side from `place`.
+    /// Returns the error for a rounded corner that does not fit on the side from `place`.
     pub(crate) fn rounding_too_large(radius: f64, place: Vec2, side: f64, maximum: f64) -> Self {
         let what = format!("a corner of radius {radius} does not fit on the side from {}", at(place));
         Self::refused(
@@ -145,12 +146,12 @@ impl SolidError {
         )
     }
 
-    /// Periodic outlines of different periods.
+    /// Returns the error for periodic outlines of different periods.
     pub(crate) fn different_periods(first: f64, second: f64) -> Self {
         Self::refused("outlines have different periods", format!("{first} and {second}"), "Give them the same period")
     }
 
-    /// An interior that extends to infinity.
+    /// Returns the error for an interior that extends to infinity.
     pub(crate) fn open_region(lines: usize) -> Self {
         let what = "the solid extends to infinity";
         let value = format!("the number of periodic outlines is odd: {lines}");
@@ -163,45 +164,45 @@ impl SolidError {
         Self::refused(format!("outlines cross or touch near {}", at(place)), "", remedy)
     }
 
-    /// A line of a channel on the wrong side of the others.
+    /// Returns the error for a line of a channel on the wrong side of the others.
     pub(crate) fn not_between(place: Vec2) -> Self {
         let what = format!("the line through {} is not between the two sides of the channel", at(place));
         let value = "it must be below the upper side and above the lower one";
         Self::refused(what, value, "Exchange the lines, or move them")
     }
 
-    /// A hole that the mesh cannot resolve.
+    /// Returns the error for a hole that the mesh cannot resolve.
     pub(crate) fn hole_too_small(place: Vec2, width: f64, spacing: f64) -> Self {
         let what = format!("the hole at {} is too small for the mesh", at(place));
         let value = format!("it is {} wide, less than the mesh spacing {spacing}", decimals(4, width));
         Self::refused(what, value, "Leave it out, or use a smaller spacing")
     }
 
-    /// A wall that the mesh cannot resolve.
+    /// Returns the error for a wall that the mesh cannot resolve.
     pub(crate) fn wall_too_thin(place: Vec2, thickness: f64, spacing: f64) -> Self {
         let what = format!("the solid at {} is too thin for the mesh", at(place));
         let value = format!("it is {} thick, less than the mesh spacing {spacing}", decimals(4, thickness));
         Self::refused(what, value, "Make it thicker, round its tip, or use a smaller spacing")
     }
 
-    /// A triangulation that failed.
+    /// Returns the error for a triangulation that failed.
     pub(crate) fn meshing_failed(reason: &str) -> Self {
         Self::refused("the triangulation failed", reason, "Use a smaller mesh spacing")
     }
 
-    /// A line of text that is not part of a mesh file.
+    /// Returns the error for a line of text that is not part of a mesh file.
     pub(crate) fn gmsh(line: usize, fault: impl Into<String>) -> Self {
         let remedy = "Save the mesh as ASCII, version 4.1, with triangles of three points in one plane";
         Self::refused(format!("line {line} of the mesh file cannot be used"), fault, remedy)
     }
 
-    /// A group of triangles that cannot be written.
+    /// Returns the error for a group of triangles that cannot be written.
     pub(crate) fn bad_group(tag: i32, fault: &str) -> Self {
         Self::refused(format!("group {tag} of triangles cannot be written"), fault, "Correct the group, or remove it")
     }
 }
 
-/// Text of a place.
+/// Returns the text of a place.
 fn at(Vec2 { x, y }: Vec2) -> String {
     place(x, y)
 }
@@ -220,7 +221,7 @@ pub(crate) fn refused(error: &SolidError, words: &str) -> bool {
     matches!(error, SolidError::Refused { .. }) && error.to_string().contains(words)
 }
 
-/// Numbers in the text of an error.
+/// Returns the numbers in the text of an error.
 #[cfg(test)]
 pub(crate) fn numbers(error: &SolidError) -> Vec<f64> {
     let text = error.to_string();

@@ -1,4 +1,4 @@
-//! Elastic forces of a deformed mesh: springs along its edges, hyperelastic material, or a law of your own.
+//! Elastic forces of a deformed mesh: springs along its edges, hyperelastic material, or your own law.
 
 mod hyperelastic;
 mod inner_stress;
@@ -21,40 +21,43 @@ pub use springs::Springs;
 /// The energy does not change when the deformed mesh is moved or turned, so that forces have neither a sum nor a
 /// torque, to round-off.
 pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
-    /// Number of points of the mesh.
+    /// Returns the number of points of the mesh.
     fn point_count(&self) -> usize;
 
     /// Adds the elastic forces -dE/dX (force) of the mesh with its points at `positions` (length).
     ///
     /// # Errors
-    /// Lists of the wrong length; an inverted triangle where the energy is not defined for it.
+    /// Returns an error for lists of the wrong length; an inverted triangle where the energy is not defined for it.
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError>;
 
-    /// Elastic energy E (energy) of the mesh with its points at `positions` (length).
+    /// Returns the elastic energy E (energy) of the mesh with its points at `positions` (length).
     ///
     /// # Errors
-    /// Those of [`ElasticForces::add_forces`].
+    /// Returns the errors of [`ElasticForces::add_forces`].
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError>;
 
-    /// First Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient is
-    /// `gradient`, where it is defined; `None` for a triangle beyond the last.
+    /// Returns the first Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient
+    /// is `gradient`, where it is defined. It is `None` for a triangle beyond the last.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2>;
 
-    /// First Piola-Kirchhoff stresses (force per reference length) in all triangles with these deformation gradients,
-    /// those of [`ElasticForces::stress`] unless triangles act on each other; `None` where one is not defined.
+    /// Returns the first Piola-Kirchhoff stresses (force per reference length) in all triangles with these deformation
+    /// gradients, the same as [`ElasticForces::stress`] unless triangles act on each other; `None` if one is not
+    /// defined.
     fn stresses(&self, gradients: &[Mat2]) -> Option<Vec<Mat2>> {
         gradients.iter().enumerate().map(|(triangle, gradient)| self.stress(triangle, gradient)).collect()
     }
 
-    /// Largest shear modulus and largest bulk modulus of small strains (force per length), which bound the time step.
+    /// Returns the largest shear modulus and largest bulk modulus of small strains (force per length), which bound the
+    /// time step.
     fn stiffest(&self) -> Moduli;
 }
 
-/// A straight bar between two points of a mesh, across the seam of a periodic one where its points stand there.
+/// A straight bar between two points of a mesh, across the periodic edge of a periodic one where its points stand
+/// there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bar {
     pub(crate) ends: [u32; 2],
-    /// Addition to x of the second end across the seam (length).
+    /// Addition to x of the second end across the periodic edge (length).
     pub(crate) shift: f64,
     /// Length in the reference state (length).
     pub(crate) length: f64,
@@ -70,7 +73,7 @@ impl Bar {
         })
     }
 
-    /// Vector from the first end to the second (length).
+    /// Returns the vector from the first end to the second (length).
     #[inline]
     pub(crate) fn span(&self, positions: &[Vec2]) -> Vec2 {
         let [from, to] = self.ends.map(|point| positions[point as usize]);

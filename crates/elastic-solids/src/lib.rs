@@ -1,13 +1,13 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
-//! A [`Solid`] is a triangle mesh of its reference state and a law for its forces (Cowley chapter 4): springs along the
-//! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`motile_scene::Body`]): its points
-//! put the forces on the fluid and move with it.
+//! Use this crate if droplets swim next to something soft. A [`Solid`] is a triangle mesh of its reference state
+//! together with a law for its forces (Cowley chapter 4): springs along the edges, a hyperelastic material, or your own
+//! law. It is a body of a scene ([`motile_scene::Body`]): its points put the forces on the fluid and move with it.
 //!
 //! # Example
 //!
-//! Forces pull the upper edge of a neo-Hookean strip. The strip has your own law of forces and relaxes to the stretch
-//! that the stress of the material predicts:
+//! Forces pull the upper edge of a neo-Hookean strip. Its law of forces is written by hand, to show how you add your
+//! own. The strip relaxes to the stretch that the stress of the material predicts:
 //!
 //! ```
 //! use elastic_solids::mesh::{TriangleMesh, fitted_strip};
@@ -74,31 +74,30 @@
 //!
 //! # Parts
 //!
-//! Each is usable by itself:
+//! You can use each part by itself:
 //!
 //! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with rounded corners; [`Interior`]
 //!   for the solid between them; [`Channel`] for two walls with islands between them, and ready ones, the
 //!   [`ChannelShape`]s.
 //! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`mesh::TriangleMesh::quality`]
 //!   measures how even they are.
-//! * **Materials**: [`NeoHookean`] (Cowley's), [`MooneyRivlin`], [`SaintVenantKirchhoff`], or an [`EnergyDensity`] of
-//!   your own; [`Moduli`] converts between constants, Cowley's spring constant among them.
-//! * **Forces** of a mesh by themselves ([`ElasticForces`]), and the checks that a law of your own must pass
-//!   ([`check`]).
+//! * **Materials**: [`NeoHookean`] (Cowley's), [`MooneyRivlin`], [`SaintVenantKirchhoff`], or your own
+//!   [`EnergyDensity`]; [`Moduli`] converts between constants, Cowley's spring constant among them.
+//! * **Forces** of a mesh by themselves ([`ElasticForces`]), and the checks that your own law must pass ([`check`]).
 //! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`],
 //!   of any outline, that the fluid carries along.
-//! * **Relaxation and activity**: [`Maxwell`] elements beside any law ([`Solid::with_maxwell`]), for viscoelastic
-//!   solids; [`ActiveSprings`] that contract at random ([`Solid::with_active_springs`]).
-//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
+//! * **Relaxation and activity**: [`Maxwell`] elements in parallel with any law ([`Solid::with_maxwell`]), for
+//!   viscoelastic solids; [`ActiveSprings`] that contract at random ([`Solid::with_active_springs`]).
+//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] hold a solid in place.
 //! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls.
 //!
 //! # Conventions
 //!
-//! Two dimensions: moduli and stresses are forces per length. Triangles are counter-clockwise. Walls repeat themselves
-//! in x, their two ends share points. Forces are those of the solid on the fluid. Quantities have the units that you
-//! choose; every item names its dimension. Bad input ends in a [`SolidError`].
+//! Everything is two-dimensional, so moduli and stresses are forces per length. Triangles are counter-clockwise. Walls
+//! repeat themselves in x, and their two ends share points. Forces are the forces of the solid on the fluid. Quantities
+//! have the units that you choose; every item names its dimension. Bad input returns a [`SolidError`].
 //!
-//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod active_springs;

@@ -18,18 +18,19 @@ pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 /// derivative.
 ///
 /// W is zero and least for a rotation, and does not change when the deformed material is turned. Implement this trait
-/// for a material of your own: a solid needs nothing else.
+/// for your own material: a solid needs nothing else.
 pub trait EnergyDensity: std::fmt::Debug + Send + Sync + 'static {
-    /// Energy density W(A) per reference area (energy per area, which is force per length in two dimensions).
+    /// Returns the energy density W(A) per reference area (energy per area, which is force per length in two
+    /// dimensions).
     fn energy(&self, gradient: &DeformationGradient) -> f64;
 
-    /// First Piola-Kirchhoff stress `P = dW/dA` (force per reference length).
+    /// Returns the first Piola-Kirchhoff stress `P = dW/dA` (force per reference length).
     fn stress(&self, gradient: &DeformationGradient) -> Mat2;
 
-    /// Shear and bulk modulus of small strains (force per length).
+    /// Returns the shear and bulk modulus of small strains (force per length).
     fn moduli(&self) -> Moduli;
 
-    /// Cauchy stress `P A^T / J` (force per deformed length), symmetric.
+    /// Returns the Cauchy stress `P A^T / J` (force per deformed length), symmetric.
     fn cauchy_stress(&self, gradient: &DeformationGradient) -> Mat2 {
         self.stress(gradient) * gradient.matrix().transpose() / gradient.jacobian()
     }
@@ -44,42 +45,42 @@ pub struct DeformationGradient {
 }
 
 impl DeformationGradient {
-    /// Deformation gradient with the matrix A.
+    /// Creates a deformation gradient with the matrix A.
     ///
     /// # Errors
-    /// [`SolidError::Refused`] where the determinant is not positive and finite.
+    /// Returns [`SolidError::Refused`] if the determinant is not positive and finite.
     pub fn new(matrix: Mat2) -> Result<Self, SolidError> {
         Self::checked(matrix).ok_or_else(|| SolidError::not_orientation_preserving(matrix))
     }
 
-    /// Deformation gradient with the matrix A; `None` where the determinant is not positive and finite.
+    /// Creates a deformation gradient with the matrix A; `None` if the determinant is not positive and finite.
     #[inline]
     pub(crate) fn checked(matrix: Mat2) -> Option<Self> {
         let jacobian = matrix.determinant();
         (jacobian > 0.0 && jacobian.is_finite()).then_some(Self { matrix, jacobian })
     }
 
-    /// Identity, of the undeformed state.
+    /// Creates an identity, of the undeformed state.
     #[must_use]
     pub fn identity() -> Self {
         Self { matrix: Mat2::IDENTITY, jacobian: 1.0 }
     }
 
-    /// Matrix A (no dimension).
+    /// Returns the matrix A (no dimension).
     #[inline]
     #[must_use]
     pub fn matrix(&self) -> Mat2 {
         self.matrix
     }
 
-    /// Determinant J = det A, the ratio of deformed and reference area (no dimension).
+    /// Returns the determinant J = det A, the ratio of deformed and reference area (no dimension).
     #[inline]
     #[must_use]
     pub fn jacobian(&self) -> f64 {
         self.jacobian
     }
 
-    /// Cofactor matrix `J A^-T = dJ/dA`.
+    /// Returns the cofactor matrix `J A^-T = dJ/dA`.
     #[inline]
     #[must_use]
     pub fn cofactor(&self) -> Mat2 {
@@ -87,8 +88,9 @@ impl DeformationGradient {
         Mat2::from_rows_array(&[a22, -a21, -a12, a11])
     }
 
-    /// Square of the difference of the principal stretches, `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 + A21)^2`: zero for
-    /// a rotation with uniform dilation. The latter form, which is evaluated, is free of cancellation.
+    /// Returns the square of the difference of the principal stretches, `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 +
+    /// A21)^2`: zero for a rotation with uniform dilation. The latter form, which is evaluated, is free of
+    /// cancellation.
     #[inline]
     #[must_use]
     pub fn distortion(&self) -> f64 {

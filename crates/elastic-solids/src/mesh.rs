@@ -25,7 +25,7 @@ pub use quality::MeshQuality;
 pub struct Edge {
     /// Indices of its two points.
     pub points: [usize; 2],
-    /// Number of periods to add to x of the second point to stand beside the first: 0, 1 or -1.
+    /// Number of periods to add to x of the second point to place it next to the first: 0, 1 or -1.
     pub periods: i32,
     /// Indices of the triangle on its left and of that on its right; `None` for an edge on the boundary.
     pub triangles: (usize, Option<usize>),
@@ -44,9 +44,9 @@ pub struct BoundaryLoop {
 
 /// A triangle mesh of the reference state of a solid, possibly periodic in x.
 ///
-/// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has
-/// corners one period away from its points, which [`TriangleMesh::corners`] accounts for. Every point belongs to a
-/// triangle and every edge to one or two.
+/// Triangles are counter-clockwise. In a periodic mesh, the two ends share their points: a triangle across the periodic
+/// edge has corners one period away from its points, which [`TriangleMesh::corners`] accounts for. Every point belongs
+/// to a triangle and every edge to one or two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     points: Vec<Vec2>,
@@ -60,21 +60,21 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// Mesh of points (length) and triangles, each by the indices of its three points; clockwise triangles are turned
-    /// round.
+    /// Creates a mesh of points (length) and triangles, each by the indices of its three points; clockwise triangles
+    /// are turned around.
     ///
     /// # Errors
-    /// No triangle, points that are not finite or in no triangle, indices beyond the points, triangles without area,
-    /// edges of more than two triangles or of two that lie on one side.
+    /// Returns an error if there is no triangle, or for points that are not finite or in no triangle, indices beyond
+    /// the points, triangles without area, edges of more than two triangles or of two that lie on one side.
     pub fn new(points: Vec<Vec2>, triangles: Vec<[usize; 3]>) -> Result<Self, SolidError> {
         Self::build(points, triangles, None)
     }
 
-    /// Mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a
-    /// period are taken across the seam.
+    /// Creates a mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than
+    /// half a period are taken across the periodic edge.
     ///
     /// # Errors
-    /// Those of [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
+    /// Returns the errors of [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
     pub fn periodic(points: Vec<Vec2>, triangles: Vec<[usize; 3]>, period: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         Self::build(points, triangles, Some(period))
@@ -116,25 +116,25 @@ impl TriangleMesh {
         Ok(Self { points, triangles, shifts, period, edges, loops, areas })
     }
 
-    /// Reference positions of the points (length).
+    /// Returns the reference positions of the points (length).
     #[must_use]
     pub fn points(&self) -> &[Vec2] {
         &self.points
     }
 
-    /// Triangles by the indices of their points, counter-clockwise.
+    /// Returns the triangles by the indices of their points, counter-clockwise.
     #[must_use]
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 
-    /// Period in x (length); `None` for a mesh that does not repeat itself.
+    /// Returns the period in x (length); `None` for a mesh that does not repeat itself.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// Edges, each once.
+    /// Returns the edges, each once.
     #[must_use]
     pub fn edges(&self) -> &[Edge] {
         &self.edges
@@ -146,19 +146,20 @@ impl TriangleMesh {
         &self.loops
     }
 
-    /// Areas of the triangles in the reference state (length squared).
+    /// Returns the areas of the triangles in the reference state (length squared).
     #[must_use]
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// Area of the mesh in the reference state (length squared).
+    /// Returns the area of the mesh in the reference state (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.areas.iter().sum()
     }
 
-    /// Area dA_i of each point, a third of the areas of the triangles around it (length squared; Cowley (4.2)).
+    /// Returns the area dA_i of each point, a third of the areas of the triangles around it (length squared; Cowley
+    /// (4.2)).
     pub(crate) fn point_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.points.len()];
         for (triangle, area) in self.triangles.iter().zip(&self.areas) {
@@ -169,16 +170,16 @@ impl TriangleMesh {
         areas
     }
 
-    /// Flag of each point, `true` for one that is not on the boundary.
+    /// Returns the flag of each point, `true` for one that is not on the boundary.
     pub(crate) fn inner_points(&self) -> Vec<bool> {
         let mut inner = vec![true; self.points.len()];
         self.loops.iter().flat_map(|boundary| &boundary.points).for_each(|&point| inner[point] = false);
         inner
     }
 
-    /// Corners of a triangle (length) with the points of the mesh at `positions` (length, one a point): one continuous
-    /// triangle, also across the seam of a periodic mesh. `None` for a triangle beyond the last or another number of
-    /// positions than points.
+    /// Returns the corners of a triangle (length) with the points of the mesh at `positions` (length, one per point):
+    /// one continuous triangle, also across the edge of a periodic mesh. `None` for a triangle beyond the last or
+    /// another number of positions than points.
     #[must_use]
     pub fn corners(&self, triangle: usize, positions: &[Vec2]) -> Option<[Vec2; 3]> {
         (triangle < self.triangles.len() && self.fits(positions)).then(|| self.raw_corners(triangle, positions))
@@ -194,21 +195,22 @@ impl TriangleMesh {
         corners_of(&self.triangles[triangle], self.shifts[triangle], self.period.unwrap_or(0.0), positions)
     }
 
-    /// Centroid of a triangle of this mesh in the reference state (length).
+    /// Returns the centroid of a triangle of this mesh in the reference state (length).
     pub(crate) fn centroid(&self, triangle: usize) -> Vec2 {
         self.raw_corners(triangle, &self.points).iter().sum::<Vec2>() / 3.0
     }
 
-    /// Vector from the first to the second point of an edge of this mesh with the points at `positions` (length).
+    /// Returns the vector from the first to the second point of an edge of this mesh with the points at `positions`
+    /// (length).
     pub(crate) fn edge_vector(&self, edge: &Edge, positions: &[Vec2]) -> Vec2 {
         let mut vector = positions[edge.points[1]] - positions[edge.points[0]];
         vector.x += f64::from(edge.periods) * self.period.unwrap_or(0.0);
         vector
     }
 
-    /// Polygon of a boundary loop with the points at `positions` (length): one continuous line, without the repeated
-    /// first point; for a loop with periods its end is that many periods ahead of its start. `None` for a loop of
-    /// another mesh or another number of positions than points.
+    /// Returns the polygon of a boundary loop with the points at `positions` (length): one continuous line, without the
+    /// repeated first point. For a loop with periods, its end is that many periods ahead of its start. `None` for a
+    /// loop of another mesh or another number of positions than points.
     #[must_use]
     pub fn boundary_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Option<Vec<Vec2>> {
         let known = self.fits(positions) && boundary.points.iter().all(|&point| point < positions.len());
@@ -231,7 +233,7 @@ impl TriangleMesh {
         polygon
     }
 
-    /// Mesh with y reversed: that of the other wall of a symmetric channel. Points keep their numbers.
+    /// Returns the mesh with y reversed: the mesh of the other wall of a symmetric channel. Points keep their numbers.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let mut mesh = self.clone();
@@ -253,7 +255,7 @@ impl TriangleMesh {
     /// Moves the mesh by `offset` (length).
     ///
     /// # Errors
-    /// An offset that is not finite.
+    /// Returns an error for an offset that is not finite.
     pub fn translated(mut self, offset: Vec2) -> Result<Self, SolidError> {
         all_points_finite("the offset", &[offset])?;
         for point in &mut self.points {
@@ -272,7 +274,7 @@ fn corners_of(triangle: &[usize; 3], shift: [i8; 2], period: f64, positions: &[V
     [at(0, 0), at(1, shift[0]), at(2, shift[1])]
 }
 
-/// Numbers of periods that bring the second and third corner next to the first.
+/// Returns the numbers of periods that bring the second and third corner next to the first.
 fn nearest_images(triangle: usize, x: [f64; 3], period: f64) -> Result<[i8; 2], SolidError> {
     let steps = [x[1] - x[0], x[2] - x[0]];
     let periods = steps.map(|step| -(step / period).round());

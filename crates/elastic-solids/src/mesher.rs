@@ -20,14 +20,13 @@ use seeds::{Fit, Lay};
 /// Mesher: makes uniform triangle meshes of interiors.
 ///
 /// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral
-/// triangles, no closer to the boundary than 0.4 spacings; the constrained Delaunay triangulation of all these points
-/// is relaxed, sweep after sweep, until the edges have about equal length. In this the boundary points slide along the
-/// exact outlines, from corner to corner. Where a mesh has less than 6,000 points several lattices are tried, and the
-/// mesh whose edge lengths deviate least is returned; the same outlines always gives the same mesh.
+/// triangles, no closer to the boundary than 0.4 spacings. The constrained Delaunay triangulation of all these points
+/// is relaxed, sweep after sweep, until the edges have about equal length. During this, the boundary points slide along
+/// the exact outlines, from corner to corner. If a mesh has less than 6,000 points, several lattices are tried, and the
+/// mesh whose edge lengths deviate least is returned. The same outlines always give the same mesh.
 ///
-/// The two ends of a periodic wall share their points, and its spacing is changed by up to 5 per cent so that the
-/// lattice fits its height: a lattice stretched across the wall would be anisotropic, for springs by as much as the
-/// stretch.
+/// The two ends of a periodic wall share their points, and its spacing is changed by up to 5 %, so that the lattice
+/// fits its height. A lattice stretched across the wall would be anisotropic, for springs by as much as the stretch.
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
@@ -49,7 +48,7 @@ pub struct Mesher {
 const SWEEPS: usize = 180;
 
 /// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the
-/// boundary stand, on average, one row away from it; a larger distance leaves too few of them, which relaxation makes
+/// boundary stand, on average, one row away from it. A larger distance leaves too few of them, which relaxation makes
 /// up for by stretching all triangles across a wall.
 const MARGIN: f64 = 0.4;
 
@@ -57,10 +56,10 @@ const MARGIN: f64 = 0.4;
 const TRIED_POINTS: usize = 12_000;
 
 impl Mesher {
-    /// Mesher for edges of length `spacing` (length).
+    /// Creates a mesher for edges of length `spacing` (length).
     ///
     /// # Errors
-    /// A spacing that is not positive and finite.
+    /// Returns an error for a spacing that is not positive and finite.
     pub fn new(spacing: f64) -> Result<Self, SolidError> {
         Ok(Self { spacing: length("the mesh spacing", spacing)?, sweeps: SWEEPS, angle: 0.0 })
     }
@@ -72,26 +71,31 @@ impl Mesher {
         self
     }
 
-    /// Turns the lattice of the seeds by `angle` (radians, 0 otherwise). The mesh of a straight wall is then no
-    /// lattice, which shows the influence of the mesh on a result.
+    /// Turns the lattice of the seeds by `angle` (radians, 0 otherwise). The mesh of a straight wall is then not a
+    /// lattice. Use this to see the influence of the mesh on a result.
     ///
     /// # Errors
-    /// An angle that is not finite.
+    /// Returns an error for an angle that is not finite.
     pub fn turned(mut self, angle: f64) -> Result<Self, SolidError> {
         self.angle = finite("the angle of the seeds", angle)?;
         Ok(self)
     }
 
-    /// Mesh of the inside of outlines.
+    /// Returns the mesh of the inside of outlines.
     ///
     /// # Errors
-    /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
-    /// period shorter than six spacings; more than 1e6 points; a triangulation that failed.
+    /// Returns an error for:
+    /// * outlines that cross or touch,
+    /// * a hole or part narrower than the spacing,
+    /// * a wall thinner than the spacing,
+    /// * a period shorter than six spacings,
+    /// * more than 1e6 points,
+    /// * a triangulation that failed.
     pub fn mesh(&self, interior: &Interior) -> Result<TriangleMesh, SolidError> {
         self.mesh_counting(interior).map(|(mesh, _)| mesh)
     }
 
-    /// Mesh, and the number of moves of points that it took.
+    /// Returns the mesh, and the number of moves of points that it took.
     fn mesh_counting(&self, interior: &Interior) -> Result<(TriangleMesh, usize), SolidError> {
         let boundary = Boundary::new(interior, self.spacing, self.angle == 0.0)?;
         most_even(&boundary, &self.ways(interior), self.sweeps)
@@ -125,7 +129,7 @@ impl Mesher {
     }
 }
 
-/// Most even of the meshes from different seeds, as many of which are made as [`TRIED_POINTS`] allows.
+/// Returns the most even of the meshes from different seeds, as many of which are made as [`TRIED_POINTS`] allows.
 fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<(TriangleMesh, usize), SolidError> {
     let mut best: Option<(f64, TriangleMesh)> = None;
     let (mut points, mut moves) = (0, 0);
@@ -159,7 +163,7 @@ fn relaxed(boundary: &Boundary<'_>, mut set: PointSet<'_>, sweeps: usize) -> Res
     Ok((complete(mesh?, boundary)?, moves))
 }
 
-/// Checks that a mesh has the boundary that was asked for, so that no triangle is missing or too many.
+/// Checks that a mesh has the given boundary, so that no triangle is missing or too many.
 fn complete(mesh: TriangleMesh, boundary: &Boundary<'_>) -> Result<TriangleMesh, SolidError> {
     let found: usize = mesh.boundary_loops().iter().map(|boundary| boundary.points.len()).sum();
     if found == boundary.count() {

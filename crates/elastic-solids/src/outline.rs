@@ -24,9 +24,9 @@ pub(crate) use track::{Place, Track};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
 ///
-/// An outline is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing
-/// on the exact curve between them. The direction does not matter: a point is solid or not by the number of outlines
-/// around it ([`Interior`](crate::Interior)).
+/// An outline consists of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal
+/// spacing on the exact curve between them. The direction does not matter, because the number of outlines around a
+/// point decides whether it is solid ([`Interior`](crate::Interior)).
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
@@ -44,36 +44,36 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Closed polygon through `corners` (length).
+    /// Creates a closed polygon through `corners` (length).
     ///
     /// # Errors
-    /// Fewer than three corners, corners that are not finite or coincide with the next.
+    /// Returns an error for fewer than three corners, corners that are not finite or coincide with the next.
     pub fn polygon(corners: &[Vec2]) -> Result<Self, SolidError> {
         at_least("corners of the polygon", corners.len(), 3)?;
         let next = corners[1..].iter().chain(&corners[..1]);
         Self::straight("the corners of the polygon", corners.iter().zip(next), None)
     }
 
-    /// Rectangle with two opposite corners (length).
+    /// Creates a rectangle with two opposite corners (length).
     ///
     /// # Errors
-    /// Corners that are not finite or on one side of a rectangle without area.
+    /// Returns an error for corners that are not finite or on one side of a rectangle without area.
     pub fn rectangle(corner: Vec2, opposite: Vec2) -> Result<Self, SolidError> {
         Self::polygon(&[corner, Vec2::new(opposite.x, corner.y), opposite, Vec2::new(corner.x, opposite.y)])
     }
 
-    /// Circle of `radius` about `centre` (length).
+    /// Creates a circle of `radius` about `centre` (length).
     ///
     /// # Errors
-    /// A radius that is not positive, a centre that is not finite.
+    /// Returns an error for a radius that is not positive, a centre that is not finite.
     pub fn circle(centre: Vec2, radius: f64) -> Result<Self, SolidError> {
         Self::ellipse(centre, [radius, radius])
     }
 
-    /// Ellipse with the half axes `axes` along x and y about `centre` (length).
+    /// Creates an ellipse with the half axes `axes` along x and y about `centre` (length).
     ///
     /// # Errors
-    /// Half axes that are not positive, a centre that is not finite.
+    /// Returns an error for half axes that are not positive, a centre that is not finite.
     pub fn ellipse(centre: Vec2, axes: [f64; 2]) -> Result<Self, SolidError> {
         positive("a half axis", axes[0])?;
         positive("a half axis", axes[1])?;
@@ -83,29 +83,30 @@ impl Outline {
         })
     }
 
-    /// Closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
+    /// Returns the closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
     ///
     /// # Errors
-    /// A curve that is not finite, has no length, or does not close.
+    /// Returns an error for a curve that is not finite, has no length, or does not close.
     pub fn closed(curve: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, SolidError> {
         Self::from_pieces(vec![Piece::curve(Arc::new(curve), [0.0, 1.0])?], None)
     }
 
-    /// Level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a
-    /// channel wall.
+    /// Creates a level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface
+    /// of a channel wall.
     ///
     /// # Errors
-    /// A period that is not positive, a start or height that is not finite.
+    /// Returns an error for a period that is not positive, a start or height that is not finite.
     pub fn flat(start: f64, period: f64, height: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         let points = [Vec2::new(start, height), Vec2::new(start + period, height)];
         Self::straight("the start and height", std::iter::once((&points[0], &points[1])), Some(period))
     }
 
-    /// Smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
+    /// Returns the smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
     ///
     /// # Errors
-    /// A period that is not positive, a height that is not finite or does not return to its first value.
+    /// Returns an error for a period that is not positive, a height that is not finite or does not return to its first
+    /// value.
     pub fn profile(
         start: f64,
         period: f64,
@@ -114,11 +115,11 @@ impl Outline {
         Self::profile_with_corners(start, period, &[], height)
     }
 
-    /// Piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated, with
-    /// corners at the increasing positions `corners` between them.
+    /// Returns the piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length),
+    /// repeated, with corners at the increasing positions `corners` between them.
     ///
     /// # Errors
-    /// Those of [`Outline::profile`]; corners that do not increase from above the start to below the end.
+    /// Returns the errors of [`Outline::profile`]; corners that do not increase from above the start to below the end.
     pub fn profile_with_corners(
         start: f64,
         period: f64,
@@ -131,11 +132,12 @@ impl Outline {
         Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [start, start + period], corners)?, Some(period))
     }
 
-    /// Line of straight pieces through `points` (length), repeated with `period` (length) so that the first point
-    /// follows the last one period further. It may overhang.
+    /// Creates a line of straight pieces through `points` (length), repeated with `period` (length) so that the first
+    /// point follows the last one period further. It may overhang.
     ///
     /// # Errors
-    /// No point, points that are not finite or coincide with the next, a period that is not positive.
+    /// Returns an error if there is no point, or for points that are not finite or coincide with the next, a period
+    /// that is not positive.
     pub fn polyline(points: &[Vec2], period: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         at_least("points of the line", points.len(), 1)?;
@@ -168,36 +170,36 @@ impl Outline {
         Ok(outline)
     }
 
-    /// Period in x (length); `None` for a closed outline.
+    /// Returns the period in x (length); `None` for a closed outline.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// First point (length).
+    /// Returns the first point (length).
     pub(crate) fn start(&self) -> Vec2 {
         self.pieces[0].start()
     }
 
-    /// Length of the outline, or of one period of it (length).
+    /// Returns the length of the outline, or of one period of it (length).
     #[must_use]
     pub fn length(&self) -> f64 {
         self.pieces.iter().map(Piece::length).sum()
     }
 
-    /// Outline moved by `offset` (length).
+    /// Returns the outline moved by `offset` (length).
     ///
     /// # Errors
-    /// An offset that is not finite.
+    /// Returns an error for an offset that is not finite.
     pub fn translated(&self, offset: Vec2) -> Result<Self, SolidError> {
         all_points_finite("the offset", &[offset])?;
         self.mapped(move |point| point + offset, self.period)
     }
 
-    /// Closed outline turned counter-clockwise by `angle` (radians) about `centre` (length).
+    /// Returns the closed outline turned counter-clockwise by `angle` (radians) about `centre` (length).
     ///
     /// # Errors
-    /// An angle or centre that is not finite, a periodic outline.
+    /// Returns an error for an angle or centre that is not finite, a periodic outline.
     pub fn rotated(&self, angle: f64, centre: Vec2) -> Result<Self, SolidError> {
         finite("the angle", angle)?;
         all_points_finite("the centre", &[centre])?;
@@ -211,10 +213,11 @@ impl Outline {
         self.mapped(move |point| centre + rotation.rotate(point - centre), None)
     }
 
-    /// Mirror image of the outline about the level y = `height` (length): the other wall of a symmetric channel.
+    /// Returns the mirror image of the outline about the level y = `height` (length). It is the other wall of a
+    /// symmetric channel.
     ///
     /// # Errors
-    /// A height that is not finite.
+    /// Returns an error for a height that is not finite.
     pub fn mirrored(&self, height: f64) -> Result<Self, SolidError> {
         finite("the height of the mirror", height)?;
         self.mapped(move |point| Vec2::new(point.x, 2.0 * height - point.y), self.period)
@@ -229,20 +232,20 @@ impl Outline {
         Self::from_pieces(pieces, period)
     }
 
-    /// Outline with every corner between two straight pieces rounded by a circle of `radius` (length).
+    /// Returns the outline with every corner between two straight pieces rounded by a circle of `radius` (length).
     ///
     /// # Errors
-    /// A radius that is not positive or too large for the sides next to a corner.
+    /// Returns an error for a radius that is not positive or too large for the sides next to a corner.
     pub fn rounded(&self, radius: f64) -> Result<Self, SolidError> {
         positive("the radius by which corners are rounded", radius)?;
         Self::from_pieces(rounding::rounded(&self.pieces, radius)?, self.period)
     }
 
-    /// Points on the outline at about `spacing` (length), equally spaced between corners, corners among them; at least
-    /// three on a closed outline.
+    /// Returns the points on the outline at about `spacing` (length), equally spaced between corners, corners among
+    /// them; at least three on a closed outline.
     ///
     /// # Errors
-    /// A spacing that is not positive, or so small that there would be more than 1e6 points.
+    /// Returns an error for a spacing that is not positive, or so small that there would be more than 1e6 points.
     pub fn resampled(&self, spacing: f64) -> Result<Vec<Vec2>, SolidError> {
         length("the spacing", spacing)?;
         within("the length of an outline over the spacing", self.length() / spacing, 0.0, MOST_POINTS)?;
@@ -250,7 +253,7 @@ impl Outline {
         Ok(track.places(spacing, 0.0).into_iter().map(|place| track.at(place)).collect())
     }
 
-    /// Tells whether the tangent turns at the start of piece k.
+    /// Returns true if the tangent turns at the start of piece k.
     fn is_corner(&self, k: usize) -> bool {
         let count = self.pieces.len();
         is_corner(&self.pieces[(k + count - 1) % count], &self.pieces[k])

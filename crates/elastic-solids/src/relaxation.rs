@@ -1,4 +1,4 @@
-//! Relaxation of stress: Maxwell elements beside the elastic forces of a solid.
+//! Relaxation of stress: Maxwell elements in parallel with the elastic forces of a solid.
 
 use motile_base::{Vec2, positive};
 
@@ -9,39 +9,40 @@ use crate::{Moduli, SolidError};
 
 /// A Maxwell element: a spring in series with a dashpot, whose stress relaxes while the strain is kept.
 ///
-/// One of them beside an elastic solid makes a standard linear solid, whose shear stress after a step of strain is
-/// `G(t) = Ginf + G1 exp(-t/tau)`; several make the generalised Maxwell model.
+/// One of them in parallel with an elastic solid makes a standard linear solid, whose shear stress after a step of
+/// strain is `G(t) = Ginf + G1 exp(-t/tau)`; several make the generalised Maxwell model.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("viscoelastic", "relaxation time", "Kelvin-Voigt", "standard linear solid"))]
 pub struct Maxwell {
     modulus: f64,
     time: f64,
 }
 
 impl Maxwell {
-    /// An element of the shear modulus G1 (force per length) and the relaxation time tau (time); `G1 tau` is the
-    /// viscosity that it adds to slow motion.
+    /// Creates an element of the shear modulus G1 (force per length) and the relaxation time tau (time); `G1 tau` is
+    /// the viscosity that it adds to slow motion.
     ///
     /// # Errors
-    /// Values that are not positive and finite.
+    /// Returns an error for values that are not positive and finite.
     pub fn new(modulus: f64, time: f64) -> Result<Self, SolidError> {
         let modulus = positive("the modulus of the Maxwell element", modulus)?;
         Ok(Self { modulus, time: positive("the relaxation time", time)? })
     }
 
-    /// Shear modulus (force per length).
+    /// Returns the shear modulus (force per length).
     #[must_use]
     pub fn modulus(&self) -> f64 {
         self.modulus
     }
 
-    /// Relaxation time (time).
+    /// Returns the relaxation time (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 }
 
-/// Part of a step below which stages take relaxation times for this part of it.
+/// Fraction of a step below which stages take relaxation times as this fraction of it.
 const SHORTEST: f64 = 1e-8;
 
 /// A part of the mesh whose stress relaxes.
@@ -65,10 +66,10 @@ struct Relaxing<T> {
 /// ```
 ///
 /// with r the length of an edge and l that at which its spring is at rest; A = Ae Av the deformation gradient, split
-/// into an elastic and a viscous part, and C = A^T A. The Cauchy stress of triangles is that of the upper-convected
-/// Maxwell model (Lubliner, Mech. Res. Commun. 12 (1985) 93), and what is dissipated is
-/// `mu/(2 tau) (tr b + tr b^-1 - 4)` per reference area. Each update of
-/// G is a mean of positive definite matrices, so that it remains one at any step.
+/// into an elastic and a viscous part, and C = A^T A. The Cauchy stress of triangles follows the upper-convected
+/// Maxwell model (Lubliner, Mech. Res. Commun. 12 (1985) 93), and what is dissipated is `mu/(2 tau) (tr b + tr b^-1 -
+/// 4)` per reference area. Each update of G is a mean of positive definite matrices, so that it remains one at any
+/// step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Relaxation {
     bars: Vec<Relaxing<Bar>>,
@@ -84,24 +85,24 @@ pub(crate) struct Relaxation {
     stage: Vec<Vec2>,
     /// Sum over the elements of their largest shear moduli (force per length).
     stiffest: f64,
-    /// Sums over all of moduli and viscosities, by which solids are told apart.
+    /// Sums over all of moduli and viscosities, by which solids are distinguished.
     sums: [f64; 2],
 }
 
-/// Inverse of C = A^T A, as xx, xy, yy.
+/// Returns the inverse of C = A^T A, as xx, xy, yy.
 fn inverse_strain(gradient: &Mat2) -> [f64; 3] {
     let [a11, a21, a12, a22] = gradient.to_cols_array();
     let scale = 1.0 / gradient.determinant().powi(2);
     [(a22 * a22 + a12 * a12) * scale, -(a22 * a21 + a12 * a11) * scale, (a21 * a21 + a11 * a11) * scale]
 }
 
-/// Symmetric matrix of the entries xx, xy, yy.
+/// Returns the symmetric matrix of the entries xx, xy, yy.
 fn symmetric(&[xx, xy, yy]: &[f64; 3]) -> Mat2 {
     Mat2::from_rows_array(&[xx, xy, xy, yy])
 }
 
 impl Relaxing<Element> {
-    /// First Piola-Kirchhoff stress (force per reference length) under a deformation gradient.
+    /// Returns the first Piola-Kirchhoff stress (force per reference length) under a deformation gradient.
     fn stress(&self, gradient: &DeformationGradient, inner: &[f64; 3]) -> Mat2 {
         (gradient.matrix() * symmetric(inner) + gradient.cofactor() * (-1.0 / gradient.jacobian())) * self.modulus
     }
@@ -112,7 +113,7 @@ impl Relaxation {
     /// the edges where `springs`, otherwise to the triangles.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the errors of the function.
     pub(crate) fn add(
         &mut self,
         mesh: &TriangleMesh,
@@ -157,7 +158,7 @@ impl Relaxation {
         Ok(())
     }
 
-    /// Internal variables.
+    /// Returns the internal variables.
     pub(crate) fn values(&self) -> &[f64] {
         &self.values
     }
@@ -167,12 +168,12 @@ impl Relaxation {
         scales.iter_mut().zip(&self.bars).for_each(|(scale, bar)| *scale = bar.part.length);
     }
 
-    /// Internal variables, to be overwritten.
+    /// Returns the internal variables, to be overwritten.
     pub(crate) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
 
-    /// Largest shear modulus of small fast strains (force per length), an upper bound.
+    /// Returns the largest shear modulus of small fast strains (force per length), an upper bound.
     pub(crate) fn stiffest(&self) -> f64 {
         self.stiffest
     }
@@ -201,7 +202,7 @@ impl Relaxation {
         Ok(())
     }
 
-    /// Energy of the elements (energy), and what they dissipate (energy per time).
+    /// Returns the energy of the elements (energy), and what they dissipate (energy per time).
     pub(crate) fn energies(&self, positions: &[Vec2]) -> Result<[f64; 2], SolidError> {
         let mut energies = [0.0; 2];
         for (bar, rest) in self.bars.iter().zip(&self.values) {
@@ -220,8 +221,8 @@ impl Relaxation {
         Ok(energies)
     }
 
-    /// Adds the Cauchy stresses of the elements (force per deformed length) to those of the triangles of the mesh, none
-    /// of which is inverted.
+    /// Adds the Cauchy stresses of the elements (force per deformed length) to the stresses of the triangles of the
+    /// mesh, none of which is inverted.
     pub(crate) fn add_stresses(&self, mesh: &TriangleMesh, positions: &[Vec2], stresses: &mut [Mat2]) {
         for (bar, rest) in self.bars.iter().zip(&self.values) {
             let tension = bar.modulus * (bar.part.span(positions).length() - rest);
@@ -249,7 +250,8 @@ impl Relaxation {
         }
     }
 
-    /// Takes the positions of a stage (length): those given, and of the points `free` those of the state.
+    /// Takes the positions of a stage (length): the positions given, and for the points `free` the positions of the
+    /// state.
     fn place(&mut self, positions: &[Vec2], free: &[usize], state: &[f64]) {
         self.stage.copy_from_slice(positions);
         for (pair, &point) in state.chunks_exact(2).zip(free) {
@@ -312,7 +314,7 @@ impl Relaxation {
     }
 }
 
-/// Forces of a solid without an elasticity of its own.
+/// Forces of a solid without elastic stress.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct NoElasticity {
     /// Number of points of the mesh.

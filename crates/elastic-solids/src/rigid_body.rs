@@ -13,22 +13,22 @@ use crate::SolidError;
 /// Fewest markers of an outline: its curvature and its normals come from Fourier series, of three modes at least.
 pub(crate) const LEAST_MARKERS: usize = 8;
 
-/// Least distance of two sides of a body, in distances of its nodes, at which speeds next to it are right to about a
-/// per cent. The flow in the body, between the sides, is then resolved (measured for rods and ellipses: 0.9 % at 2.3, 9
-/// % at 1.9, 380 % at 1.6).
+/// Minimum distance of two sides of a body, in distances of its nodes, at which speeds next to it are right to about 1
+/// %. The flow in the body, between the sides, is then resolved (measured for rods and ellipses: 0.9 % at 2.3, 9 % at
+/// 1.9, 380 % at 1.6).
 const RESOLVED_SIDES: f64 = 2.4;
 /// Distance of two points over the way between them along the outline, below which they lie on two sides: somewhat more
 /// than for opposite points of a circle.
 const OPPOSITE: f64 = 0.65;
-/// Most points of an outline whose distances are looked at.
+/// Largest number of points of an outline whose distances are compared.
 const MOST_LOOKED_AT: usize = 1000;
 
-/// A rigid body of any smooth outline that the fluid carries along, under a load of the user's and the repulsion of
-/// other bodies.
+/// A rigid body of any smooth outline that the fluid carries along, under your load and the repulsion of other bodies.
 ///
 /// The state is the centroid of its area and an angle. Boundary integrals and layers give its markers the velocities of
-/// one rigid motion ([`MarkerKind::Rigid`]); the methods of a grid alone do not support it.
+/// one rigid motion ([`MarkerKind::Rigid`]); methods with a grid alone do not support it.
 #[derive(Debug, Clone, PartialEq)]
+#[doc(alias("no-slip", "particle", "nucleus", "obstacle"))]
 pub struct RigidBody {
     name: String,
     /// Markers about the centroid at an angle of zero (length).
@@ -37,7 +37,7 @@ pub struct RigidBody {
     mean: Vec2,
     inertia: f64,
     area: f64,
-    /// Least distance of two sides over that of neighbouring markers there.
+    /// Minimum distance of two sides over the distance of neighbouring markers there.
     thinnest: f64,
     centre: Vec2,
     angle: f64,
@@ -60,10 +60,11 @@ pub struct RigidBodyMotion {
 }
 
 impl RigidBody {
-    /// Rigid body from points of its outline (length), in either direction, at equally spaced values of some parameter.
+    /// Creates a rigid body from points of its outline (length), in either direction, at equally spaced values of some
+    /// parameter.
     ///
     /// # Errors
-    /// Fewer than 8 points, points that are not finite, an outline without area.
+    /// Returns an error for fewer than 8 points, points that are not finite, an outline without area.
     pub fn new(points: &[Vec2]) -> Result<Self, SolidError> {
         let (points, area, centre) = closed_outline(points)?;
         let count = points.len() as f64;
@@ -80,42 +81,43 @@ impl RigidBody {
         Self { name: name.into(), ..self }
     }
 
-    /// Loads the body with a force at its centroid (force) and a torque (force times length). In the plane the forces
-    /// of a scene should have no resultant: it would set all of the fluid in motion.
+    /// Loads the body with a force at its centroid (force) and a torque (force times length). In the plane, the forces
+    /// of a scene should have no resultant: otherwise it would set all of the fluid in motion.
     ///
     /// # Errors
-    /// Values that are not finite.
+    /// Returns an error for values that are not finite.
     pub fn with_load(self, force: Vec2, torque: f64) -> Result<Self, SolidError> {
         all_points_finite("the load of a rigid body", &[force, Vec2::splat(torque)])?;
         Ok(Self { force, torque, ..self })
     }
 
-    /// Centroid of the area (length).
+    /// Returns the centroid of the area (length).
     #[must_use]
     pub fn centre(&self) -> Vec2 {
         self.centre
     }
 
-    /// Angle turned since the start (radians, counter-clockwise).
+    /// Returns the angle turned since the start (radians, counter-clockwise).
     #[must_use]
     pub fn angle(&self) -> f64 {
         self.angle
     }
 
-    /// Area (length squared).
+    /// Returns the area (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// Present positions of the markers (length), counter-clockwise, not wrapped into the periods of the region.
+    /// Returns the present positions of the markers (length), counter-clockwise, not wrapped into the periods of the
+    /// region.
     pub fn markers(&self) -> impl Iterator<Item = Vec2> {
         let turn = Vec2::from_angle(self.angle);
         self.outline.iter().map(move |arm| self.centre + turn.rotate(*arm))
     }
 
-    /// Velocity of the centroid (length per time) and angular velocity (radians per time) of the rigid motion nearest,
-    /// by least squares, to velocities at the markers (length per time).
+    /// Returns the velocity of the centroid (length per time) and angular velocity (radians per time) of the rigid
+    /// motion nearest, by least squares, to velocities at the markers (length per time).
     fn motion(&self, velocities: &[Vec2]) -> (Vec2, f64) {
         let turn = Vec2::from_angle(self.angle);
         let mean = velocities.iter().sum::<Vec2>() / velocities.len() as f64;
@@ -125,7 +127,8 @@ impl RigidBody {
     }
 }
 
-/// Checked points of an outline, counter-clockwise, with the area (length squared) and the centroid of the polygon.
+/// Returns the checked points of an outline, counter-clockwise, with the area (length squared) and the centroid of the
+/// polygon.
 pub(crate) fn closed_outline(points: &[Vec2]) -> Result<(Vec<Vec2>, f64, Vec2), SolidError> {
     at_least("the points of an outline", points.len(), LEAST_MARKERS)?;
     all_points_finite("the points of an outline", points)?;
@@ -139,7 +142,7 @@ pub(crate) fn closed_outline(points: &[Vec2]) -> Result<(Vec<Vec2>, f64, Vec2), 
     Ok((points, area.abs(), centre))
 }
 
-/// Least distance of two sides of an outline over that of neighbouring points there.
+/// Returns the minimum distance of two sides of an outline over the distance of neighbouring points there.
 fn thinnest(outline: &[Vec2]) -> f64 {
     let stride = outline.len().div_ceil(MOST_LOOKED_AT);
     let points: Vec<Vec2> = outline.iter().copied().step_by(stride).collect();
@@ -224,7 +227,7 @@ impl Body for RigidBody {
         scales.copy_from_slice(&[size, size, 1.0]);
     }
 
-    /// A body so thin that its nodes do not resolve the distance of its sides.
+    /// Returns the error for a body so thin that its nodes do not resolve the distance of its sides.
     fn warnings(&self, view: &FluidView) -> Vec<Warning> {
         let markers = self.outline.len();
         let nodes = view.shape_modes.unwrap_or(markers);
@@ -243,7 +246,7 @@ impl Body for RigidBody {
         vec![Warning { body, cause, excess: RESOLVED_SIDES / apart, message }]
     }
 
-    /// Shape and load.
+    /// Returns the shape and load.
     fn properties(&self) -> Vec<(String, f64)> {
         let properties = [
             ("the number of markers", self.outline.len() as f64),

@@ -7,11 +7,11 @@ use motile_scene::{Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, St
 
 use crate::{SolidError, rigid_body::closed_outline};
 
-/// A closed elastic membrane that moves with the fluid, around fluid of its own viscosity: a shell inside a droplet, or
-/// a capsule.
+/// A closed elastic membrane that moves with the fluid, and may hold fluid of another viscosity: a shell inside a
+/// droplet, or a capsule.
 ///
-/// Its energy and forces are those of a [`Membrane`]; deformation, angle and period of tank-treading in a flow are in
-/// `System::deformation`, strains in what a scene observes of it ([`ShellStrains`]).
+/// Its energy and forces are the same as in a [`Membrane`]. To measure deformation, angle and period of tank-treading
+/// in a flow, use `System::deformation`. To measure strains, observe it in a scene ([`ShellStrains`]).
 ///
 /// ```
 /// use elastic_solids::{Shell, SolidError};
@@ -26,6 +26,7 @@ use crate::{SolidError, rigid_body::closed_outline};
 /// # Ok::<(), SolidError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("vesicle", "capsule", "red blood cell", "membrane"))]
 pub struct Shell {
     name: String,
     positions: Vec<Vec2>,
@@ -38,11 +39,12 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// Membrane through points (length) at equally spaced values of some parameter, in either direction, at rest in
-    /// this shape, with the moduli of stretching E_s (force) and bending B (force times length squared).
+    /// Creates a membrane through points (length) at equally spaced values of some parameter, in either direction, at
+    /// rest in this shape, with the moduli of stretching E_s (force) and bending B (force times length squared).
     ///
     /// # Errors
-    /// Fewer than 8 points, points that are not finite or coincide, no area, moduli that are negative or not finite.
+    /// Returns an error for fewer than 8 points, points that are not finite or coincide, no area, moduli that are
+    /// negative or not finite.
     pub fn new(points: &[Vec2], stretching: f64, bending: f64) -> Result<Self, SolidError> {
         let (positions, area, _) = closed_outline(points)?;
         Ok(Self {
@@ -71,23 +73,23 @@ impl Shell {
     /// Puts the bending at rest at one curvature everywhere (1/length; positive for a circle), whatever the shape.
     ///
     /// # Errors
-    /// A curvature that is not finite.
+    /// Returns an error for a curvature that is not finite.
     pub fn with_reference_curvature(self, curvature: f64) -> Result<Self, SolidError> {
         Ok(Self { membrane: self.membrane.with_reference_curvature(curvature)?, ..self })
     }
 
-    /// Fills the shell with a fluid of another viscosity (stress times time) than that around it.
+    /// Fills the shell with a fluid of another viscosity (stress times time) than the fluid around it.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite.
+    /// Returns an error for a viscosity that is not positive and finite.
     pub fn with_viscosity_inside(self, viscosity: f64) -> Result<Self, SolidError> {
         Ok(Self { viscosity_inside: Some(positive("the viscosity inside", viscosity)?), ..self })
     }
 
-    /// Moves the points of the shell (length); it stays at rest in the shape that it was made in.
+    /// Moves the points of the shell (length). Its shape at rest stays the one that it was made in.
     ///
     /// # Errors
-    /// Another number of points, points that are not finite or coincide.
+    /// Returns an error for another number of points, points that are not finite or coincide.
     pub fn deformed(mut self, points: &[Vec2]) -> Result<Self, SolidError> {
         same_length("the points of a shell", self.positions.len(), points.len())?;
         all_points_finite("the points of a shell", points)?;
@@ -99,25 +101,27 @@ impl Shell {
         Ok(self)
     }
 
-    /// Present positions of the markers (length), counter-clockwise, not wrapped into the periods of the region.
+    /// Returns the present positions of the markers (length), counter-clockwise, not wrapped into the periods of the
+    /// region.
     #[must_use]
     pub fn markers(&self) -> &[Vec2] {
         &self.positions
     }
 
-    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the fluid around it.
+    /// Returns the viscosity of the fluid inside (stress times time), `None` if it is the viscosity of the fluid around
+    /// it.
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.viscosity_inside
     }
 
-    /// Elastic energy (force times length).
+    /// Returns the elastic energy (force times length).
     #[must_use]
     pub fn energy(&self) -> f64 {
         self.membrane.energy()
     }
 
-    /// The membrane, in the shape whose forces were last written, or that the shell was given.
+    /// Returns the membrane, in the shape whose forces were last written, or that the shell was given.
     #[must_use]
     pub fn membrane(&self) -> &Membrane {
         &self.membrane
@@ -179,7 +183,7 @@ impl Body for Shell {
         points::write(&self.motions, rate);
     }
 
-    /// Stable step of the shortest wave that moves, of wave number q: on a flat membrane between the two fluids it
+    /// Stable step of the shortest wave that moves, of wave number q. On a flat membrane between the two fluids it
     /// relaxes at the rate `q (E_s + |T| + B q^2)/(2 (eta_in + eta_out))`, T the largest tension, both moduli at the
     /// largest stretch.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
@@ -199,7 +203,7 @@ impl Body for Shell {
         scales.fill((self.area / PI).sqrt());
     }
 
-    /// Moduli, and the shape at rest.
+    /// Returns the moduli, and the shape at rest.
     fn properties(&self) -> Vec<(String, f64)> {
         let ([stretching, bending], [length, curvature]) = (self.membrane.moduli(), self.membrane.at_rest());
         let mut properties = vec![

@@ -26,12 +26,12 @@ use spreading::Spreading;
 
 pub use deformation::Deformation;
 
-/// An elastic solid in a fluid, a body of a scene ([`motile_scene::Body`]): its points put their elastic forces on the
-/// fluid and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a hyperelastic
-/// material (Cowley section 4.2), or has forces of your own.
+/// An elastic solid in a fluid, as a body of a scene ([`motile_scene::Body`]). Its points put their elastic forces on
+/// the fluid and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a
+/// hyperelastic material (Cowley section 4.2), or has your own forces.
 ///
-/// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
-/// the reference state.
+/// To hold a solid, pin points, so that they stay where they are and put no force on the fluid, or tether them to their
+/// places in the reference state.
 ///
 /// ```
 /// use elastic_solids::{ChannelShape, Mesher, NeoHookean, Solid, SolidError};
@@ -50,6 +50,7 @@ pub use deformation::Deformation;
 /// # Ok::<(), SolidError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("elastic wall", "finite elements", "hyperelastic", "gel wall"))]
 pub struct Solid {
     pub(crate) name: String,
     pub(crate) mesh: TriangleMesh,
@@ -72,7 +73,7 @@ pub struct Solid {
     pub(crate) damping: Option<Damping>,
     spreading: Option<Box<Spreading>>,
     surface: SelfContact,
-    /// True for one without an elasticity of its own.
+    /// True for a solid without elastic stress.
     flows: bool,
 }
 
@@ -88,7 +89,7 @@ pub struct Tether {
 }
 
 impl Solid {
-    /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
+    /// Creates a solid of springs with one shear modulus everywhere (force per length), in its reference state.
     ///
     /// ```
     /// use elastic_solids::{Moduli, Solid, SolidError, mesh::equilateral_strip};
@@ -103,33 +104,33 @@ impl Solid {
     /// ```
     ///
     /// # Errors
-    /// A shear modulus that is not positive and finite.
+    /// Returns an error for a shear modulus that is not positive and finite.
     pub fn springs(mesh: TriangleMesh, shear: f64) -> Result<Self, SolidError> {
         Self::springs_graded(mesh, |_| shear)
     }
 
-    /// A solid of springs whose shear modulus (force per length) is a function of the reference position (length),
-    /// taken at the centroid of each triangle.
+    /// Returns a solid of springs whose shear modulus (force per length) is a function of the reference position
+    /// (length), taken at the centroid of each triangle.
     ///
     /// # Errors
-    /// A shear modulus that is not positive and finite.
+    /// Returns an error for a shear modulus that is not positive and finite.
     pub fn springs_graded(mesh: TriangleMesh, shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
         let law = Springs::graded(&mesh, shear)?;
         Ok(Self { springs: true, ..Self::at_rest(mesh, law) })
     }
 
-    /// A solid of one hyperelastic material everywhere, in its reference state.
+    /// Creates a solid of one hyperelastic material everywhere, in its reference state.
     #[must_use]
     pub fn hyperelastic(mesh: TriangleMesh, material: impl EnergyDensity) -> Self {
         let law = Hyperelastic::new(&mesh, material);
         Self::at_rest(mesh, law)
     }
 
-    /// A solid whose hyperelastic material is a function of the reference position (length), taken at the centroid of
-    /// each triangle.
+    /// Returns a solid whose hyperelastic material is a function of the reference position (length), taken at the
+    /// centroid of each triangle.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the errors of the function.
     pub fn hyperelastic_graded<E: EnergyDensity>(
         mesh: TriangleMesh,
         material: impl FnMut(Vec2) -> Result<E, SolidError>,
@@ -138,19 +139,19 @@ impl Solid {
         Ok(Self::at_rest(mesh, law))
     }
 
-    /// A solid with elastic forces of your own, in its reference state.
+    /// Creates a solid with your own elastic forces, in its reference state.
     ///
     /// # Errors
-    /// Forces made for another number of points.
+    /// Returns an error for forces made for another number of points.
     pub fn with_forces(mesh: TriangleMesh, law: impl ElasticForces) -> Result<Self, SolidError> {
         same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
         Ok(Self::at_rest(mesh, law))
     }
 
-    /// A solid without an elasticity of its own, for one that flows: all its stress is that of Maxwell elements
-    /// ([`Solid::with_maxwell`]), on its triangles, and relaxes entirely. As it creeps its triangles are sheared; where
-    /// one has lost 98 % of its area the run ends in [`SolidError::Inverted`], at the time that the scene's error
-    /// tells.
+    /// Creates a solid without elastic stress, for a material that flows: all its stress comes from Maxwell elements
+    /// ([`Solid::with_maxwell`]), on its triangles, and relaxes entirely. As it creeps, its triangles are sheared. When
+    /// one has lost 98 % of its area, the run ends with [`SolidError::Inverted`], at the time that the scene's error
+    /// reports.
     #[must_use]
     pub fn fluid_like(mesh: TriangleMesh) -> Self {
         let law = NoElasticity { points: mesh.points().len(), triangles: mesh.triangles().len() };
@@ -180,10 +181,10 @@ impl Solid {
         }
     }
 
-    /// Allows inverted triangles, which springs do not resist, and a surface that crosses itself: for comparison with
-    /// work that has them. [`Solid::smallest_jacobian`] is negative where there are some. Otherwise a step that inverts
-    /// a triangle or folds the surface onto itself is an error, as the first always is for a material whose energy is
-    /// not defined there.
+    /// Allows inverted triangles, which springs do not resist, and a surface that crosses itself. Use this only to
+    /// compare with work that has them. [`Solid::smallest_jacobian`] is negative if there are some. Otherwise a step
+    /// that inverts a triangle or folds the surface onto itself is an error, as the first always is for a material
+    /// whose energy is not defined there.
     #[must_use]
     pub fn allow_inversion(mut self) -> Self {
         self.may_invert = true;
@@ -197,21 +198,21 @@ impl Solid {
     /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
     /// ```
     ///
-    /// with the lengths l of the sides of the surface and the angles theta between them, L and theta_0 those of the
+    /// with the lengths l of the sides of the surface and the angles theta between them, L and theta_0 the same in the
     /// reference state, S the mean length of two sides. A soft solid that is compressed along its surface beyond a
-    /// stretch of about 0.65 creases; surface elasticity sets the length, of the order of the cube root of B over the
+    /// stretch of about 0.65 creases. Surface elasticity sets the length, of the order of the cube root of B over the
     /// shear modulus, below which it does not fold.
     ///
     /// # Errors
-    /// Moduli that are negative or not finite.
+    /// Returns an error for moduli that are negative or not finite.
     pub fn with_surface_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, SolidError> {
         self.surface_elasticity = Some(SurfaceElasticity::new(&self.mesh, stretching, bending)?);
         Ok(self)
     }
 
-    /// Puts a [`Maxwell`] element beside the elastic forces, everywhere the same: beside the springs where the solid
-    /// is made of springs, otherwise in all triangles. Several calls put several of them there. The element is without
-    /// stress in the reference state, also where the solid starts deformed.
+    /// Adds a [`Maxwell`] element in parallel with the elastic forces, everywhere the same: along the springs if the
+    /// solid is made of springs, otherwise in all triangles. Several calls put several of them there. The element is
+    /// without stress in the reference state, also where the solid starts deformed.
     ///
     /// ```
     /// use elastic_solids::{Maxwell, NeoHookean, Solid, SolidError, mesh::equilateral_strip};
@@ -228,7 +229,7 @@ impl Solid {
     /// ```
     ///
     /// # Errors
-    /// None for a valid element.
+    /// Returns no error for a valid element.
     pub fn with_maxwell(self, element: Maxwell) -> Result<Self, SolidError> {
         self.with_maxwell_graded(|_| Ok(element))
     }
@@ -237,7 +238,7 @@ impl Solid {
     /// each triangle; see [`Solid::with_maxwell`].
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the errors of the function.
     pub fn with_maxwell_graded(
         mut self,
         element: impl FnMut(Vec2) -> Result<Maxwell, SolidError>,
@@ -246,7 +247,7 @@ impl Solid {
         Ok(self)
     }
 
-    /// Puts [`ActiveSprings`] along all edges of the mesh, beside all other forces.
+    /// Adds [`ActiveSprings`] along all edges of the mesh, in addition to all other forces.
     #[must_use]
     pub fn with_active_springs(mut self, law: ActiveSprings) -> Self {
         self.bonds = Some(Bonds::new(&self.mesh, law));
@@ -257,7 +258,7 @@ impl Solid {
     /// position of the middle of an edge (length).
     ///
     /// # Errors
-    /// A factor that is negative or not finite.
+    /// Returns an error for a factor that is negative or not finite.
     pub fn with_active_springs_graded(
         mut self,
         law: ActiveSprings,
@@ -267,25 +268,26 @@ impl Solid {
         Ok(self)
     }
 
-    /// Makes the solid more viscous than the fluid by `excess` (force per length times time): a viscous stress beside
-    /// the elastic one, of Kelvin and Voigt, and beside that of the fluid in it. An evaluation then takes several of
-    /// the flow, more the larger the ratio of the viscosities is; steps may be as long as without.
+    /// Makes the solid more viscous than the fluid by `excess` (force per length times time): a viscous stress in
+    /// addition to the elastic one (Kelvin and Voigt) and to the stress of the fluid in it. An evaluation then takes
+    /// several evaluations of the flow: the number grows with the ratio of the viscosities. Steps may be as long as
+    /// without it.
     ///
     /// # Errors
-    /// An excess that is not positive and finite.
+    /// Returns an error for an excess that is not positive and finite.
     pub fn with_excess_viscosity(mut self, excess: f64) -> Result<Self, SolidError> {
         self.damping = Some(Damping::new(&self.mesh, positive("the excess viscosity of the solid", excess)?));
         Ok(self)
     }
 
     /// Spreads the forces on inner points over the triangles about them, and moves these points with the fluid in all
-    /// of the triangles: the Galerkin method with piecewise linear fields, whose markers are the points of the boundary
-    /// and three places in each triangle with an inner point.
+    /// of the triangles. This is the Galerkin method with piecewise linear fields, whose markers are the points of the
+    /// boundary and three places in each triangle with an inner point.
     ///
-    /// Otherwise forces act at the points themselves, between which fluid leaks where the grid is much finer than the
-    /// mesh, so that a solid seems softer than it is. Spread over the triangles they leak the less the finer the grid,
-    /// and a mesh of four spacings of a fine grid is enough. A run takes some two to three times the points' time. A
-    /// held [mirror symmetry](motile_scene::Scene::held_symmetric) is not for such solids.
+    /// Otherwise forces act at the points themselves. If the grid is much finer than the mesh, fluid leaks between the
+    /// points, so the solid seems softer than it is. With forces spread over the triangles, a finer grid leaks less,
+    /// and a mesh of four spacings of a fine grid is enough. A run takes two to three times as long as without these
+    /// points. A held [mirror symmetry](motile_scene::Scene::held_symmetric) is not for such solids.
     #[must_use]
     pub fn spread_over_triangles(mut self) -> Self {
         self.spreading = Some(Box::new(Spreading::new(&self.mesh, &self.free)));
@@ -304,7 +306,7 @@ impl Solid {
     /// the support that holds them takes these up.
     ///
     /// # Errors
-    /// No point left free.
+    /// Returns an error if no point is left free.
     pub fn pinned(mut self, condition: impl Fn(Vec2) -> bool) -> Result<Self, SolidError> {
         let points = self.mesh.points();
         self.free.retain(|&point| !condition(points[point]));
@@ -316,7 +318,7 @@ impl Solid {
     /// `stiffness` (force per length).
     ///
     /// # Errors
-    /// A stiffness that is not positive and finite; no point that satisfies the condition.
+    /// Returns an error for a stiffness that is not positive and finite; no point that satisfies the condition.
     pub fn tethered(mut self, stiffness: f64, condition: impl Fn(Vec2) -> bool) -> Result<Self, SolidError> {
         positive("the stiffness of the tethers", stiffness)?;
         let before = self.tethers.len();
@@ -329,18 +331,18 @@ impl Solid {
     /// Deforms the solid: puts every point, pinned ones too, at a function of its reference position (length).
     ///
     /// # Errors
-    /// Positions that are not finite.
+    /// Returns an error for positions that are not finite.
     pub fn deformed(mut self, position: impl Fn(Vec2) -> Vec2) -> Result<Self, SolidError> {
         let positions: Vec<Vec2> = self.mesh.points().iter().map(|&place| position(place)).collect();
         self.set_positions(&positions)?;
         Ok(self)
     }
 
-    /// Puts all points, pinned ones too, at these positions (length). If they invert a triangle, the next step ends in
+    /// Puts all points, pinned ones too, at these positions (length). If they invert a triangle, the next step returns
     /// an error.
     ///
     /// # Errors
-    /// A list of the wrong length, positions that are not finite.
+    /// Returns an error for a list of the wrong length, positions that are not finite.
     pub fn set_positions(&mut self, positions: &[Vec2]) -> Result<(), SolidError> {
         same_length("the positions", self.positions.len(), positions.len())?;
         all_points_finite("the positions", positions)?;
@@ -348,26 +350,26 @@ impl Solid {
         Ok(())
     }
 
-    /// The mesh of the reference state.
+    /// Returns the mesh of the reference state.
     #[must_use]
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// Law of the elastic forces.
+    /// Returns the law of the elastic forces.
     #[must_use]
     pub fn law(&self) -> &dyn ElasticForces {
         self.law.as_ref()
     }
 
-    /// Present positions of all points of the mesh (length), not wrapped into the period.
+    /// Returns the present positions of all points of the mesh (length), not wrapped into the period.
     #[must_use]
     pub fn positions(&self) -> &[Vec2] {
         &self.positions
     }
 
-    /// Indices of the points that are not pinned, in increasing order; these points are the markers of the body, unless
-    /// its forces are [spread over triangles](Solid::spread_over_triangles).
+    /// Returns the indices of the points that are not pinned, in increasing order; these points are the markers of the
+    /// body, unless its forces are [spread over triangles](Solid::spread_over_triangles).
     #[must_use]
     pub fn free_points(&self) -> &[usize] {
         &self.free

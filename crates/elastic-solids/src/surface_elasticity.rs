@@ -4,17 +4,17 @@ use motile_base::{Vec2, not_negative};
 
 use crate::{SolidError, forces::Bar, mesh::TriangleMesh};
 
-/// A surface elasticity on the whole boundary of a mesh, without stress in the reference state, that resists stretching
+/// Surface elasticity on the whole boundary of a mesh, without stress in the reference state, that resists stretching
 /// and bending.
 ///
 /// With l the length of a side of the boundary and theta the angle between two that follow each other, L and theta_0
-/// those of the reference state, and S the mean of the reference lengths of the two sides,
+/// the same in the reference state, and S the mean of the reference lengths of the two sides,
 ///
 /// ```text
 /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
 /// ```
 ///
-/// A soft solid that is compressed along its surface beyond a stretch of about 0.65 creases; surface elasticity sets
+/// A soft solid that is compressed along its surface beyond a stretch of about 0.65 creases. Surface elasticity sets
 /// the length, of the order of the cube root of B over the solid's shear modulus, below which it does not fold.
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceElasticity {
@@ -26,16 +26,17 @@ pub(crate) struct SurfaceElasticity {
     hinges: Vec<([usize; 2], f64)>,
 }
 
-/// Gradient of the direction angle of a side by its vector (1/length).
+/// Returns the gradient of the direction angle of a side by its vector (1/length).
 fn turned(side: Vec2) -> Vec2 {
     side.perp() / side.length_squared().max(f64::MIN_POSITIVE)
 }
 
 impl SurfaceElasticity {
-    /// Surface elasticity with its moduli of stretching E_s (force) and bending B (force times length squared).
+    /// Creates a surface elasticity with its moduli of stretching E_s (force) and bending B (force times length
+    /// squared).
     ///
     /// # Errors
-    /// Moduli that are negative or not finite.
+    /// Returns an error for moduli that are negative or not finite.
     pub(crate) fn new(mesh: &TriangleMesh, stretching: f64, bending: f64) -> Result<Self, SolidError> {
         let stretching = not_negative("the stretching modulus of the surface", stretching)?;
         let bending = not_negative("the bending modulus of the surface", bending)?;
@@ -58,7 +59,7 @@ impl SurfaceElasticity {
         Ok(Self { stretching, bending, sides, hinges })
     }
 
-    /// Moduli of stretching (force) and bending (force times length squared).
+    /// Returns the moduli of stretching (force) and bending (force times length squared).
     pub(crate) fn moduli(&self) -> [f64; 2] {
         [self.stretching, self.bending]
     }
@@ -81,15 +82,15 @@ impl SurfaceElasticity {
         }
     }
 
-    /// Viscosity times the fastest rate at which the surface relaxes in fluid (force per length): that of waves of two
-    /// sides, `(E_s/s + 4 B/s^3)/pi` with the mobility `1/(4 eta q)` at the wave number `q = pi/s`, s the shortest
-    /// side.
+    /// Returns the viscosity times the fastest rate at which the surface relaxes in fluid (force per length). It is the
+    /// rate of waves of two sides, `(E_s/s + 4 B/s^3)/pi` with the mobility `1/(4 eta q)` at the wave number `q =
+    /// pi/s`, s the shortest side.
     pub(crate) fn stiffness(&self) -> f64 {
         let shortest = self.sides.iter().map(|side| side.length).fold(f64::INFINITY, f64::min);
         (self.stretching / shortest + 4.0 * self.bending / shortest.powi(3)) / std::f64::consts::PI
     }
 
-    /// Elastic energy of the surface (energy).
+    /// Returns the elastic energy of the surface (energy).
     pub(crate) fn energy(&self, positions: &[Vec2]) -> f64 {
         let sides = self.sides.iter().map(|side| {
             let strain = side.span(positions).length() / side.length - 1.0;

@@ -32,16 +32,18 @@ pub fn grid_domain(grid: &Grid) -> Domain {
     Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)].into(), walls }
 }
 
-/// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
-/// (Cowley section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
+/// The immersed boundary method: computes velocities of markers from their forces with a grid. It spreads the forces to
+/// the grid, solves the Stokes equations there, and interpolates (Cowley section 2.2.2). On interfaces of equally
+/// spaced markers it corrects the mobility (on by default).
 ///
-/// Only [`MarkerKind::Interface`] is corrected; the order of the markers' velocities is then two, else one.
-/// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach
-/// from interfaces, first order within it.
+/// Only [`MarkerKind::Interface`] is corrected. The markers' velocities are then of second order, and otherwise of
+/// first order. [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the
+/// kernel's reach from interfaces, first order within it.
 ///
-/// All fluid has one viscosity: interfaces to another one are refused ([`SmearedContrast`] and
-/// boundary integrals have them), and so are rigid bodies.
+/// All fluid has one viscosity, so this method refuses interfaces to another one, and rigid bodies too. For other
+/// viscosities, use [`SmearedContrast`] or boundary integrals.
 #[derive(Debug, Clone)]
+#[doc(alias("immersed boundary", "immersed boundary method", "IBM", "Peskin"))]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
     transfer: Transfer<K>,
@@ -58,19 +60,19 @@ pub struct ImmersedBoundary<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
-    /// The method on the grid of `solver`, with the mobility correction.
+    /// Creates the method on the grid of `solver`, with the mobility correction.
     #[must_use]
     pub fn new(solver: S, kernel: K) -> Self {
         Self::build(solver, kernel, true)
     }
 
-    /// The method without the mobility correction, as in Cowley.
+    /// Creates the method without the mobility correction, as in Cowley.
     #[must_use]
     pub fn uncorrected(solver: S, kernel: K) -> Self {
         Self::build(solver, kernel, false)
     }
 
-    /// The method for a solver that is told the viscosity inside interfaces by other means.
+    /// Creates the method for a solver that learns the viscosity inside interfaces by other means.
     pub(crate) fn with_varying_viscosity(solver: S, kernel: K) -> Self {
         Self { varying: true, ..Self::build(solver, kernel, false) }
     }
@@ -100,35 +102,35 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
     }
 
-    /// The grid.
+    /// Returns the grid.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         self.solver.grid()
     }
 
-    /// The Stokes solver.
+    /// Returns the Stokes solver.
     #[must_use]
     pub fn solver(&self) -> &S {
         &self.solver
     }
 
-    /// The kernel.
+    /// Returns the kernel.
     #[must_use]
     pub fn kernel(&self) -> &K {
         self.transfer.kernel()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation or sampling.
+    /// Returns the velocity on the grid (length per time) of the last evaluation or sampling.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
     }
 
-    /// The pressure at the cell centres for the last evaluation or sampling (force per length; the periodic part, with
-    /// mean zero in a box, and mean zero over both walls in a channel). Makes a field.
+    /// Returns the pressure at the cell centres for the last evaluation or sampling (force per length; the periodic
+    /// part, with mean zero in a box, and mean zero over both walls in a channel). Makes a field.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// Returns the errors of the solver.
     pub fn pressure_field(&mut self) -> Result<CentreField, StokesError> {
         let mut pressure = CentreField::zeros(*self.solver.grid());
         self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
@@ -136,9 +138,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(pressure)
     }
 
-    /// The flow on the grid of the markers' forces. Interpolates the velocity to the markers. Next to walls that slide,
-    /// the kernel reaches beyond them, where the grid continues a velocity that vanishes on the walls: so the flow
-    /// between the walls is left out on the grid.
+    /// Computes the flow of the markers' forces on the grid, and interpolates the velocity to the markers. Next to
+    /// walls that slide, the kernel reaches beyond them, where the grid continues a velocity that vanishes on the
+    /// walls: so the flow between the walls is left out on the grid.
     fn interpolate(&mut self, markers: &mut Markers) -> Result<(), StokesError> {
         let walls = self.solver.walls();
         if walls.is_at_rest() {
@@ -295,11 +297,12 @@ fn load_memory(solver: &mut impl StokesSolver, memory: &[f64]) {
     }
 }
 
-/// The viscosities inside and outside of a group (stress times time) if it is an interface and one of them is not that
-/// of the exterior fluid.
+/// Returns the viscosities inside and outside of a group (stress times time) if it is an interface and one of them is
+/// not the viscosity of the exterior fluid.
 ///
 /// # Errors
-/// A viscosity that is not positive and finite; a rigid body, an interface that is periodic along x.
+/// Returns an error for a viscosity that is not positive and finite; a rigid body, an interface that is periodic along
+/// x.
 fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
     if group.kind == MarkerKind::Rigid {
         return Err(FlowError::unsupported(

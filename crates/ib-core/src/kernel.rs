@@ -29,24 +29,25 @@ pub enum Role {
 /// A regularised delta function as a product of one-dimensional functions,
 /// `delta_h(x) = phi_n(x/h) phi_t(y/h) / h^2` for the x component, normal and tangential exchanged for the y component
 /// (Cowley (2.35)).
+#[doc(alias("delta function", "regularised delta function", "Dirac delta"))]
 pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
-    /// Its name on command lines and in files.
+    /// Name on command lines and in files.
     fn name(&self) -> &'static str;
 
-    /// Grid points reached in one direction, at most [`MAX_SUPPORT`].
+    /// Returns the grid points reached in one direction, at most [`MAX_SUPPORT`].
     fn support(&self, role: Role) -> usize;
 
-    /// Weights of the points `first, first + 1, ...` of a lattice of integers for a marker at `r` (in units of h);
-    /// returns `first`. Only the first [`Kernel::support`] entries of `weights` are written.
+    /// Returns the weights of the points `first, first + 1, ...` of a lattice of integers for a marker at `r` (in units
+    /// of h); returns `first`. Only the first [`Kernel::support`] entries of `weights` are written.
     fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64;
 
-    /// The weights as polynomials, for the kernels that have them; without them spreading and interpolation call
-    /// [`Kernel::weights`].
+    /// Returns the weights as polynomials, for the kernels that have them; without them spreading and interpolation
+    /// call [`Kernel::weights`].
     fn pieces(&self) -> Option<&'static Pieces> {
         None
     }
 
-    /// The one-dimensional function itself at distance `r` (in units of h); even.
+    /// Returns the one-dimensional function itself at distance `r` (in units of h); even.
     fn value(&self, role: Role, r: f64) -> f64;
 
     /// Fourier transform `integral of phi(r) cos(theta r) dr` at wave number `theta` (in units of 1/h).
@@ -69,7 +70,7 @@ pub(crate) const GAUSS_10: [(f64, f64); 10] = [
     (0.9739065285171717, 0.06667134430868814),
 ];
 
-/// `2 integral_0^reach f(r) cos(theta r) dr` for f smooth between half integers, by composite Gauss quadrature.
+/// Returns `2 integral_0^reach f(r) cos(theta r) dr` for f smooth between half integers, by composite Gauss quadrature.
 fn cosine_transform(f: impl Fn(f64) -> f64, reach: f64, theta: f64) -> f64 {
     // Panels short enough that ten Gauss points resolve the cosine to round-off.
     let panels_per_half = (theta.abs() / 8.0).ceil().max(1.0) as usize;

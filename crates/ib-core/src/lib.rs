@@ -1,17 +1,17 @@
-//! The immersed boundary method for Stokes flow: from forces at markers to velocities at markers, by a grid.
+//! The immersed boundary method for Stokes flow: from forces at markers to their velocities.
 //!
 //! ```text
 //! forces --> spread with a kernel --force field--> StokesSolver --velocity field--> interpolate,
 //!        correct the mobility of interfaces --> velocities
 //! ```
 //!
-//! [`ImmersedBoundary`] does all of this. It implements [`Hydrodynamics`], the trait of
-//! flows for the scenes of [`motile_scene`].
+//! [`ImmersedBoundary`] does all of this: you choose a solver and a kernel, and pass the markers. It implements
+//! [`Hydrodynamics`], the trait of flows for the scenes of [`motile_scene`], so it works with any body.
 //!
 //! # Example
 //!
-//! Peskin's elastic ring: the order of its velocity with and without the mobility correction, and the area that it
-//! loses while it becomes a circle:
+//! This example is Peskin's elastic ring. It prints the order of the velocity with and without the mobility correction,
+//! and the area that the ring loses while it becomes a circle:
 //!
 //! ```
 //! use std::error::Error;
@@ -92,9 +92,9 @@
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
-//! docs/grid.md in the repository.
+//! docs/explanation/grid.md in the repository.
 //!
-//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod immersed_boundary;

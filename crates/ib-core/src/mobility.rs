@@ -16,7 +16,7 @@ const INTERVALS: usize = 40;
 /// Wave numbers across the interface beyond which the kernels' transforms no longer matter.
 const CUT: f64 = 50.0;
 
-/// Deficits of the discrete mobility of a flat interface, per kernel (derivation: docs/grid.md).
+/// Deficits of the discrete mobility of a flat interface, per kernel (derivation: docs/explanation/grid.md).
 ///
 /// A force of wave number q along a flat interface moves it, in Stokes flow without boundaries, at `F / (4 eta q)`,
 /// tangentially and normally alike. Spreading, the discrete Laplacian and interpolation reduce that to
@@ -33,8 +33,8 @@ const CUT: f64 = 50.0;
 ///
 /// which is as large as a sixth of G_n, odd under reflection, and therefore turns a droplet that is not along the grid.
 ///
-/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and that of
-/// G_x in sin(4 angle).
+/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and the
+/// coefficient of G_x in sin(4 angle).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MobilityDeficit {
     /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n, G_x.
@@ -100,8 +100,8 @@ impl MobilityDeficit {
         Self { table, harmonic, second_harmonic }
     }
 
-    /// The grid harmonic at wave number `q` (in units of 1/h): the part of the tangential mobility of an interface
-    /// along the grid lines that follows its position between them,
+    /// Returns the grid harmonic at wave number `q` (in units of 1/h). It is the part of the tangential mobility of an
+    /// interface along the grid lines that follows its position between them,
     ///
     /// `H(q) = 1 / (2 pi) integral dk w_u(q, k) d_y(k) w_u(q, k + 2 pi) d_y(k + 2 pi) / (d_x^2 + d_y^2)^2`,
     ///
@@ -123,7 +123,8 @@ impl MobilityDeficit {
                 + s * (before - 2.5 * a + 2.0 * b - 0.5 * after + s * (1.5 * (a - b) + 0.5 * (after - before))))
     }
 
-    /// The deficits at wave number `q` (in units of 1/h; negative ones count as zero), by interpolation in the table.
+    /// Returns the deficits at wave number `q` (in units of 1/h; negative ones count as zero), by interpolation in the
+    /// table.
     #[must_use]
     pub(crate) fn at(&self, q: f64) -> Deficit {
         if q >= LAST {
@@ -159,16 +160,16 @@ impl MobilityDeficit {
         Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope, cross }
     }
 
-    /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and
-    /// multiplies `cos(4 pi y/h)`.
+    /// Returns the second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for
+    /// 2 pi and multiplies `cos(4 pi y/h)`.
     #[must_use]
     pub(crate) fn second_harmonic(&self) -> f64 {
         self.second_harmonic
     }
 
-    /// The fastest relaxation of a nearly flat interface on the grid, in units of tension/(viscosity h): the maximum
-    /// over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the correction.
-    /// About 0.33 for the default kernel with the correction and 0.19 without, 0.13 for Peskin's without.
+    /// Returns the fastest relaxation of a nearly flat interface on the grid, in units of tension/(viscosity h). It is
+    /// the maximum over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the
+    /// correction. About 0.33 for the default kernel with the correction and 0.19 without, 0.13 for Peskin's without.
     #[must_use]
     pub(crate) fn interface_stiffness(&self, corrected: bool) -> f64 {
         let mut fastest: f64 = 0.0;
@@ -241,7 +242,7 @@ fn harmonic_ratio(transforms: &Transforms) -> f64 {
     if first == 0.0 { 0.0 } else { second / first }
 }
 
-/// The grid harmonic number `order` of an interface along x; see [`MobilityDeficit::harmonic`].
+/// Returns the grid harmonic number `order` of an interface along x; see [`MobilityDeficit::harmonic`].
 fn harmonic(transforms: &Transforms, order: f64, q: f64) -> f64 {
     let dx2 = (2.0 * (0.5 * q).sin()).powi(2);
     let along = transforms.at(Role::Normal, q);
@@ -281,7 +282,7 @@ impl Transforms {
         Self { normal: tabulate(Role::Normal), tangential: tabulate(Role::Tangential) }
     }
 
-    /// Cubic interpolation (error below 1e-8 at this step); the transforms are even.
+    /// Returns the cubic interpolation (error below 1e-8 at this step); the transforms are even.
     fn at(&self, role: Role, theta: f64) -> f64 {
         let table = match role {
             Role::Normal => &self.normal,

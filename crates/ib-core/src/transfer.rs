@@ -25,15 +25,16 @@ use polynomial::{interpolate, spread};
 /// * spreading: `f(x) = sum_k F_k delta_h(x - X_k)`, F_k the force (not density) of marker k;
 /// * interpolation: `U_k = sum over grid points u(x) delta_h(x - X_k) h^2`.
 ///
-/// Both use the same weights at the places given to [`Transfer::locate`], so that `sum_k F_k . U_k` equals
-/// `sum f . u h^2` to round-off. Positions are wrapped into a periodic box; at a wall the weights beyond it are folded
-/// back, odd for the x component and even for the y component, so that the interpolated velocity vanishes on the
-/// wall (docs/grid.md).
+/// Both use the same weights at the places given to [`Transfer::locate`], so that `sum_k F_k . U_k` equals `sum f . u
+/// h^2` to round-off. Positions are wrapped into a periodic box. At a wall the weights beyond it are folded back, odd
+/// for the x component and even for the y component, so that the interpolated velocity vanishes on the wall
+/// (docs/explanation/grid.md).
 ///
 /// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster
-/// than to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between
+/// than reading them from memory. If the machine has fused multiply-add, it is used, so that results differ between
 /// machines by round-off; on one machine they do not depend on the number of threads (feature `rayon`).
 #[derive(Debug, Clone)]
+#[doc(alias("spreading", "interpolation", "delta function", "immersed boundary"))]
 pub struct Transfer<K> {
     kernel: K,
     grid: Grid,
@@ -43,7 +44,7 @@ pub struct Transfer<K> {
 }
 
 impl<K: Kernel> Transfer<K> {
-    /// A transfer between markers and the fields of `grid`.
+    /// Creates a transfer between markers and the fields of `grid`.
     #[must_use]
     pub fn new(grid: Grid, kernel: K) -> Self {
         Self {
@@ -55,7 +56,7 @@ impl<K: Kernel> Transfer<K> {
         }
     }
 
-    /// The kernel.
+    /// Returns the kernel.
     #[must_use]
     pub fn kernel(&self) -> &K {
         &self.kernel
@@ -65,8 +66,8 @@ impl<K: Kernel> Transfer<K> {
         GeneralTransfer { kernel: &self.kernel, grid: &self.grid }
     }
 
-    /// Takes the `positions` of markers (length, not wrapped). They must be finite: what is not lands somewhere in
-    /// the box ([`crate::ImmersedBoundary`] refuses it).
+    /// Takes the `positions` of markers (length, not wrapped). They must be finite, because any other value lands
+    /// somewhere in the box ([`crate::ImmersedBoundary`] refuses it).
     pub fn locate(&mut self, positions: &[Vec2]) {
         self.locations.find(self.kernel.pieces(), positions);
         #[cfg(feature = "rayon")]
@@ -77,7 +78,7 @@ impl<K: Kernel> Transfer<K> {
     /// has an entry for each of them.
     ///
     /// # Errors
-    /// Another number of forces than of markers, a field on another grid.
+    /// Returns an error for another number of forces than of markers, a field on another grid.
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) -> Result<(), StokesError> {
         self.check("the forces", forces.len(), "the force density", density)?;
         let (general, scale) = (self.general(), 1.0 / (self.grid.spacing() * self.grid.spacing()));
@@ -93,11 +94,11 @@ impl<K: Kernel> Transfer<K> {
         Ok(())
     }
 
-    /// The velocities at the located markers (length per time), Cowley (2.34). `velocities` has an entry for each of
-    /// them.
+    /// Writes the velocities at the located markers (length per time), Cowley (2.34). `velocities` has an entry for
+    /// each of them.
     ///
     /// # Errors
-    /// Another number of velocities than of markers, a field on another grid.
+    /// Returns an error for another number of velocities than of markers, a field on another grid.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) -> Result<(), StokesError> {
         self.check("the velocities", velocities.len(), "the velocity", velocity)?;
         let (general, Locations { all: locations, irregular, .. }) = (self.general(), &self.locations);

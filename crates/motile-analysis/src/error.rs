@@ -20,13 +20,13 @@ pub enum AnalysisError {
 motile_base::debug_as_explanation!(AnalysisError);
 
 impl AnalysisError {
-    /// An entry that is not above the entry before it, in a list that must increase.
+    /// Returns the error for an entry that is not above the entry before it, in a list that must increase.
     pub(crate) fn not_increasing(name: &str, index: usize, value: f64) -> Self {
         let what = format!("entry {index} of {name} is {value}, not above the entry before it");
         Self::refused(what, "", format!("Sort {name} and remove repeated ones"))
     }
 
-    /// Points that do not determine what is fitted to them.
+    /// Returns the error for points that do not determine what is fitted to them.
     pub(crate) fn no_fit(fit: &str, points: usize) -> Self {
         let what = format!("these {points} points do not determine a fit of {fit}");
         let remedy = "Use more points, or a longer part of the record".to_owned();

@@ -1,4 +1,4 @@
-//! Analysis of motile runs: the regime in which one droplet moves, and order and correlations among many.
+//! Analysis of runs: the regime of one droplet, and order and correlations among many.
 //!
 //! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] records a droplet during a run.
 //!   [`trajectory::Trajectory::regime`] then says whether the droplet rests, swims straight or oscillates laterally,
@@ -10,7 +10,8 @@
 //!
 //! # Example
 //!
-//! A droplet oscillates around the centre line of a channel with a period of 5 and a growth rate of 0.02:
+//! In this example, a droplet oscillates around the centre line of a channel with a period of 5 and a growth rate of
+//! 0.02:
 //!
 //! ```
 //! use motile_analysis::{AnalysisError, trajectory::Trajectory};

@@ -48,11 +48,11 @@ pub struct Member {
 }
 
 impl Member {
-    /// All droplets of a scene in the present state, in the order in which they were added; the flow is computed if it
-    /// is not known yet.
+    /// Returns all droplets of a scene in the present state, in the order in which they were added; the flow is
+    /// computed if it is not known yet.
     ///
     /// # Errors
-    /// Those of the flow; a droplet without area.
+    /// Returns the errors of the flow; a droplet without area.
     pub fn all<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Self>, SceneError> {
         system.evaluate()?;
         let time = system.time();

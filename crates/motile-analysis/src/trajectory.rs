@@ -33,11 +33,12 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// A trajectory from times, heights of the centroid above the centre line (length) and speeds (of the centroid,
-    /// along and across the channel; length per time).
+    /// Creates a trajectory from times, heights of the centroid above the centre line (length) and speeds (of the
+    /// centroid, along and across the channel; length per time).
     ///
     /// # Errors
-    /// Lists of different length, values that are not finite, times that do not increase, negative speeds.
+    /// Returns an error for lists of different length, values that are not finite, times that do not increase, negative
+    /// speeds.
     pub fn new(times: Vec<f64>, heights: Vec<f64>, speeds: Vec<f64>) -> Result<Self, AnalysisError> {
         same_length("the heights", times.len(), heights.len())?;
         same_length("the speeds", times.len(), speeds.len())?;
@@ -52,7 +53,7 @@ impl Trajectory {
     /// Adds the lateral velocities (length per time), which make fits to short records better.
     ///
     /// # Errors
-    /// A list of another length, values that are not finite.
+    /// Returns an error for a list of another length, values that are not finite.
     pub fn with_lateral_velocities(mut self, velocities: Vec<f64>) -> Result<Self, AnalysisError> {
         same_length("the lateral velocities", self.times.len(), velocities.len())?;
         all_finite("the lateral velocities", &velocities)?;
@@ -60,37 +61,37 @@ impl Trajectory {
         Ok(self)
     }
 
-    /// Times of the samples (time).
+    /// Returns the times of the samples (time).
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Heights above the centre line (length).
+    /// Returns the heights above the centre line (length).
     #[must_use]
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }
 
-    /// Speeds (length per time).
+    /// Returns the speeds (length per time).
     #[must_use]
     pub fn speeds(&self) -> &[f64] {
         &self.speeds
     }
 
-    /// Lateral velocities (length per time), if they are known.
+    /// Returns the lateral velocities (length per time), if they are known.
     #[must_use]
     pub fn lateral_velocities(&self) -> Option<&[f64]> {
         self.velocities.as_deref()
     }
 
-    /// Duration from the first to the last sample (time); 0 without samples.
+    /// Returns the duration from the first to the last sample (time); 0 without samples.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.times.last().zip(self.times.first()).map_or(0.0, |(last, first)| last - first)
     }
 
-    /// Part of the trajectory from time `start` to time `end`, both included.
+    /// Returns the part of the trajectory from time `start` to time `end`, both included.
     #[must_use]
     pub fn between(&self, start: f64, end: f64) -> Self {
         let range = self.times.partition_point(|&t| t < start)..self.times.partition_point(|&t| t <= end);
@@ -103,11 +104,11 @@ impl Trajectory {
         }
     }
 
-    /// Growth rate and frequency of a small lateral motion, with the lateral velocities if they are known; see
-    /// [`fit_linear_mode`].
+    /// Returns the growth rate and frequency of a small lateral motion, with the lateral velocities if they are known;
+    /// see [`fit_linear_mode`].
     ///
     /// # Errors
-    /// Fewer than eight samples, heights that determine no rate.
+    /// Returns an error for fewer than eight samples, heights that determine no rate.
     pub fn linear_mode(&self) -> Result<LinearMode, AnalysisError> {
         fit_linear_mode(&self.times, &self.heights, self.lateral_velocities())
     }

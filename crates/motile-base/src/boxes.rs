@@ -6,7 +6,7 @@ use crate::Vec2;
 
 /// Items in a box, and boxes in a box.
 const GROUP: usize = 8;
-/// Part of a distance that may be lost to round-off in comparisons of boxes.
+/// Fraction of a distance that may be lost to round-off in comparisons of boxes.
 const ROUND_OFF: f64 = 1e-12;
 
 /// A box with sides along the axes.
@@ -17,7 +17,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The smallest box around points (length).
+    /// Creates the smallest box around points (length).
     #[must_use]
     pub fn around(points: impl IntoIterator<Item = Vec2>) -> Self {
         let far = Vec2::splat(f64::INFINITY);
@@ -30,7 +30,7 @@ impl Frame {
         [self.centre - self.half, self.centre + self.half]
     }
 
-    /// Square of the distance of a point from the nearest image of the box (length squared); zero inside.
+    /// Returns the square of the distance of a point from the nearest image of the box (length squared); zero inside.
     #[inline]
     fn squared_distance(&self, point: Vec2, periods: &Periods) -> f64 {
         let from = point - self.centre;
@@ -43,42 +43,42 @@ impl Frame {
         away.x.max(0.0).powi(2) + away.y.max(0.0).powi(2)
     }
 
-    /// The least over the rows of images of a sheared domain, out of the way of those that are not.
+    /// Returns the least over the rows of images of a sheared domain, out of the way of those that are not.
     #[cold]
     #[inline(never)]
     fn squared_from_rows(&self, from: Vec2, periods: &Periods) -> f64 {
         periods.rows(from).map(|from| self.squared_from(from)).fold(f64::INFINITY, f64::min)
     }
 
-    /// True where the distance from an image of another box is at most `reach` (length).
+    /// Returns true if the distance from an image of another box is at most `reach` (length).
     #[must_use]
     pub fn is_near(&self, other: &Self, periods: impl Into<Periods>, reach: f64) -> bool {
         let grown = Self { centre: other.centre, half: self.half + other.half };
         grown.squared_distance(self.centre, &periods.into()) <= reach * reach
     }
 
-    /// True where the box lies in an image of another one that is `reach` (length) larger on all sides.
+    /// Returns true if the box lies in an image of another one that is `reach` (length) larger on all sides.
     #[must_use]
     pub fn is_inside(&self, other: &Self, periods: impl Into<Periods>, reach: f64) -> bool {
         let mut images = periods.into().rows(self.centre - other.centre);
         images.any(|between| (0..2).all(|k| between[k].abs() + self.half[k] <= other.half[k] + reach))
     }
 
-    /// The longer side (length).
+    /// Returns the longer side (length).
     #[must_use]
     pub fn size(&self) -> f64 {
         2.0 * self.half.max_element()
     }
 
-    /// The box displaced by `by` (length).
+    /// Returns the box displaced by `by` (length).
     #[must_use]
     pub fn moved(&self, by: Vec2) -> Self {
         Self { centre: self.centre + by, half: self.half }
     }
 }
 
-/// Periods of a domain in x and y (length; `None` where there is none), the images above being displaced along x where
-/// the domain is sheared.
+/// Periods of a domain in x and y (length; `None` if there is none), the images above being displaced along x where the
+/// domain is sheared.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Periods {
     /// The periods in x and y (length).
@@ -102,8 +102,8 @@ impl std::ops::Deref for Periods {
 }
 
 impl Periods {
-    /// A difference of places (length) less the whole periods in it: the shortest of its images where these are not
-    /// displaced, close to the shortest where they are.
+    /// Returns a difference of places (length) less the whole periods in it. It is the shortest of its images where
+    /// these are not displaced, close to the shortest where they are.
     #[inline]
     #[must_use]
     pub fn wrap(&self, mut difference: Vec2) -> Vec2 {
@@ -121,7 +121,7 @@ impl Periods {
         difference
     }
 
-    /// The wrapped difference and, in a sheared domain, those to the images below and above.
+    /// Returns the wrapped difference and, in a sheared domain, those to the images below and above.
     #[inline]
     pub(crate) fn rows(&self, difference: Vec2) -> impl Iterator<Item = Vec2> + use<> {
         let nearest = self.wrap(difference);
@@ -135,7 +135,7 @@ impl Periods {
     }
 }
 
-/// The shortest of a difference of places and its images (length), in a domain of these periods.
+/// Returns the shortest of a difference of places and its images (length), in a domain of these periods.
 #[inline]
 #[must_use]
 pub fn nearest_image(difference: Vec2, periods: impl Into<Periods>) -> Vec2 {
@@ -152,8 +152,8 @@ pub fn nearest_image(difference: Vec2, periods: impl Into<Periods>) -> Vec2 {
 /// all. It knows the items by their numbers alone, and keeps its memory when it is built again.
 ///
 /// Of N items that are spread out, a search for the nearest one looks at O(log N), and one for all within a reach at
-/// O(log N) and those that it finds: all pairs of near neighbours take O(N log N). Building takes O(N), by places
-/// O(N log N).
+/// O(log N) and those that it finds. All pairs of near neighbours take O(N log N). Building takes O(N), by places O(N
+/// log N).
 ///
 /// ```
 /// use motile_base::{Vec2, boxes::{BoxTree, Frame}};
@@ -175,7 +175,7 @@ pub fn nearest_image(difference: Vec2, periods: impl Into<Periods>) -> Vec2 {
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct BoxTree {
-    /// Items in the order in which they share boxes; empty where that is the order of their numbers.
+    /// Items in the order in which they share boxes; empty if that is the order of their numbers.
     order: Vec<usize>,
     /// Boxes around [`GROUP`] items each, then around as many of these boxes, and so on.
     levels: Vec<Vec<Frame>>,
@@ -223,14 +223,14 @@ impl BoxTree {
         self.order = order;
     }
 
-    /// The box around all items; `None` without any.
+    /// Returns the box around all items; `None` without any.
     #[must_use]
     pub fn frame(&self) -> Option<Frame> {
         self.levels.last()?.first().copied()
     }
 
     /// Calls `look` with the items near a point, those in the nearest boxes first, over all images where there are
-    /// `periods` (length, in x and y). It is told, and returns, the square of the distance beyond which items do not
+    /// `periods` (length, in x and y). It receives and returns the square of the distance beyond which items do not
     /// matter (length squared).
     pub fn search(&self, point: Vec2, periods: impl Into<Periods>, squared: f64, look: &mut impl FnMut(usize) -> f64) {
         let periods = &periods.into();
@@ -300,14 +300,14 @@ impl BoxTree {
         }
     }
 
-    /// The numbers of the items in a box of the lowest level.
+    /// Returns the numbers of the items in a box of the lowest level.
     fn items(&self, frame: usize) -> impl Iterator<Item = usize> {
         let range = frame * GROUP..(frame * GROUP + GROUP).min(self.len);
         range.map(|place| self.order.get(place).copied().unwrap_or(place))
     }
 }
 
-/// Number of the cell of a point among 2^32 cells of a frame along Morton's curve.
+/// Returns the number of the cell of a point among 2^32 cells of a frame along Morton's curve.
 fn morton(point: Vec2, frame: &Frame) -> u64 {
     let from = point - (frame.centre - frame.half);
     let cell = |axis: usize| (from[axis] / frame.half[axis] * f64::from(1 << 15)) as u64;

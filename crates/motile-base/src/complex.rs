@@ -18,7 +18,7 @@ impl ComplexTransform {
     /// Transforms every N numbers of `values` in place.
     ///
     /// # Errors
-    /// Not a whole multiple of N; `values` are then left as they were.
+    /// Returns an error if their number is not a whole multiple of N; `values` are then left as they were.
     pub fn forward(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len())?;
         self.forward.process_with_scratch(values, &mut self.scratch);
@@ -28,7 +28,7 @@ impl ComplexTransform {
     /// Transforms every N numbers of `values` back in place.
     ///
     /// # Errors
-    /// Not a whole multiple of N; `values` are then left as they were.
+    /// Returns an error if their number is not a whole multiple of N; `values` are then left as they were.
     pub fn inverse(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len())?;
         self.inverse.process_with_scratch(values, &mut self.scratch);

@@ -1,4 +1,4 @@
-//! Forces of an energy of a closed curve, such as that of its bending.
+//! Forces of an energy of a closed curve, such as its bending energy.
 
 use num_complex::Complex64;
 
@@ -6,9 +6,9 @@ use crate::{InputError, PeriodicSeries, Vec2};
 
 /// Forces of a closed curve `X(alpha)` through M markers, marker k at `alpha = 2 pi k/M`, whose energy is the integral
 /// over alpha of a density e(v, w) in the speed `v = |X'|` (length) and the cross product `w = X' x X''` (length
-/// squared); its curvature is `w/v^3`.
+/// squared). Its curvature is `w/v^3`.
 ///
-/// Derivatives are those of the Fourier series through the markers, and the integral is the sum over them. The forces
+/// Derivatives are taken of the Fourier series through the markers, and the integral is the sum over them. The forces
 /// are minus the gradient of this sum by the markers exactly, so that they have neither resultant nor torque where the
 /// energy does not change with the curve's place and direction.
 #[derive(Debug, Clone)]
@@ -21,22 +21,22 @@ pub struct CurveForces {
 }
 
 impl CurveForces {
-    /// Forces of curves of `count` markers.
+    /// Creates forces of curves of `count` markers.
     ///
     /// # Errors
-    /// More markers than a Fourier transform takes.
+    /// Returns an error for more markers than a Fourier transform takes.
     pub fn new(count: usize) -> Result<Self, InputError> {
         let zeros = || [vec![Complex64::ZERO; count], vec![Complex64::ZERO; count]];
         Ok(Self { series: PeriodicSeries::new(count)?, slopes: zeros(), pulls: zeros() })
     }
 
-    /// Number of markers.
+    /// Returns the number of markers.
     #[must_use]
     pub fn len(&self) -> usize {
         self.series.len()
     }
 
-    /// `true` for curves without markers, of which there are none.
+    /// Returns `true` for curves without markers, of which there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.series.is_empty()
@@ -45,7 +45,7 @@ impl CurveForces {
     /// Takes over the positions of the markers (length).
     ///
     /// # Errors
-    /// Another number of positions.
+    /// Returns an error for another number of positions.
     pub fn move_to(&mut self, positions: &[Vec2]) -> Result<(), InputError> {
         self.move_to_over(positions, Vec2::ZERO)
     }
@@ -54,7 +54,7 @@ impl CurveForces {
     /// (length).
     ///
     /// # Errors
-    /// Another number of positions.
+    /// Returns an error for another number of positions.
     pub fn move_to_over(&mut self, positions: &[Vec2], advance: Vec2) -> Result<(), InputError> {
         let step = advance / positions.len().max(1) as f64;
         self.series.analyse(positions.iter().enumerate().map(|(k, place)| {
@@ -70,7 +70,7 @@ impl CurveForces {
         Ok(())
     }
 
-    /// Speed v (length) and cross product w (length squared) at each marker.
+    /// Returns the speed v (length) and cross product w (length squared) at each marker.
     pub fn measures(&self) -> impl Iterator<Item = [f64; 2]> {
         let [first, second] = &self.slopes;
         first.iter().zip(second).map(|(d, dd)| [d.norm(), (d.conj() * dd).im])
@@ -80,7 +80,7 @@ impl CurveForces {
     /// v (force) and w (force per length), which `pull` gives for each marker and its v and w.
     ///
     /// # Errors
-    /// Another number of forces.
+    /// Returns an error for another number of forces.
     pub fn add(&mut self, pull: impl Fn(usize, [f64; 2]) -> [f64; 2], forces: &mut [Vec2]) -> Result<(), InputError> {
         crate::same_length("forces", self.len(), forces.len())?;
         let mut pulls = std::mem::take(&mut self.pulls);
@@ -108,7 +108,7 @@ impl CurveForces {
     /// Drops all but so many modes of vectors at the markers ([`PeriodicSeries::truncate_vectors`]).
     ///
     /// # Errors
-    /// Another number of vectors.
+    /// Returns an error for another number of vectors.
     pub fn truncate(&mut self, vectors: &mut [Vec2], modes: usize) -> Result<(), InputError> {
         self.series.truncate_vectors(vectors, modes)
     }

@@ -22,14 +22,15 @@ pub enum Drive {
 }
 
 impl Drive {
-    /// Mean pressure gradient dp/dx (stress per length) that is held fixed; zero where the flux is held instead.
+    /// Returns the mean pressure gradient dp/dx (stress per length) that is held fixed; zero if the flux is held
+    /// instead.
     #[must_use]
     pub fn gradient(self) -> f64 {
         if let Self::Gradient(gradient) = self { gradient } else { 0.0 }
     }
 
-    /// Flux, the integral of u over the width (area per time), that is held fixed; `None` where the mean pressure
-    /// gradient is.
+    /// Returns the flux, the integral of u over the width (area per time), that is held fixed. It is `None` if the mean
+    /// pressure gradient is.
     #[must_use]
     pub fn flux(self) -> Option<f64> {
         match self {
@@ -42,7 +43,7 @@ impl Drive {
     /// Refuses numbers that are not finite.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`].
+    /// Returns [`InputError::NotFinite`] if the gradient or flux is not finite.
     pub fn check(self) -> Result<(), InputError> {
         match self {
             Self::ZeroGradient | Self::ZeroFlux => Ok(()),

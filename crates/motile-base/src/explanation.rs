@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-/// An error and its causes in one sentence; a cause that the text before it tells already is left out.
+/// Returns an error and its causes in one sentence; a cause that the text before it already contains is left out.
 #[must_use]
 pub fn explanation(error: &dyn Error) -> String {
     let mut told = error.to_string();
@@ -17,7 +17,7 @@ pub fn explanation(error: &dyn Error) -> String {
     told
 }
 
-/// Two numbers as text of three digits, or of as many more as it takes to tell them apart.
+/// Returns two numbers as text of three digits, or of as many more as it takes to distinguish them.
 ///
 /// ```
 /// assert_eq!(motile_base::internal::told_apart([0.350_02, 0.35]), ["0.35002", "0.35"]);
@@ -29,7 +29,7 @@ pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
     texts.find(|[one, other]| one != other).unwrap_or_else(|| pair.map(|value| value.to_string()))
 }
 
-/// Text of a number that was computed, to six digits.
+/// Returns the text of a number that was computed, to six digits.
 ///
 /// ```
 /// assert_eq!(motile_base::internal::told(25.800_000_000_000_004), "25.8");
@@ -40,8 +40,21 @@ pub fn told(value: f64) -> String {
     rounded(5, value)
 }
 
-/// Text of a number with so many decimals, or with a digit more than that where decimals would show fewer than two
-/// digits of it: a file may be in any unit.
+/// Returns the text of a number that was given: all its digits, with a power of ten if it is very large or small.
+///
+/// ```
+/// use motile_base::internal::given;
+///
+/// assert_eq!([given(0.1), given(-12.0), given(1e300), given(2e-9)], ["0.1", "-12", "1e300", "2e-9"]);
+/// ```
+#[must_use]
+pub fn given(value: f64) -> String {
+    let plain = value == 0.0 || !value.is_finite() || (1e-5..1e9).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
+}
+
+/// Returns the text of a number with so many decimals, or with a digit more than that where decimals would show fewer
+/// than two digits of it: a file may be in any unit.
 ///
 /// ```
 /// use motile_base::internal::decimals;
@@ -59,7 +72,7 @@ pub fn decimals(digits: usize, value: f64) -> String {
     }
 }
 
-/// Text of a place, `(x, y)` (length).
+/// Returns the text of a place, `(x, y)` (length).
 #[must_use]
 pub fn place(x: f64, y: f64) -> String {
     // Round-off next to a coordinate is zero.
@@ -67,7 +80,7 @@ pub fn place(x: f64, y: f64) -> String {
     format!("({}, {})", decimals(4, near(x, y)), decimals(4, near(y, x)))
 }
 
-/// Text of a number with so many digits after the first, without zeros at their end.
+/// Returns the text of a number with so many digits after the first, without zeros at their end.
 fn rounded(digits: usize, value: f64) -> String {
     let Ok(short) = format!("{value:.digits$e}").parse::<f64>() else { return value.to_string() };
     let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
@@ -79,11 +92,11 @@ fn rounded(digits: usize, value: f64) -> String {
 ///
 /// ```
 /// #[derive(thiserror::Error)]
-/// #[error("the radius is {0}: give a positive number")]
+/// #[error("the radius is {0}. Use a positive number")]
 /// struct BadRadius(f64);
 /// motile_base::debug_as_explanation!(BadRadius);
 ///
-/// assert_eq!(format!("{:?}", BadRadius(-1.0)), "the radius is -1: give a positive number");
+/// assert_eq!(format!("{:?}", BadRadius(-1.0)), "the radius is -1. Use a positive number");
 /// ```
 #[macro_export]
 macro_rules! debug_as_explanation {

@@ -12,8 +12,8 @@ pub struct FlowSample {
     /// Pressure (stress) without the mean pressure gradient [`SolveReport::mean_pressure_gradient`], to which you add
     /// the gradient times the place.
     ///
-    /// The constant that a pressure is only known up to is the same for every method: in a box the mean over the box is
-    /// zero, in a channel the mean over both of its straight walls, and in unbounded fluid the pressure far away.
+    /// The constant that a pressure is only known up to is the same for every method. In a box, the mean over the box
+    /// is zero, in a channel the mean over both of its straight walls, and in unbounded fluid the pressure far away.
     pub pressure: f64,
     /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
     pub gradient: [[f64; 2]; 2],

@@ -11,7 +11,7 @@ use crate::{FlowSample, InputError, Vec2, finite, internal::all_finite, positive
 /// ```
 ///
 /// with a velocity U, a velocity gradient A without trace and the curvature B of a parabolic profile along x. Bodies
-/// add a disturbance to it, and all velocities are those of the whole flow.
+/// add a disturbance to it, and all velocities belong to the whole flow.
 ///
 /// ```
 /// use motile_base::{ImposedFlow, Vec2};
@@ -23,6 +23,7 @@ use crate::{FlowSample, InputError, Vec2, finite, internal::all_finite, positive
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("background flow", "shear flow", "Couette", "Poiseuille", "extensional flow"))]
 pub struct ImposedFlow {
     /// Velocity U at the origin (length per time).
     pub velocity: [f64; 2],
@@ -36,61 +37,62 @@ impl ImposedFlow {
     /// No flow.
     pub const NONE: Self = Self { velocity: [0.0; 2], gradient: [[0.0; 2]; 2], bend: 0.0 };
 
-    /// The shear flow `u = (G y, 0)` of a shear rate G (1/time), which turns bodies clockwise where it is positive.
+    /// Creates the shear flow `u = (G y, 0)` of a shear rate G (1/time), which turns bodies clockwise where it is
+    /// positive.
     #[must_use]
     pub fn shear(rate: f64) -> Self {
         Self { gradient: [[0.0, rate], [0.0, 0.0]], ..Self::NONE }
     }
 
-    /// The extensional flow `u = (E x, -E y)` of an extension rate E (1/time).
+    /// Creates the extensional flow `u = (E x, -E y)` of an extension rate E (1/time).
     #[must_use]
     pub fn extension(rate: f64) -> Self {
         Self { gradient: [[rate, 0.0], [0.0, -rate]], ..Self::NONE }
     }
 
-    /// The rotation `u = W (-y, x)` of an angular velocity W (1/time), counter-clockwise.
+    /// Creates the rotation `u = W (-y, x)` of an angular velocity W (1/time), counter-clockwise.
     #[must_use]
     pub fn rotation(rate: f64) -> Self {
         Self { gradient: [[0.0, -rate], [rate, 0.0]], ..Self::NONE }
     }
 
-    /// The Poiseuille flow `u = U (1 - y^2/h^2)` along x of a largest speed U (length per time), which is zero at a
-    /// distance h (length) from its middle.
+    /// Creates the Poiseuille flow `u = U (1 - y^2/h^2)` along x of a largest speed U (length per time), which is zero
+    /// at a distance h (length) from its middle.
     ///
     /// # Errors
-    /// A distance that is not positive and finite.
+    /// Returns an error for a distance that is not positive and finite.
     pub fn poiseuille(speed: f64, half_width: f64) -> Result<Self, InputError> {
         let half = positive("the half width of a Poiseuille flow", half_width)?;
         Ok(Self { velocity: [speed, 0.0], bend: -2.0 * speed / (half * half), ..Self::NONE })
     }
 
-    /// The Couette flow between walls at `y = -width/2` and `width/2` (length) that slide along x with these
+    /// Creates the Couette flow between walls at `y = -width/2` and `width/2` (length) that slide along x with these
     /// velocities (length per time).
     #[must_use]
     pub fn couette([below, above]: [f64; 2], width: f64) -> Self {
         Self { velocity: [0.5 * (below + above), 0.0], ..Self::shear((above - below) / width) }
     }
 
-    /// True where there is no flow.
+    /// Returns true if there is no flow.
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
-    /// Shear rate du/dy at the origin (1/time).
+    /// Returns the shear rate du/dy at the origin (1/time).
     #[must_use]
     pub fn shear_rate(&self) -> f64 {
         self.gradient[0][1]
     }
 
-    /// Fastest rate of the linear part: the root of half the sum of the squares of all gradients (1/time), which is E
-    /// for an extension and `G/sqrt(2)` for a shear.
+    /// Returns the fastest rate of the linear part. It is the root of half the sum of the squares of all gradients
+    /// (1/time), which is E for an extension and `G/sqrt(2)` for a shear.
     #[must_use]
     pub fn rate(&self) -> f64 {
         (0.5 * self.gradient.as_flattened().iter().map(|slope| slope * slope).sum::<f64>()).sqrt()
     }
 
-    /// Velocity at a place (length per time).
+    /// Returns the velocity at a place (length per time).
     #[must_use]
     #[inline]
     pub fn velocity_at(&self, place: Vec2) -> Vec2 {
@@ -99,14 +101,14 @@ impl ImposedFlow {
         Vec2::new(u + ux * x + (uy + 0.5 * bend * y) * y, v + vx * x + vy * y)
     }
 
-    /// Velocity gradient at a place (1/time), as [`FlowSample::gradient`].
+    /// Returns the velocity gradient at a place (1/time), as [`FlowSample::gradient`].
     #[must_use]
     pub fn gradient_at(&self, place: Vec2) -> [[f64; 2]; 2] {
         let [[ux, uy], rest] = self.gradient;
         [[ux, uy + self.bend * place.y], rest]
     }
 
-    /// The flow at a place in fluid of that viscosity (stress times time).
+    /// Returns the flow at a place in fluid of that viscosity (stress times time).
     #[must_use]
     pub fn sample(&self, place: Vec2, viscosity: f64) -> FlowSample {
         FlowSample {
@@ -119,7 +121,7 @@ impl ImposedFlow {
     /// Refuses numbers that are not finite, and a linear flow that does not keep areas.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`], [`InputError::OutOfRange`].
+    /// Returns [`InputError::NotFinite`], [`InputError::OutOfRange`].
     pub fn check(&self) -> Result<(), InputError> {
         all_finite("the velocity of an imposed flow", &self.velocity)?;
         all_finite("the gradient of an imposed flow", self.gradient.as_flattened())?;

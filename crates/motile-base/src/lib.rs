@@ -45,7 +45,7 @@
 //!
 //! assert_eq!(positive("the radius", 2.0), Ok(2.0));
 //! let error = positive("the radius", -1.0).unwrap_err();
-//! assert_eq!(error.to_string(), "the radius is -1: give a positive finite number");
+//! assert_eq!(error.to_string(), "the radius is -1. Use a positive finite number");
 //! ```
 
 pub mod boxes;
@@ -87,7 +87,7 @@ pub use vec2::Vec2;
 /// Shared with the other crates of motile. It is not part of the interface and may change at any time.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::explanation::{decimals, explanation, place, told, told_apart};
+    pub use crate::explanation::{decimals, explanation, given, place, told, told_apart};
     pub use crate::input::{all_finite, all_points_finite, at_least};
     pub use crate::quadrature::gauss_legendre;
     pub use crate::refusal::Refuse;

@@ -14,8 +14,8 @@ pub enum BendingMeasure {
     /// Curvature kappa, the angle by which the tangent turns per present length (1/length).
     #[default]
     Curvature,
-    /// Angle by which the tangent turns per reference length, kappa times the stretch (1/length): that of a chain of
-    /// links with hinges between them.
+    /// Angle by which the tangent turns per reference length, kappa times the stretch (1/length): the angle of a chain
+    /// of links with hinges between them.
     TurningAngle,
 }
 
@@ -28,7 +28,7 @@ pub enum BendingMeasure {
 /// energy = INT E_s/2 (lambda - 1)^2 + B/2 (k - k0)^2 dS          over the reference length S
 /// ```
 ///
-/// Derivatives along the curve are those of the Fourier series through the markers, and the forces are minus the
+/// Derivatives along the curve are taken of the Fourier series through the markers, and the forces are minus the
 /// gradient of this energy by the markers exactly, so that they have neither resultant nor torque.
 ///
 /// ```
@@ -43,6 +43,7 @@ pub enum BendingMeasure {
 /// # Ok::<(), motile_base::InputError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("vesicle", "capsule", "bending energy", "Helfrich"))]
 pub struct Membrane {
     stretching: f64,
     bending: f64,
@@ -53,12 +54,13 @@ pub struct Membrane {
 }
 
 impl Membrane {
-    /// A membrane with the moduli of stretching E_s (force) and bending B (force times length squared), at rest through
-    /// these markers (length), which are those of a closed curve, or of one period of a curve that continues `advance`
-    /// further (length).
+    /// Creates a membrane with the moduli of stretching E_s (force) and bending B (force times length squared), at rest
+    /// through these markers (length). The markers lie on a closed curve, or on one period of a curve that continues
+    /// `advance` further (length).
     ///
     /// # Errors
-    /// Moduli that are negative or not finite, more markers than a Fourier transform takes, markers that coincide.
+    /// Returns an error for moduli that are negative or not finite, more markers than a Fourier transform takes,
+    /// markers that coincide.
     pub fn new([stretching, bending]: [f64; 2], markers: &[Vec2], advance: Vec2) -> Result<Self, InputError> {
         not_negative("the stretching modulus", stretching)?;
         not_negative("the bending modulus", bending)?;
@@ -80,26 +82,26 @@ impl Membrane {
     /// Puts the bending at rest at one curvature everywhere (1/length; positive for a circle), whatever the shape.
     ///
     /// # Errors
-    /// A curvature that is not finite.
+    /// Returns an error for a curvature that is not finite.
     pub fn with_reference_curvature(mut self, curvature: f64) -> Result<Self, InputError> {
         finite("the reference curvature", curvature)?;
         self.rest.iter_mut().for_each(|[_, at_rest]| *at_rest = curvature);
         Ok(self)
     }
 
-    /// Moduli of stretching (force) and of bending (force times length squared).
+    /// Returns the moduli of stretching (force) and of bending (force times length squared).
     #[must_use]
     pub fn moduli(&self) -> [f64; 2] {
         [self.stretching, self.bending]
     }
 
-    /// Measure of the bending.
+    /// Returns the measure of the bending.
     #[must_use]
     pub fn measure(&self) -> BendingMeasure {
         self.measure
     }
 
-    /// Length at rest (length), and mean over the markers of the curvature there (1/length).
+    /// Returns the length at rest (length), and mean over the markers of the curvature there (1/length).
     #[must_use]
     pub fn at_rest(&self) -> [f64; 2] {
         let count = self.rest.len() as f64;
@@ -110,7 +112,7 @@ impl Membrane {
     /// Takes over the positions of the markers (length) of a curve that continues `advance` further in a period.
     ///
     /// # Errors
-    /// Another number of positions.
+    /// Returns an error for another number of positions.
     pub fn move_to(&mut self, positions: &[Vec2], advance: Vec2) -> Result<(), InputError> {
         self.curve.move_to_over(positions, advance)
     }
@@ -118,7 +120,7 @@ impl Membrane {
     /// Adds the elastic forces on the fluid (force): minus the gradient of the energy by the markers.
     ///
     /// # Errors
-    /// Another number of forces.
+    /// Returns an error for another number of forces.
     pub fn add_forces(&mut self, forces: &mut [Vec2]) -> Result<(), InputError> {
         let Self { curve, rest, stretching, bending, measure } = self;
         let pull = |index: usize, [speed, cross]: [f64; 2]| {
@@ -136,7 +138,7 @@ impl Membrane {
         curve.add(pull, forces)
     }
 
-    /// Elastic energy (force times length).
+    /// Returns the elastic energy (force times length).
     #[must_use]
     pub fn energy(&self) -> f64 {
         let density = |([stretch, bend], [length, _]): ([f64; 2], &[f64; 2])| {
@@ -146,7 +148,8 @@ impl Membrane {
         0.5 * sum * TAU / self.rest.len() as f64
     }
 
-    /// Stretch (no dimension), and change of the bending measure from that at rest (1/length), at each marker.
+    /// Returns the stretch (no dimension), and change of the bending measure from that at rest (1/length), at each
+    /// marker.
     pub fn strains(&self) -> impl Iterator<Item = [f64; 2]> {
         self.curve.measures().zip(&self.rest).map(|([speed, cross], [length, at_rest])| {
             let stretch = speed / length;
@@ -159,9 +162,9 @@ impl Membrane {
         })
     }
 
-    /// Tension T (force) at each marker, in the balance of forces `F dS = d(T tau + M n/lambda)`, n to the left of the
-    /// tangent tau: with the bending moment `m = B (k - k0)`, `T = E_s (lambda - 1) - kappa m/lambda` where the measure
-    /// is the curvature kappa, and `E_s (lambda - 1)` where it is the turning angle.
+    /// Returns the tension T (force) at each marker, in the balance of forces `F dS = d(T tau + M n/lambda)`, n to the
+    /// left of the tangent tau: with the bending moment `m = B (k - k0)`, `T = E_s (lambda - 1) - kappa m/lambda` where
+    /// the measure is the curvature kappa, and `E_s (lambda - 1)` where it is the turning angle.
     pub fn tensions(&self) -> impl Iterator<Item = f64> {
         self.strains().zip(self.curve.measures()).map(|([stretch, bend], [speed, cross])| {
             let along = self.stretching * (stretch - 1.0);
@@ -172,8 +175,8 @@ impl Membrane {
         })
     }
 
-    /// Modulus by which a wave of that number (1/length) relaxes (force): both moduli at the largest stretch, and the
-    /// largest tension by stretching.
+    /// Returns the modulus by which a wave of that number (1/length) relaxes (force): both moduli at the largest
+    /// stretch, and the largest tension by stretching.
     #[must_use]
     pub fn stiffness(&self, wave: f64) -> f64 {
         let (mut stretched, mut tension) = (1.0_f64, 0.0_f64);
@@ -187,7 +190,7 @@ impl Membrane {
     /// Drops all but so many modes of vectors at the markers ([`crate::PeriodicSeries::truncate_vectors`]).
     ///
     /// # Errors
-    /// Another number of vectors.
+    /// Returns an error for another number of vectors.
     pub fn truncate(&mut self, vectors: &mut [Vec2], modes: usize) -> Result<(), InputError> {
         self.curve.truncate(vectors, modes)
     }

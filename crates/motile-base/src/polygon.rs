@@ -6,20 +6,21 @@ pub use crossing::{CrossingFinder, first_crossing};
 
 use crate::Vec2;
 
-/// Edges of the closed polygon through points, as pairs of end points.
+/// Returns the edges of the closed polygon through points, as pairs of end points.
 pub fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
 }
 
-/// Signed area of the closed polygon through points (length squared), positive for counter-clockwise order; exact.
+/// Returns the signed area of the closed polygon through points (length squared), positive for counter-clockwise order;
+/// exact.
 #[must_use]
 pub fn area(points: &[Vec2]) -> f64 {
     area_and_arm(points).0
 }
 
-/// Signed area of the closed polygon through points (length squared), and the arm from the first point to the centroid
-/// of that area (length), which is not a number where there is no area: exact sums over the triangles that the first
-/// point makes with the edges.
+/// Returns the signed area of the closed polygon through points (length squared), and the arm from the first point to
+/// the centroid of that area (length), which is not a number if there is no area: exact sums over the triangles that
+/// the first point makes with the edges.
 #[must_use]
 pub fn area_and_arm(points: &[Vec2]) -> (f64, Vec2) {
     let origin = points.first().copied().unwrap_or_default();
@@ -31,7 +32,7 @@ pub fn area_and_arm(points: &[Vec2]) -> (f64, Vec2) {
     (area, first / area)
 }
 
-/// True if a point lies within the closed polygon through points, of either order; on an edge either answer.
+/// Returns true if a point lies within the closed polygon through points, of either order; on an edge either answer.
 #[must_use]
 pub fn contains(points: &[Vec2], point: Vec2) -> bool {
     let crossed = edges(points).filter(|(a, b)| {

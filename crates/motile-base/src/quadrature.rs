@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// Points and weights of the Gauss-Legendre rule on (-1, 1), from 1 down to -1, by Newton's method: exact for
-/// polynomials of degree `2 count - 1`.
+/// Returns the points and weights of the Gauss-Legendre rule on (-1, 1), from 1 down to -1, by Newton's method: exact
+/// for polynomials of degree `2 count - 1`.
 ///
 /// ```
 /// let rule = motile_base::internal::gauss_legendre(3);

@@ -21,10 +21,10 @@ impl RealTransform {
         self.len() / 2 + 1
     }
 
-    /// The spectrum of `values`, which are lost.
+    /// Writes the spectrum of `values`, which are lost.
     ///
     /// # Errors
-    /// Slices of other lengths than planned for.
+    /// Returns an error for slices of other lengths than planned for.
     pub fn forward(&mut self, values: &mut [f64], spectrum: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len(), spectrum.len())?;
         // The lengths fit, so that the call cannot fail.
@@ -32,11 +32,11 @@ impl RealTransform {
         Ok(())
     }
 
-    /// The values of `spectrum`, which is lost. The imaginary parts of the mean and, for even N, of the highest wave
-    /// number belong to no real values and are ignored.
+    /// Writes the values of `spectrum`, which is lost. The imaginary parts of the mean and, for even N, of the highest
+    /// wave number belong to no real values and are ignored.
     ///
     /// # Errors
-    /// Slices of other lengths than planned for.
+    /// Returns an error for slices of other lengths than planned for.
     pub fn inverse(&mut self, spectrum: &mut [Complex64], values: &mut [f64]) -> Result<(), InputError> {
         self.check(values.len(), spectrum.len())?;
         spectrum[0].im = 0.0;

@@ -8,6 +8,7 @@ use crate::{Drive, InputError, positive, within};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
+#[doc(alias("domain", "periodic box", "channel", "tube", "boundary conditions"))]
 pub enum Region {
     /// The unbounded plane, the fluid at rest far away.
     Plane,
@@ -32,7 +33,7 @@ pub enum Region {
     /// A tube in three dimensions with a rigid no-slip wall around the x axis, around bodies of revolution as in
     /// [`Region::Space`].
     Tube {
-        /// Radius of the tube (length), where it is not straight that of its ends.
+        /// Radius of the tube (length), the radius of its ends if it is not straight.
         radius: f64,
         /// Shape of the wall.
         #[serde(default)]
@@ -41,8 +42,8 @@ pub enum Region {
         #[serde(default = "no_flux")]
         drive: Drive,
         /// Length of the tube (length): between closed ends where it is not straight, 16 radii without; of a straight
-        /// one, which goes on beyond, that over which the pressure falls by the prescribed gradient times it, as in a
-        /// tube with a droplet in every such length, a radius or more from the next one; infinite without.
+        /// one, which continues beyond, the length over which the pressure falls by the prescribed gradient times it,
+        /// as in a tube with a droplet in every such length, a radius or more from the next one; infinite without.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         length: Option<f64>,
     },
@@ -78,12 +79,12 @@ fn no_flux() -> Drive {
     Drive::ZeroFlux
 }
 
-/// Length of a tube that is not straight over its radius, where none is given.
+/// Length of a tube that is not straight over its radius, if none is given.
 const USUAL_LENGTH: f64 = 16.0;
 
 impl TubeShape {
-    /// Radius of the wall at a place x (length) of a tube whose ends have the radius `end` (length) and are at the
-    /// distance `half_length` from the middle (length). Ramps are hyperbolic tangents of x.
+    /// Returns the radius of the wall at a place x (length) of a tube whose ends have the radius `end` (length) and are
+    /// at the distance `half_length` from the middle (length). Ramps are hyperbolic tangents of x.
     #[must_use]
     pub fn radius(self, end: f64, half_length: f64, x: f64) -> f64 {
         // From 0 to 1 over a length around the place 0.
@@ -102,7 +103,7 @@ impl TubeShape {
         }
     }
 
-    /// Least radius of the wall (length), of a tube whose ends have the radius `end` (length).
+    /// Returns the minimum radius of the wall (length), of a tube whose ends have the radius `end` (length).
     #[must_use]
     pub fn least_radius(self, end: f64) -> f64 {
         match self {
@@ -147,14 +148,14 @@ impl TubeShape {
 }
 
 impl Region {
-    /// Least distance of bodies in neighbouring lengths of a straight tube that a pressure is given for, over its
-    /// radius: the flows that they cause on one another, which are not counted, fall by `exp(-4.47)` over it.
+    /// Minimum distance of bodies in neighbouring lengths of a straight tube that a pressure is given for, over its
+    /// radius. The flows that they cause on one another, which are not counted, fall by `exp(-4.47)` over it.
     pub const LENGTHS_APART: f64 = 1.0;
 
     /// Refuses lengths that are not positive and finite, and a drive that is not finite.
     ///
     /// # Errors
-    /// [`InputError::NotPositive`], [`InputError::NotFinite`].
+    /// Returns [`InputError::NotPositive`], [`InputError::NotFinite`].
     pub fn check(&self) -> Result<(), InputError> {
         match *self {
             Self::Plane | Self::Space => Ok(()),
@@ -176,7 +177,7 @@ impl Region {
         }
     }
 
-    /// A straight, infinitely long tube of this radius (length) without flux.
+    /// Creates a straight, infinitely long tube of this radius (length) without flux.
     #[must_use]
     pub const fn tube(radius: f64) -> Self {
         Self::Tube { radius, shape: TubeShape::Straight, drive: Drive::ZeroFlux, length: None }
@@ -194,14 +195,14 @@ impl Region {
         }
     }
 
-    /// True for three dimensions with rotational symmetry about the x axis.
+    /// Returns true for three dimensions with rotational symmetry about the x axis.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         matches!(self, Self::Space | Self::Tube { .. })
     }
 
-    /// Lengths in x and y (length), a channel's width and a tube's largest diameter in y; infinite where the fluid is
-    /// unbounded.
+    /// Returns the lengths in x and y (length), a channel's width and a tube's largest diameter in y; infinite if the
+    /// fluid is unbounded.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         match *self {
@@ -215,7 +216,7 @@ impl Region {
         }
     }
 
-    /// Periods in x and y (length); `None` where the fluid is unbounded or ends at a wall.
+    /// Returns the periods in x and y (length); `None` if the fluid is unbounded or ends at a wall.
     #[must_use]
     pub fn periods(&self) -> [Option<f64>; 2] {
         match *self {
@@ -225,7 +226,7 @@ impl Region {
         }
     }
 
-    /// Drive of a channel; `None` for other regions.
+    /// Returns the drive of a channel; `None` for other regions.
     #[must_use]
     pub fn drive(&self) -> Option<Drive> {
         if let Self::Channel { drive, .. } = *self { Some(drive) } else { None }

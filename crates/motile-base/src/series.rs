@@ -9,8 +9,8 @@ use crate::{ComplexTransform, InputError, same_length, spectrum};
 /// `f(alpha) = sum over m of c[m] exp(I m alpha)`, sample k at `alpha = 2 pi k / N`,
 ///
 /// with entry m of the N coefficients for `exp(I m alpha)` below N/2 and for `exp(I (m - N) alpha)` above. A vector of
-/// the plane is the complex number x + I y. For a smooth function everything is spectrally accurate: errors fall faster
-/// than any power of N.
+/// the plane is the complex number x + I y. For a smooth function, everything is spectrally accurate: errors fall
+/// faster than any power of N.
 #[derive(Debug, Clone)]
 pub struct PeriodicSeries {
     transform: ComplexTransform,
@@ -19,10 +19,10 @@ pub struct PeriodicSeries {
 }
 
 impl PeriodicSeries {
-    /// A series through `len` samples, zero at first.
+    /// Creates a series through `len` samples, zero at first.
     ///
     /// # Errors
-    /// More than a [`ComplexTransform`] takes.
+    /// Returns an error for more than a [`ComplexTransform`] takes.
     pub fn new(len: usize) -> Result<Self, InputError> {
         let transform = ComplexTransform::new(len)?;
         let zeros = vec![Complex64::ZERO; len];
@@ -35,13 +35,13 @@ impl PeriodicSeries {
         self.coefficients.len()
     }
 
-    /// True without samples.
+    /// Returns true without samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.coefficients.is_empty()
     }
 
-    /// The coefficients c (unit of the samples).
+    /// Returns the coefficients c (unit of the samples).
     #[must_use]
     pub fn coefficients(&self) -> &[Complex64] {
         &self.coefficients
@@ -50,7 +50,7 @@ impl PeriodicSeries {
     /// Takes the series through `samples`.
     ///
     /// # Errors
-    /// Another number of samples than N; the series is then left as it was.
+    /// Returns an error for another number of samples than N; the series is then left as it was.
     pub fn analyse(&mut self, samples: impl ExactSizeIterator<Item = Complex64>) -> Result<(), InputError> {
         same_length("the samples", self.len(), samples.len())?;
         let scale = 1.0 / self.len() as f64;
@@ -63,7 +63,7 @@ impl PeriodicSeries {
     /// Takes the series through vectors of the plane.
     ///
     /// # Errors
-    /// Another number of vectors than N; the series is then left as it was.
+    /// Returns an error for another number of vectors than N; the series is then left as it was.
     pub fn analyse_vectors<V: Copy + Into<[f64; 2]>>(&mut self, vectors: &[V]) -> Result<(), InputError> {
         self.analyse(vectors.iter().map(|&vector| {
             let [x, y] = vector.into();
@@ -85,19 +85,20 @@ impl PeriodicSeries {
         }
     }
 
-    /// Multiplies each coefficient by a factor of its own, in their order, such as [`PeriodicSeries::factors`]; those
+    /// Multiplies each coefficient by a separate factor, in their order, such as [`PeriodicSeries::factors`]; those
     /// beyond the last factor stay.
     pub fn multiply_each(&mut self, factors: &[Complex64]) {
         self.coefficients.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
     }
 
-    /// The factors of [`PeriodicSeries::multiply`] for series of `len` samples, in the order of the coefficients.
+    /// Returns the factors of [`PeriodicSeries::multiply`] for series of `len` samples, in the order of the
+    /// coefficients.
     #[must_use]
     pub fn factors(len: usize, factor: impl Fn(f64) -> Complex64) -> Vec<Complex64> {
         (0..len).map(|index| factor(spectrum::wave(index, len))).collect()
     }
 
-    /// Multiplies each coefficient by `factor(|m|)`: an operator that does not tell the directions of the curve.
+    /// Multiplies each coefficient by `factor(|m|)`: an operator that is the same in both directions of the curve.
     pub fn scale(&mut self, factor: impl Fn(usize) -> f64) {
         let len = self.len();
         for (index, value) in self.coefficients.iter_mut().enumerate() {
@@ -115,7 +116,7 @@ impl PeriodicSeries {
         self.multiply(|wave| Complex64::cis(wave * angle));
     }
 
-    /// The values at the places of the samples.
+    /// Returns the values at the places of the samples.
     pub fn values(&mut self) -> &[Complex64] {
         self.values.copy_from_slice(&self.coefficients);
         // The lengths are this plan's own, so that the call cannot fail.
@@ -123,11 +124,11 @@ impl PeriodicSeries {
         &self.values
     }
 
-    /// Largest and smallest real part of the series over its period, not only at the places of the samples: by
-    /// interpolation to sixteen times as many and parabolas through three of those.
+    /// Returns the largest and smallest real part of the series over its period, not only at the places of the samples:
+    /// by interpolation to sixteen times as many and parabolas through three of those.
     ///
     /// # Errors
-    /// More samples than a [`ComplexTransform`] takes.
+    /// Returns an error for more samples than a [`ComplexTransform`] takes.
     pub fn range(&self) -> Result<[f64; 2], InputError> {
         const FINER: usize = 16;
         let mut fine = Self::new(FINER * self.len())?;
@@ -146,7 +147,7 @@ impl PeriodicSeries {
     /// The values at the places of the samples, as vectors of the plane.
     ///
     /// # Errors
-    /// Another number of vectors than N; they are then left as they were.
+    /// Returns an error for another number of vectors than N; they are then left as they were.
     pub fn write_vectors<V: From<[f64; 2]>>(&mut self, vectors: &mut [V]) -> Result<(), InputError> {
         same_length("the vectors", self.len(), vectors.len())?;
         for (vector, value) in vectors.iter_mut().zip(self.values()) {
@@ -155,14 +156,14 @@ impl PeriodicSeries {
         Ok(())
     }
 
-    /// Truncates `vectors` to the wave numbers |m| <= (modes - 1)/2, in place: all of them stay as they are where there
+    /// Truncates `vectors` to the wave numbers |m| <= (modes - 1)/2, in place: all of them stay as they are if there
     /// are no more samples than `modes`, at least the mean is kept.
     ///
-    /// Where the flow is resolved by fewer modes than a body has markers, the body passes the velocities of its markers
+    /// If the flow is resolved by fewer modes than a body has markers, the body passes the velocities of its markers
     /// through this, so that nothing moves in a way that the flow does not see.
     ///
     /// # Errors
-    /// Another number of vectors than N; they are then left as they were.
+    /// Returns an error for another number of vectors than N; they are then left as they were.
     pub fn truncate_vectors<V>(&mut self, vectors: &mut [V], modes: usize) -> Result<(), InputError>
     where
         V: Copy + Into<[f64; 2]> + From<[f64; 2]>,

@@ -28,6 +28,7 @@ use crate::{InputError, RealTransform, check_length, same_length};
 /// # Ok::<(), motile_base::InputError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("DCT"))]
 pub struct CosineTransform {
     cells: CellTransform,
 }
@@ -47,7 +48,7 @@ impl CosineTransform {
         self.cells.len()
     }
 
-    /// True for a plan for no numbers, which does nothing.
+    /// Returns true for a plan for no numbers, which does nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -92,6 +93,7 @@ impl CosineTransform {
 /// Entry n - 1 of a slice holds `F[n]`. Neither is normalised: one after the other multiplies by N/2. Each takes one
 /// real transform of N numbers. For values at the nodes between cells, use [`NodeSineTransform`].
 #[derive(Debug, Clone)]
+#[doc(alias("DST"))]
 pub struct SineTransform {
     cells: CellTransform,
 }
@@ -111,7 +113,7 @@ impl SineTransform {
         self.cells.len()
     }
 
-    /// True for a plan for no numbers, which does nothing.
+    /// Returns true for a plan for no numbers, which does nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -182,7 +184,7 @@ impl NodeSineTransform {
         self.odd.len() / 2 - 1
     }
 
-    /// True for a plan for no numbers, which does nothing.
+    /// Returns true for a plan for no numbers, which does nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

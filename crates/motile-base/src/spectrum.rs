@@ -5,7 +5,7 @@
 
 use num_complex::Complex64;
 
-/// Signed wave number of entry `index` of `len` coefficients; zero for the unpaired one of an even length.
+/// Returns the signed wave number of entry `index` of `len` coefficients; zero for the unpaired one of an even length.
 #[must_use]
 pub fn wave(index: usize, len: usize) -> f64 {
     if 2 * index < len {
@@ -17,7 +17,7 @@ pub fn wave(index: usize, len: usize) -> f64 {
     }
 }
 
-/// Largest wave number of a band of `modes` modes, `(modes - 1) / 2`.
+/// Returns the largest wave number of a band of `modes` modes, `(modes - 1) / 2`.
 #[must_use]
 pub fn largest_wave(modes: usize) -> usize {
     modes.saturating_sub(1) / 2
@@ -52,7 +52,7 @@ pub fn differentiate(spectrum: &mut [Complex64]) {
     }
 }
 
-/// True for a number without other prime factors than `primes`: transforms of lengths with small ones are fast.
+/// Returns true for a number without other prime factors than `primes`: transforms of lengths with small ones are fast.
 #[must_use]
 pub fn is_product(mut number: usize, primes: &[usize]) -> bool {
     for &prime in primes {

@@ -20,7 +20,7 @@ pub fn widely<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
 }
 
-/// Sum in eight partial sums, which the compiler keeps in vector registers.
+/// Returns the sum in eight partial sums, which the compiler keeps in vector registers.
 #[must_use]
 #[inline(always)]
 pub fn sum(values: &[f64]) -> f64 {
@@ -34,8 +34,8 @@ pub fn sum(values: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + rest.iter().sum::<f64>()
 }
 
-/// Scalar product in eight partial sums, which the compiler keeps in vector registers; entries beyond the length of the
-/// shorter list do not count.
+/// Returns the scalar product in eight partial sums, which the compiler keeps in vector registers; entries beyond the
+/// length of the shorter list do not count.
 ///
 /// ```
 /// assert_eq!(motile_base::internal::dot(&[1.0; 11], &[0.5; 11]), 5.5);

@@ -1,7 +1,7 @@
 //! Plans of Fourier transforms.
 
 /// Declares a plan for transforms of one length and their inverses, from a planner, the traits of what it plans, and
-/// the name of the method that tells of the scratch.
+/// the name of the method that returns the length of the scratch.
 macro_rules! transform {
     ($(#[$doc:meta])* $name:ident, $planner:ident, [$forward:ident, $inverse:ident], $scratch:ident) => {
         $(#[$doc])*
@@ -19,10 +19,10 @@ macro_rules! transform {
         }
 
         impl $name {
-            /// A plan for `len` numbers.
+            /// Creates a plan for `len` numbers.
             ///
             /// # Errors
-            /// More than 67,108,864.
+            /// Returns an error for more than 67,108,864.
             pub fn new(len: usize) -> Result<Self, crate::InputError> {
                 crate::check_length(len)?;
                 let mut planner = $planner::new();
@@ -37,7 +37,7 @@ macro_rules! transform {
                 self.forward.len()
             }
 
-            /// True of a plan for no numbers, which does nothing.
+            /// Returns true of a plan for no numbers, which does nothing.
             #[must_use]
             pub fn is_empty(&self) -> bool {
                 self.len() == 0

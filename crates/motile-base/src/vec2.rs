@@ -52,7 +52,7 @@ impl Vec2 {
         Self::new(value, value)
     }
 
-    /// The unit vector at `angle` (radians) from the x axis, counter-clockwise.
+    /// Creates the unit vector at `angle` (radians) from the x axis, counter-clockwise.
     #[inline]
     #[must_use]
     pub fn from_angle(angle: f64) -> Self {
@@ -60,35 +60,35 @@ impl Vec2 {
         Self::new(cos, sin)
     }
 
-    /// Angle from the x axis, counter-clockwise (radians, -pi to pi).
+    /// Returns the angle from the x axis, counter-clockwise (radians, -pi to pi).
     #[inline]
     #[must_use]
     pub fn to_angle(self) -> f64 {
         self.y.atan2(self.x)
     }
 
-    /// Angle from this vector to `other`, counter-clockwise (radians, -pi to pi).
+    /// Returns the angle from this vector to `other`, counter-clockwise (radians, -pi to pi).
     #[inline]
     #[must_use]
     pub fn angle_to(self, other: Self) -> f64 {
         self.perp_dot(other).atan2(self.dot(other))
     }
 
-    /// The components [x, y].
+    /// Returns the components [x, y].
     #[inline]
     #[must_use]
     pub const fn to_array(self) -> [f64; 2] {
         [self.x, self.y]
     }
 
-    /// Scalar product.
+    /// Returns the scalar product.
     #[inline]
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y
     }
 
-    /// Vector product `x1 y2 - y1 x2`, the area of the parallelogram from this vector to `other`.
+    /// Returns the vector product `x1 y2 - y1 x2`, the area of the parallelogram from this vector to `other`.
     #[inline]
     #[must_use]
     pub fn perp_dot(self, other: Self) -> f64 {
@@ -102,42 +102,42 @@ impl Vec2 {
         Self::new(-self.y, self.x)
     }
 
-    /// `other` turned by the angle of this vector and stretched by its length: the product as complex numbers.
+    /// Returns `other` turned by the angle of this vector and stretched by its length: the product as complex numbers.
     #[inline]
     #[must_use]
     pub fn rotate(self, other: Self) -> Self {
         Self::new(self.x * other.x - self.y * other.y, self.y * other.x + self.x * other.y)
     }
 
-    /// Length of the vector.
+    /// Returns the length of the vector.
     #[inline]
     #[must_use]
     pub fn length(self) -> f64 {
         self.length_squared().sqrt()
     }
 
-    /// Square of the length.
+    /// Returns the square of the length.
     #[inline]
     #[must_use]
     pub fn length_squared(self) -> f64 {
         self.dot(self)
     }
 
-    /// Distance between two points.
+    /// Returns the distance between two points.
     #[inline]
     #[must_use]
     pub fn distance(self, other: Self) -> f64 {
         (self - other).length()
     }
 
-    /// The unit vector in the direction of this one, which must not be zero: zero has none and gives NaN.
+    /// Returns the unit vector in the direction of this one, which must not be zero: zero has none and gives NaN.
     #[inline]
     #[must_use]
     pub fn normalize(self) -> Self {
         self * (1.0 / self.length())
     }
 
-    /// The unit vector in the direction of this one; `None` for zero and for vectors that are not finite.
+    /// Returns the unit vector in the direction of this one; `None` for zero and for vectors that are not finite.
     #[inline]
     #[must_use]
     pub fn try_normalize(self) -> Option<Self> {
@@ -145,14 +145,14 @@ impl Vec2 {
         (inverse.is_finite() && inverse > 0.0).then(|| self * inverse)
     }
 
-    /// The point at `fraction` of the way to `other`.
+    /// Returns the point at `fraction` of the way to `other`.
     #[inline]
     #[must_use]
     pub fn lerp(self, other: Self, fraction: f64) -> Self {
         self * (1.0 - fraction) + other * fraction
     }
 
-    /// The smaller of each component, that of `other` where they cannot be compared.
+    /// Returns the smaller of each component, the component of `other` if they cannot be compared.
     #[inline]
     #[must_use]
     pub fn min(self, other: Self) -> Self {
@@ -160,7 +160,7 @@ impl Vec2 {
         Self::new(least(self.x, other.x), least(self.y, other.y))
     }
 
-    /// The larger of each component, that of `other` where they cannot be compared.
+    /// Returns the larger of each component, the component of `other` if they cannot be compared.
     #[inline]
     #[must_use]
     pub fn max(self, other: Self) -> Self {
@@ -168,21 +168,21 @@ impl Vec2 {
         Self::new(most(self.x, other.x), most(self.y, other.y))
     }
 
-    /// The larger component.
+    /// Returns the larger component.
     #[inline]
     #[must_use]
     pub fn max_element(self) -> f64 {
         self.x.max(self.y)
     }
 
-    /// The size of each component.
+    /// Returns the size of each component.
     #[inline]
     #[must_use]
     pub fn abs(self) -> Self {
         Self::new(self.x.abs(), self.y.abs())
     }
 
-    /// Each component rounded to the nearest whole number, halves away from zero.
+    /// Returns each component rounded to the nearest whole number, halves away from zero.
     #[inline]
     #[must_use]
     pub fn round(self) -> Self {
@@ -226,7 +226,7 @@ impl From<Vec2> for (f64, f64) {
 }
 
 impl fmt::Display for Vec2 {
-    /// `[x, y]`, with the digits that are asked for.
+    /// Returns `[x, y]`, with the digits that are asked for.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match f.precision() {
             Some(digits) => write!(f, "[{:.digits$}, {:.digits$}]", self.x, self.y),

@@ -30,11 +30,12 @@ pub struct AxisymmetricIntegral {
 }
 
 impl AxisymmetricIntegral {
-    /// A solver for exterior fluid of the given viscosity (stress times time) in space or in a tube, with interfaces of
-    /// that perimeter of the closed curve (length) until they are known.
+    /// Creates a solver for exterior fluid of the given viscosity (stress times time) in space or in a tube, with
+    /// interfaces of that perimeter of the closed curve (length) until they are known.
     ///
     /// # Errors
-    /// A region of the plane; a viscosity that is not positive and finite; settings out of their range.
+    /// Returns an error for a region of the plane; a viscosity that is not positive and finite; settings out of their
+    /// range.
     pub fn new(region: Region, viscosity: f64, settings: Settings, perimeter: f64) -> Result<Self, LayerError> {
         let flow = AxisymmetricFlow::in_region(region, viscosity, settings)?;
         let stiffness = stiffness(settings.nodes, perimeter);
@@ -50,9 +51,9 @@ impl AxisymmetricIntegral {
         Ok(Self { flow, region, work: FlowWork::default(), stiffness, walls })
     }
 
-    /// Mean pressure gradient along x (stress per length) in the last solution: of a straight tube over its length, or
-    /// if it has none far from the surfaces; zero in unbounded fluid. In a tube of another shape it is not a number,
-    /// since the pressure there falls mostly where it is narrow.
+    /// Returns the mean pressure gradient along x (stress per length) in the last solution: of a straight tube over its
+    /// length, or if it has none far from the surfaces; zero in unbounded fluid. In a tube of another shape it is not a
+    /// number, since the pressure there falls mostly where it is narrow.
     fn pressure_gradient(&self) -> f64 {
         let unbounded = if matches!(self.region, Region::Tube { .. }) { f64::NAN } else { 0.0 };
         self.flow.pressure_gradient().unwrap_or(unbounded)
@@ -80,7 +81,8 @@ impl AxisymmetricIntegral {
     }
 }
 
-/// A quarter of the largest wave number of a curve: waves of a drop relax as those of an interface in the plane.
+/// Returns a quarter of the largest wave number of a curve: waves of a drop relax like waves of an interface in the
+/// plane.
 fn stiffness(nodes: usize, perimeter: f64) -> f64 {
     0.25 * (nodes / 2) as f64 * TAU / perimeter
 }

@@ -15,24 +15,25 @@ use stokes_boundary_integrals::{InterfaceFlow, LayerError, Settings};
 
 use crate::{RigidWall, error::of_layers, interface_groups::InterfaceGroups, wall::narrowest};
 
-/// Angle by which a wall may turn within the distance of two nodes (radians): that of a right corner which is rounded
-/// over this distance. A sharp corner makes speeds beside it a per cent wrong at nodes 0.1 radii apart.
+/// Angle by which a wall may turn within the distance of two nodes (radians): the angle of a right corner which is
+/// rounded over this distance. A sharp corner puts speeds next to it off by 1 % at nodes 0.1 radii apart.
 const SHARPEST_TURN: f64 = 0.7;
 
-/// Film next to a droplet that is squeezed through a narrow place, over its radius: the middle of 0.022, 0.014 and
-/// 0.010, measured in throats of 0.8, 1 and 1.4 radii at activity -3.5 up to t = 130.
+/// Film next to a droplet that is squeezed through a narrow place, over its radius. It is the middle of 0.022, 0.014
+/// and 0.010, measured in throats of 0.8, 1 and 1.4 radii at activity -3.5 up to t = 130.
 const FILM_OF_SQUEEZED: f64 = 0.016;
 /// Distances of nodes in the thinnest film that is resolved.
 const RESOLVED_NODES: f64 = 0.3;
 
-/// Stokes flow of closed interfaces and rigid bodies in the plane, a periodic box or a channel, without a grid:
-/// [`InterfaceFlow`], which has the equations, for the markers of bodies.
+/// Computes Stokes flow of closed interfaces and rigid bodies in the plane, a periodic box or a channel, without a
+/// grid. It is [`InterfaceFlow`], which has the equations, for the markers of bodies.
 ///
 /// Every interface is a group of markers, [`MarkerKind::Interface`], [`MarkerKind::UnevenInterface`] or
 /// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers.
 /// Positions and forces are truncated to the modes that the nodes carry, and velocities have these modes alone. Points
 /// without forces ([`MarkerKind::Points`]) move with the flow.
 #[derive(Debug, Clone)]
+#[doc(alias("boundary element method", "BEM", "Stokeslet"))]
 pub struct BoundaryIntegral {
     interfaces: InterfaceGroups,
     work: FlowWork,
@@ -41,15 +42,15 @@ pub struct BoundaryIntegral {
     wall_spacings: Vec<f64>,
     /// Largest angle by which a wall turns within the distance of two nodes (radians).
     sharpest_turn: f64,
-    /// Least distance of the sides of a channel of rigid walls (length).
+    /// Minimum distance of the sides of a channel of rigid walls (length).
     narrowest: f64,
 }
 
 impl BoundaryIntegral {
-    /// A solver for exterior fluid of the given viscosity (stress times time).
+    /// Creates a solver for exterior fluid of the given viscosity (stress times time).
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, or a region or settings out of their range.
+    /// Returns an error for a viscosity that is not positive and finite, or a region or settings out of their range.
     pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         let interfaces = InterfaceGroups::new(InterfaceFlow::new(region, viscosity, settings)?);
         Ok(Self {
@@ -66,7 +67,7 @@ impl BoundaryIntegral {
     /// the first evaluation; 2 pi by default.
     ///
     /// # Errors
-    /// A perimeter that is not positive and finite.
+    /// Returns an error for a perimeter that is not positive and finite.
     pub fn with_reference_perimeter(mut self, perimeter: f64) -> Result<Self, LayerError> {
         positive("the reference perimeter", perimeter)?;
         self.interfaces.set_reference_perimeter(perimeter);
@@ -77,8 +78,8 @@ impl BoundaryIntegral {
     /// and memory grow with the third and second power of the number of their nodes.
     ///
     /// # Errors
-    /// Another region than a channel; more than 3000 nodes in all; walls beyond those of the channel; walls that cross
-    /// or touch.
+    /// Returns an error for another region than a channel; more than 3000 nodes in all; walls beyond the errors of the
+    /// channel; walls that cross or touch.
     pub fn with_walls(mut self, walls: &[RigidWall]) -> Result<Self, LayerError> {
         self.interfaces.flow = self.interfaces.flow.with_walls(walls.iter().map(RigidWall::curve))?;
         let mut boundary = Boundary::default();
@@ -93,24 +94,24 @@ impl BoundaryIntegral {
         Ok(Self { walls: boundary, wall_spacings, sharpest_turn, narrowest: narrowest(walls), ..self })
     }
 
-    /// Forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
+    /// Returns the forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
     pub fn wall_forces(&self) -> impl Iterator<Item = Vec2> {
         self.interfaces.flow.wall_forces()
     }
 
-    /// Region of the flow.
+    /// Returns the region of the flow.
     #[must_use]
     pub fn region(&self) -> &Region {
         self.interfaces.flow.region()
     }
 
-    /// Resolution and accuracy.
+    /// Returns the resolution and accuracy.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         self.interfaces.flow.settings()
     }
 
-    /// Corners of walls that their nodes do not resolve.
+    /// Returns the corners of walls that their nodes do not resolve.
     fn sharp_corner(&self) -> Option<Warning> {
         if self.sharpest_turn <= SHARPEST_TURN {
             return None;
@@ -125,8 +126,8 @@ impl BoundaryIntegral {
         Some(Warning { body, cause, excess: self.sharpest_turn / SHARPEST_TURN, message })
     }
 
-    /// Sides of a channel so close to one another that the smallest interface leaves a film there that its nodes do not
-    /// resolve.
+    /// Returns the sides of a channel so close to one another that the smallest interface leaves a film there that its
+    /// nodes do not resolve.
     fn narrow_place(&self) -> Option<Warning> {
         let (nodes, perimeter) = (self.settings().nodes as f64, self.interfaces.reference_perimeter());
         let (radius, narrowest) = (perimeter / TAU, self.narrowest);
@@ -163,9 +164,9 @@ impl BoundaryIntegral {
 }
 
 impl Hydrodynamics for BoundaryIntegral {
-    /// A wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`. The stiffness is
-    /// `q/4` (1/length) with the largest q that the nodes carry on the shortest interface of the last evaluation;
-    /// before the first one with the reference perimeter.
+    /// Returns a wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`. The
+    /// stiffness is `q/4` (1/length) with the largest q that the nodes carry on the shortest interface of the last
+    /// evaluation; before the first one with the reference perimeter.
     fn fluid_view(&self) -> FluidView {
         FluidView {
             domain: Domain { periods: self.interfaces.flow.periods(), ..Domain::from(*self.region()) },

@@ -37,24 +37,25 @@ use motile_scene::{
 /// The two mixed parts are transposes of each other, so that the whole is as symmetric as L. It is the mobility of the
 /// immersed boundary method and what regularisation takes from the layers, L - J_l G S_l, which is not negative: the
 /// whole takes energy in any state. Layers are spread and interpolated at nodes no more than a grid spacing apart,
-/// their Fourier series in between, so that the grid has the layers' long waves. The velocity of a surface is that of a
-/// flow without divergence through all of it, so that solids keep their volume, and nothing has to be corrected or set
-/// back beside them. Two solutions on the grid an evaluation.
+/// their Fourier series in between, so that the grid has the layers' long waves. The velocity of a surface belongs to a
+/// flow without divergence through all of it, so that solids keep their volume, and nothing next to them has to be
+/// corrected. Two solutions on the grid an evaluation.
 ///
-/// Where there is neither a solid nor a force on a point, interfaces alone move the fluid: then the grid has no part in
+/// If there is neither a solid nor a force on a point, interfaces alone move the fluid. Then the grid has no part in
 /// it, and all is as in boundary integrals ([`InterfaceFlow`]), at points too.
 ///
 /// Groups of interfaces are layers, and of other groups the markers on their surfaces
-/// ([`motile_scene::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings
-/// apart: what lies closer to a surface is hardly seen by the grid beside it.
+/// ([`motile_scene::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings apart:
+/// the grid hardly resolves what lies closer to a surface.
 #[derive(Debug, Clone)]
+#[doc(alias("immersed boundary", "boundary integral"))]
 pub struct ImmersedLayers<S, K> {
     solver: S,
     layer: SingleLayer,
     curves: LayerCurves,
     interfaces: InterfaceGroups,
     contrast: LayerContrast,
-    /// For inner points and for grid nodes of layers.
+    /// It serves inner points and grid nodes of layers.
     inner: Transfer<K>,
     nodes: Transfer<K>,
     density: StaggeredField,
@@ -68,12 +69,12 @@ pub struct ImmersedLayers<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
-    /// The method on the grid of `solver`, with that number of nodes of an interface and layers that are right to the
-    /// tolerance (without dimension).
+    /// Creates the method on the grid of `solver`, with that number of nodes of an interface and layers that are right
+    /// to the tolerance (without dimension).
     ///
     /// # Errors
-    /// Fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel whose middle is not at
-    /// y = 0.
+    /// Returns an error for fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel
+    /// whose middle is not at y = 0.
     pub fn new(solver: S, kernel: K, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
@@ -120,7 +121,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         Ok(self)
     }
 
-    /// The grid.
+    /// Returns the grid.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         self.solver.grid()
@@ -136,7 +137,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         Ok(report)
     }
 
-    /// The flow on the grid of the forces on inner points alone, and what drives it.
+    /// Returns the flow on the grid of the forces on inner points alone, and what drives it.
     fn solve_inner(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
         if self.curves.inner.is_empty() && matches!(self.solver.drive(), Drive::ZeroGradient | Drive::ZeroFlux) {
             self.density.fill(0.0);
@@ -151,7 +152,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.solve()
     }
 
-    /// The flow on the grid of all forces, after [`ImmersedLayers::solve_inner`].
+    /// Returns the flow on the grid of all forces, after [`ImmersedLayers::solve_inner`].
     fn solve_all(&mut self) -> Result<SolveReport, FlowError> {
         let forces = &self.curves.grid[1];
         self.nodes.spread(forces, &mut self.density).map_err(of_grid)?;
@@ -188,7 +189,8 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         Ok(())
     }
 
-    /// Velocities at the nodes of layers: viscosity times those of layers, and those of inner points on the grid.
+    /// Velocities at the nodes of layers: viscosity times the velocities of layers, and the velocities of inner points
+    /// on the grid.
     fn solve_layers(&mut self, forces: &[Vec2]) -> Result<(), FlowError> {
         let curves = &mut self.curves;
         self.layer.apply(&curves.forces, &mut curves.velocities).map_err(of_layers)?;
@@ -198,7 +200,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         curves.add_grid(self.solver.viscosity())
     }
 
-    /// True if forces are on interfaces alone and there are no solids.
+    /// Returns true if forces are on interfaces alone and there are no solids.
     fn is_of_interfaces(markers: &Markers) -> bool {
         let at_rest =
             |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().all(|force| *force == Vec2::ZERO);
@@ -206,7 +208,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         groups.all(|group| group.kind.is_curve() || group.layers().next().is_none() && at_rest(group))
     }
 
-    /// True if all fluid has one viscosity.
+    /// Returns true if all fluid has one viscosity.
     fn is_uniform(&self, markers: &Markers) -> bool {
         let viscosity = self.solver.viscosity();
         let same = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);
@@ -214,8 +216,8 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         markers.groups().iter().all(uniform)
     }
 
-    /// The flow of layers and inner points at the nodes of layers, where viscosities differ with the forces on layers
-    /// that take their place.
+    /// Returns the flow of layers and inner points at the nodes of layers, if viscosities differ with the forces on
+    /// layers that take their place.
     fn solve_nodes(&mut self, markers: &Markers) -> Result<Outcome, FlowError> {
         self.load(markers)?;
         self.solve_layers(markers.forces())?;
@@ -309,7 +311,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         Ok(SolveReport { iterations, residual, ..report })
     }
 
-    /// Interpolates bilinearly between grid points; where viscosities differ the interfaces' pressure is that of their
+    /// Interpolates bilinearly between grid points; if viscosities differ, the interfaces' pressure comes from their
     /// layers. The flow of interfaces alone is exact anywhere.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         same_length("the samples", points.len(), out.len())?;

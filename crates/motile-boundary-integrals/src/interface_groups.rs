@@ -17,31 +17,33 @@ pub(crate) struct InterfaceGroups {
 }
 
 impl InterfaceGroups {
-    /// Groups that move with a flow. Until interfaces are known the stiffness is that of one of perimeter 2 pi.
+    /// Groups that move with a flow. Until interfaces are known, the stiffness is taken for an interface of perimeter 2
+    /// pi.
     pub(crate) fn new(flow: InterfaceFlow) -> Self {
         let stiffness = stiffness(flow.settings().nodes, std::f64::consts::TAU);
         Self { flow, stiffness, samples: Vec::new() }
     }
 
-    /// Fastest relaxation of the interfaces ([`motile_scene::FluidView::interface_stiffness`], 1/length): a wave number
-    /// q decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the shortest interface
-    /// carry.
+    /// Returns the fastest relaxation of the interfaces ([`motile_scene::FluidView::interface_stiffness`], 1/length): a
+    /// wave number q decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the
+    /// shortest interface carry.
     pub(crate) fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// The stiffness of an interface of that perimeter (length), until interfaces are known.
+    /// Returns the stiffness of an interface of that perimeter (length), until interfaces are known.
     pub(crate) fn set_reference_perimeter(&mut self, perimeter: f64) {
         self.stiffness = stiffness(self.flow.settings().nodes, perimeter);
     }
 
-    /// Perimeter (length) of the shortest interface of the last evaluation, before it the reference perimeter.
+    /// Returns the perimeter (length) of the shortest interface of the last evaluation, before it the reference
+    /// perimeter.
     #[must_use]
     pub(crate) fn reference_perimeter(&self) -> f64 {
         stiffness(self.flow.settings().nodes, 1.0) / self.stiffness
     }
 
-    /// Takes the stiffness from the lengths of the interfaces (length), where there are any.
+    /// Takes the stiffness from the lengths of the interfaces (length), if there are any.
     pub(crate) fn set_lengths(&mut self, lengths: impl Iterator<Item = f64>) {
         if let Some(shortest) = lengths.reduce(f64::min) {
             self.set_reference_perimeter(shortest);
@@ -51,7 +53,7 @@ impl InterfaceGroups {
     /// Takes over positions and forces of the interfaces.
     ///
     /// # Errors
-    /// Those of [`InterfaceFlow::load`].
+    /// Returns the errors of [`InterfaceFlow::load`].
     pub(crate) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let (exterior, positions, forces) = (self.flow.viscosity(), markers.positions(), markers.forces());
         let interfaces = interfaces(markers).map(|group| interface(group, positions, forces, exterior));
@@ -65,7 +67,7 @@ impl InterfaceGroups {
     /// Fills the velocities of all markers and counts the work.
     ///
     /// # Errors
-    /// Those of [`InterfaceFlow::load`] and [`InterfaceFlow::solve`].
+    /// Returns the errors of [`InterfaceFlow::load`] and [`InterfaceFlow::solve`].
     pub(crate) fn velocities(&mut self, markers: &mut Markers, work: &mut FlowWork) -> Result<SolveReport, FlowError> {
         self.load(markers)?;
         work.evaluations += 1;
@@ -99,10 +101,10 @@ impl InterfaceGroups {
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
     }
 
-    /// Tells the markers what keeps bodies rigid in the last solution ([`Markers::rigid_dipole`]).
+    /// Reports to the markers what keeps bodies rigid in the last solution ([`Markers::rigid_dipole`]).
     ///
     /// # Errors
-    /// Values that are not finite.
+    /// Returns an error for values that are not finite.
     pub(crate) fn tell_dipoles(&self, markers: &mut Markers) -> Result<(), FlowError> {
         let mut interface = 0;
         for group in 0..markers.groups().len() {
@@ -116,11 +118,11 @@ impl InterfaceGroups {
         Ok(())
     }
 
-    /// The flow at points for the positions, forces and velocities in `markers`. The next solution starts from what it
-    /// would have started from without this.
+    /// Returns the flow at points for the positions, forces and velocities in `markers`. The next solution starts from
+    /// what it would have started from without this.
     ///
     /// # Errors
-    /// Those of [`InterfaceFlow::load`] and [`InterfaceFlow::sample`].
+    /// Returns the errors of [`InterfaceFlow::load`] and [`InterfaceFlow::sample`].
     pub(crate) fn sample(
         &mut self,
         markers: &Markers,
@@ -143,7 +145,7 @@ impl InterfaceGroups {
         flow.sample(points, out).map_err(of_layers)
     }
 
-    /// The last solution, from which the next one starts, and the stiffness.
+    /// Returns the last solution, from which the next one starts, and the stiffness.
     pub(crate) fn save(&self) -> SavedState {
         let WarmStart { velocities, directions } = self.flow.warm_start();
         let counts = vec![velocities.len() as u64];
@@ -161,7 +163,7 @@ impl InterfaceGroups {
     }
 }
 
-/// A group as an interface of boundary integrals, if the viscosity of the exterior fluid is `exterior`.
+/// Returns a group as an interface of boundary integrals, if the viscosity of the exterior fluid is `exterior`.
 pub(crate) fn interface<'a>(
     group: &MarkerGroup,
     positions: &'a [Vec2],
@@ -179,12 +181,12 @@ pub(crate) fn interface<'a>(
     }
 }
 
-/// The groups that are interfaces.
+/// Returns the groups that are interfaces.
 fn interfaces(markers: &Markers) -> impl Iterator<Item = &MarkerGroup> + Clone {
     markers.groups().iter().filter(|group| group.kind.is_curve())
 }
 
-/// A quarter of the largest wave number of a curve.
+/// Returns a quarter of the largest wave number of a curve.
 fn stiffness(nodes: usize, perimeter: f64) -> f64 {
     0.25 * (nodes / 2) as f64 * std::f64::consts::TAU / perimeter
 }

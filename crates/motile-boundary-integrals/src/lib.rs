@@ -1,16 +1,19 @@
-//! Stokes flow of fluid interfaces by boundary integrals, without a grid.
+//! Computes the Stokes flow of a scene by boundary integrals: droplets, rigid bodies and rigid walls, without a grid.
 //!
-//! In a scene of droplets all forces act on curves, and in Stokes flow the velocities on these curves follow from the
-//! forces alone. [`BoundaryIntegral`] computes them to spectral accuracy in the plane, a periodic box or a channel
-//! ([`motile_base::Region`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside
-//! and outside. It implements [`motile_scene::Hydrodynamics`], so that bodies are the same with any method. Velocity,
-//! velocity gradient and pressure are available at any point, at any distance from an interface.
-//! [`stokes_boundary_integrals`] has the equations.
+//! Use this crate if a scene has interfaces, and neither elastic solids nor gels. All forces then act on curves, and
+//! the velocities on these curves follow from the forces alone, to spectral accuracy. [`BoundaryIntegral`] is a flow
+//! for scenes: it implements [`motile_scene::Hydrodynamics`], so the same bodies run with any method. It covers the
+//! plane, periodic boxes and channels ([`motile_base::Region`]), rigid walls and obstacles of any shape
+//! ([`RigidWall`]), and any viscosity inside and outside. You can ask for velocity, velocity gradient and pressure at
+//! any point, however close to an interface.
+//!
+//! If a scene also has elastic solids, use [`ImmersedLayers`], which combines boundary integrals with a grid. For the
+//! equations, see [`stokes_boundary_integrals`].
 //!
 //! # Example
 //!
-//! An ellipse of fluid ten times as viscous as the exterior fluid, with a surface tension of 1, relaxes to a circle:
-//! its tip moves inward.
+//! An ellipse of fluid is ten times as viscous as the exterior fluid, and has a surface tension of 1. It relaxes to a
+//! circle, so its tip moves inward:
 //!
 //! ```
 //! use motile_boundary_integrals::{BoundaryIntegral, PeriodicCalculus, Settings, TensionPlacement};
@@ -38,12 +41,15 @@
 //! # }
 //! ```
 //!
-//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours;
-//! each pair of interfaces farther apart costs some microseconds. From some hundred nodes on, thousands where
-//! viscosities differ or in the plane, it grows like their number, so that the method suits thousands of droplets;
-//! beside curved walls it suits some tens. Feature `rayon`: several threads for many nodes, to the same bits.
+//! # Cost
 //!
-//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! The cost of an evaluation grows with the square of the number of nodes of an interface and its close neighbours.
+//! Each pair of interfaces that are farther apart costs a few microseconds. Above a few hundred nodes (a few thousand
+//! if viscosities differ, or in the plane) fast sums take over, whose cost grows like the number of nodes. So you can
+//! compute thousands of droplets, and tens next to curved walls. With the feature `rayon` several threads work, and
+//! results are bitwise identical.
+//!
+//! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod axisymmetric;

@@ -7,7 +7,7 @@ use stokes_boundary_integrals::{LayerCurve, LayerError, Settings};
 
 /// Fewest and most nodes of a wall: sixteen carry waves up to 7, and the matrix of 3000 takes 288 MB.
 const NODES: [f64; 2] = [Settings::NODES[0] as f64, 3000.0];
-/// Largest number of points that a wall is given by: its transform takes some 50 MB.
+/// Largest number of points that a wall is given by: its transform takes about 50 MB.
 const MOST_POINTS: f64 = 1_048_576.0;
 /// Corners per node of the boundary that gaps are measured from: as many as the layers have fine nodes.
 const CORNERS: usize = 4;
@@ -22,7 +22,7 @@ const TRANSITION: f64 = 10.0;
 /// Most points of a side that distances are measured between.
 const MOST_MEASURED: usize = 1000;
 
-/// Least distance of a lower and an upper side of a channel (length); infinite without two sides.
+/// Returns the minimum distance of a lower and an upper side of a channel (length); infinite without two sides.
 pub(crate) fn narrowest(walls: &[RigidWall]) -> f64 {
     let sides =
         |upper: bool| walls.iter().filter(move |wall| if upper { wall.period.x < 0.0 } else { wall.period.x > 0.0 });
@@ -57,6 +57,7 @@ pub(crate) fn narrowest(walls: &[RigidWall]) -> f64 {
 /// # }
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[doc(alias("no-slip", "obstacle", "post", "constriction"))]
 pub struct RigidWall {
     points: Vec<Vec2>,
     /// Advance of the curve in a turn of the parameter (length), with the fluid on its left: to the right for a lower
@@ -66,26 +67,29 @@ pub struct RigidWall {
 }
 
 impl RigidWall {
-    /// A lower side of a channel, `y = height(x)` (length) over one period (length), by nodes equally spaced in x.
+    /// Returns a lower side of a channel, `y = height(x)` (length) over one period (length), by nodes equally spaced in
+    /// x.
     ///
     /// # Errors
-    /// A period that is not positive and finite, heights that are not finite, fewer than 16 or more than 3000 nodes.
+    /// Returns an error for a period that is not positive and finite, heights that are not finite, fewer than 16 or
+    /// more than 3000 nodes.
     pub fn below(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
         Self::line_below(profile(period, nodes, height)?, period, nodes)
     }
 
-    /// An upper side of a channel, `y = height(x)` (length), as [`RigidWall::below`].
+    /// Returns an upper side of a channel, `y = height(x)` (length), as [`RigidWall::below`].
     ///
     /// # Errors
-    /// As for the lower side.
+    /// Returns the same errors as for the lower side.
     pub fn above(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
         Self::line_above(profile(period, nodes, height)?, period, nodes)
     }
 
-    /// A round post with this centre and radius (length).
+    /// Creates a round post with this centre and radius (length).
     ///
     /// # Errors
-    /// A radius that is not positive and finite, a centre that is not finite, too few or too many nodes.
+    /// Returns an error for a radius that is not positive and finite, a centre that is not finite, too few or too many
+    /// nodes.
     pub fn post(centre: Vec2, radius: f64, nodes: usize) -> Result<Self, LayerError> {
         positive("the radius of a post", radius)?;
         within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
@@ -93,20 +97,20 @@ impl RigidWall {
         Self::obstacle((0..nodes).map(|k| centre + radius * Vec2::from_angle(angle(k))).collect(), nodes)
     }
 
-    /// A lower side of a channel through points of one period (length), to the right, at equally spaced values of some
-    /// parameter; the line may overhang.
+    /// Creates a lower side of a channel through points of one period (length), to the right, at equally spaced values
+    /// of some parameter; the line may overhang.
     ///
     /// # Errors
-    /// As [`RigidWall::below`]; fewer points than nodes, or more than a million.
+    /// Returns the errors of [`RigidWall::below`], and an error for fewer points than nodes, or more than a million.
     pub fn line_below(points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
         positive("the period of a wall", period)?;
         Self::checked(points, Vec2::new(period, 0.0), nodes)
     }
 
-    /// An upper side of a channel through points, to the right, as [`RigidWall::line_below`].
+    /// Creates an upper side of a channel through points, to the right, as [`RigidWall::line_below`].
     ///
     /// # Errors
-    /// As for the lower side.
+    /// Returns the same errors as for the lower side.
     pub fn line_above(mut points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
         positive("the period of a wall", period)?;
         reverse(&mut points);
@@ -116,11 +120,11 @@ impl RigidWall {
         Self::checked(points, Vec2::new(-period, 0.0), nodes)
     }
 
-    /// An obstacle with the fluid around it, through points (length), in either direction, at equally spaced values of
-    /// some parameter.
+    /// Creates an obstacle with the fluid around it, through points (length), in either direction, at equally spaced
+    /// values of some parameter.
     ///
     /// # Errors
-    /// As [`RigidWall::line_below`].
+    /// Returns the errors of [`RigidWall::line_below`].
     pub fn obstacle(mut points: Vec<Vec2>, nodes: usize) -> Result<Self, LayerError> {
         if polygon::area(&points) < 0.0 {
             reverse(&mut points);
@@ -128,12 +132,12 @@ impl RigidWall {
         Self::checked(points, Vec2::ZERO, nodes)
     }
 
-    /// Some of its points (length).
+    /// Returns some of its points (length).
     fn measured(&self) -> impl Iterator<Item = Vec2> {
         self.points.iter().copied().step_by(self.points.len().div_ceil(MOST_MEASURED))
     }
 
-    /// Least distance of the points of two sides of a channel (length).
+    /// Returns the minimum distance of the points of two sides of a channel (length).
     fn distance(&self, other: &Self) -> f64 {
         let period = self.period.x;
         let apart = |a: Vec2, b: Vec2| {
@@ -155,7 +159,7 @@ impl RigidWall {
     /// Nodes resolve the corners if they are no farther apart than 0.8 times the length.
     ///
     /// # Errors
-    /// A length that is negative or not finite.
+    /// Returns an error for a length that is negative or not finite.
     pub fn rounded(mut self, length: f64) -> Result<Self, LayerError> {
         not_negative("the length over which corners are rounded", length)?;
         if length == 0.0 {
@@ -176,11 +180,11 @@ impl RigidWall {
     }
 
     /// Spreads the nodes so that their distance (length) is nowhere more than `wanted(place)`, or than the distance
-    /// over which the wall turns by a tenth of a right angle unless they are closer already: the number of nodes is
-    /// what that takes. The density of nodes follows smoothly, within some nodes, so that quadrature stays spectral.
+    /// over which the wall turns by a tenth of a right angle unless they are closer already. The number of nodes
+    /// follows from that. The density of nodes follows smoothly, within some nodes, so that quadrature stays spectral.
     ///
     /// # Errors
-    /// Distances that are not positive and finite, and those that take more than 3000 nodes.
+    /// Returns an error for distances that are not positive and finite, or that need more than 3000 nodes.
     pub fn graded(mut self, wanted: impl Fn(Vec2) -> f64) -> Result<Self, LayerError> {
         self.refine()?;
         let count = self.points.len();
@@ -243,7 +247,7 @@ impl RigidWall {
         Ok(())
     }
 
-    /// Points less the advance of the curve, as complex numbers.
+    /// Returns the points less the advance of the curve, as complex numbers.
     fn periodic_part(&self) -> impl ExactSizeIterator<Item = Complex64> {
         let step = self.period / self.points.len() as f64;
         self.points.iter().enumerate().map(move |(k, x)| {
@@ -252,8 +256,8 @@ impl RigidWall {
         })
     }
 
-    /// Largest angle by which the wall turns within the distance of its nodes (radians): what nodes do not resolve is
-    /// as sharp as a corner.
+    /// Returns the largest angle by which the wall turns within the distance of its nodes (radians): what nodes do not
+    /// resolve is as sharp as a corner.
     pub(crate) fn sharpest_turn(&self) -> f64 {
         let count = self.points.len();
         let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
@@ -267,19 +271,19 @@ impl RigidWall {
         })
     }
 
-    /// Points of one period, or of an obstacle (length).
+    /// Returns the points of one period, or of an obstacle (length).
     #[must_use]
     pub fn points(&self) -> &[Vec2] {
         &self.points
     }
 
-    /// The wall as a curve of layers.
+    /// Returns the wall as a curve of layers.
     pub(crate) fn curve(&self) -> LayerCurve<'_> {
         LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }
     }
 
-    /// Distances of the nodes at the sides that [`RigidWall::add_to`] adds (length): nodes and corners are equally
-    /// spaced in the same parameter.
+    /// Returns the distances of the nodes at the sides that [`RigidWall::add_to`] adds (length): nodes and corners are
+    /// equally spaced in the same parameter.
     pub(crate) fn spacings(&self, sides: &[[Vec2; 2]]) -> impl Iterator<Item = f64> {
         let per_node = sides.len() as f64 / self.nodes as f64;
         sides.iter().map(move |[start, end]| start.distance(*end) * per_node)
@@ -306,7 +310,8 @@ fn reverse(points: &mut [Vec2]) {
     }
 }
 
-/// The least values within some places of each of a periodic list, smoothed over as many: nowhere above the list.
+/// Returns the minimum values within some places of each of a periodic list, smoothed over as many: nowhere above the
+/// list.
 fn smoothed_below(values: &[f64], reach: usize) -> Result<Vec<f64>, LayerError> {
     let count = values.len();
     let around = |k: usize| values[(k + count - reach) % count];
@@ -320,7 +325,7 @@ fn smoothed_below(values: &[f64], reach: usize) -> Result<Vec<f64>, LayerError> 
     Ok(series.values().iter().map(|value| value.re).collect())
 }
 
-/// Value at `sought` of the polynomial through points at given parameters.
+/// Returns the value at `sought` of the polynomial through points at given parameters.
 fn interpolated(points: [(f64, Vec2); 6], sought: f64) -> Vec2 {
     let weight = |i: usize| -> f64 {
         let others = points.iter().enumerate().filter(|(j, _)| *j != i);
@@ -329,7 +334,7 @@ fn interpolated(points: [(f64, Vec2); 6], sought: f64) -> Vec2 {
     points.iter().enumerate().map(|(i, (_, point))| weight(i) * *point).sum()
 }
 
-/// Points `(x, height(x))` over a period, several per node.
+/// Returns the points `(x, height(x))` over a period, several per node.
 fn profile(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Vec<Vec2>, LayerError> {
     positive("the period of a wall", period)?;
     within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;

@@ -5,6 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 use motile::scene::{Every, SceneError, StepSize, System};
 use motile::setup::{AnyFlow, DropletShape, Numbers, Setup};
+use motile_cli::keys::written_out;
 use motile_cli::run::{Decided, Summary, say};
 use toml::Value;
 
@@ -17,15 +18,15 @@ const MOST_BODIES: usize = 20;
 /// their sizes and dimensionless numbers, steps, cost, and the warnings at the start. Writes no files.
 ///
 /// # Errors
-/// A scene that cannot be built, or whose first steps fail.
+/// Returns an error for a scene that cannot be built, or whose first steps fail.
 pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
     let mut scene = setup.build()?.scene;
     let placed = setup.placed()?;
-    let text = |value: Result<Value, _>| value.map(|value| value.to_string());
     let mut report = Summary::default();
-    report.put("region", text(Value::try_from(setup.region))?, "");
-    report.put("method", text(Value::try_from(setup.method))?, "");
-    report.put("step", text(Value::try_from(setup.step))?, "");
+    let entries = written_out(setup)?;
+    for key in ["region", "method", "step"] {
+        report.put(key, entries.get(key).map_or(String::new(), Value::to_string), "");
+    }
     let markers: usize = scene.system().all_bodies().map(|(_, body)| body.marker_count()).sum();
     report.put("markers", markers, &format!("of all {} bodies", scene.system().all_bodies().len()));
     // In the order in which bodies are added.

@@ -13,8 +13,8 @@ use crate::run::explained;
 /// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
 const MISUSE: u8 = 2;
 
-/// The main function of a program: reads the command line into `Flags` and runs. If something is wrong, in the flags or
-/// in the run, it ends with one sentence on the error output and an exit code other than zero.
+/// Runs a program: reads the command line into `Flags` and runs. If something is wrong, in the flags or in the run, it
+/// ends with one sentence on the error output and an exit code other than zero.
 ///
 /// ```no_run
 /// /// A droplet swims.
@@ -50,7 +50,7 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
     }
 }
 
-/// Fault of a command line, in one sentence.
+/// Returns the fault of a command line, in one sentence.
 #[must_use]
 pub fn sentence(error: &clap::Error, command: &clap::Command) -> String {
     let context = |kind: ContextKind| match error.get(kind) {
@@ -77,14 +77,20 @@ pub fn sentence(error: &clap::Error, command: &clap::Command) -> String {
         ErrorKind::InvalidSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let given = context(ContextKind::InvalidSubcommand);
             let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-            format!("{given:?} is not one of {}", names.join(", "))
+            let what = if given.is_empty() {
+                "the command is missing".into()
+            } else {
+                format!("there is no command {given:?}")
+            };
+            format!("{what}. Use one of {}", names.join(", "))
         }
+        ErrorKind::MissingRequiredArgument => format!("{flag} is missing (--help shows what is needed)"),
         ErrorKind::ArgumentConflict => {
             let other = context(ContextKind::PriorArg).split(' ').next().unwrap_or_default().to_string();
             if other.is_empty() || other == flag {
                 format!("{flag} is given more than once")
             } else {
-                format!("{flag} and {other} say the same in two ways: give one of them")
+                format!("{flag} and {other} say the same in two ways. Use only one of them")
             }
         }
         _ => {
@@ -100,7 +106,7 @@ pub fn sentence(error: &clap::Error, command: &clap::Command) -> String {
 /// Reads a number above 0.
 ///
 /// # Errors
-/// The rule that the text breaks.
+/// Returns an error for the rule that the text breaks.
 pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| "must be a number above 0".to_owned())

@@ -4,15 +4,18 @@
 //! read: there is no second list of them.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
-use motile::setup::Setup;
+use motile::setup::{ExcludedVolume, Particles, Setup};
 use toml::{Table, Value};
 
 /// Key that no part of a scene has.
 const NO_KEY: &str = "no-such-key";
+/// Peclet number (no dimension) above which droplets swim also in narrow regions; in unbounded fluid they do above 2.
+const FAR_ABOVE_THRESHOLD: f64 = 10.0;
 /// Most keys that a message suggests.
 const SUGGESTED: usize = 3;
 
@@ -28,15 +31,15 @@ pub struct SceneFlags {
 }
 
 impl SceneFlags {
-    /// Scene of the file with these values.
+    /// Returns the scene of the file with these values.
     ///
     /// # Errors
-    /// Those of [`scene_of`].
+    /// Returns the errors of [`scene_of`].
     pub fn setup(&self) -> Result<Setup> {
         scene_of(&self.file, &self.set)
     }
 
-    /// Name of the scene: the name of the file without its ending.
+    /// Returns the name of the scene: the name of the file without its ending.
     #[must_use]
     pub fn name(&self) -> String {
         self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
@@ -59,7 +62,7 @@ enum Kind {
 /// Reads `KEY=VALUE`. The value is TOML; a word that is none is a text.
 ///
 /// # Errors
-/// A text without `=`, or a value that is neither TOML nor a word.
+/// Returns an error for a text without `=`, or a value that is neither TOML nor a word.
 pub fn assignment(text: &str) -> Result<(String, Value), String> {
     let Some((key, value)) = text.split_once('=') else {
         return Err("must be KEY=VALUE, such as droplets.0.particles.activity=-4".to_owned());
@@ -73,54 +76,79 @@ pub fn assignment(text: &str) -> Result<(String, Value), String> {
     }
 }
 
-/// Text of a file of a scene or of a plan.
+/// Returns the text of a file of a scene or of a plan.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// Returns an error for a file that cannot be read.
 pub fn text_of(path: &Path) -> Result<String> {
     // A device could go on for ever.
-    ensure!(!path.exists() || path.is_file(), "it is no regular file");
-    Ok(fs::read_to_string(path)?)
+    ensure!(!path.exists() || path.is_file(), "this is not a file. Use the path of a file");
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => anyhow!("there is no such file. Check the path"),
+        ErrorKind::InvalidData => anyhow!("the file is not text. Use a file in TOML"),
+        _ => error.into(),
+    })
 }
 
-/// Scene of a file with other values of some entries, checked. A scene in which nothing moves is refused.
+/// Returns the scene of a file with other values of some entries, checked. A scene in which nothing moves is refused.
 ///
 /// # Errors
-/// A file that cannot be read or is no scene; keys and values that are refused by [`set`].
+/// Returns an error for a file that cannot be read or is not a scene; keys and values that are refused by [`set`].
 pub fn scene_of(path: &Path, assignments: &[(String, Value)]) -> Result<Setup> {
     let read = || -> Result<Setup> {
         let mut table = table_of(&text_of(path)?)?;
         assignments.iter().try_for_each(|(key, value)| set(&mut table, key, value.clone()))?;
-        let setup = setup_of(table)?;
+        let setup = setup_of(&table)?;
         let Setup { droplets, suspension, solids, rigid_bodies, shells, gels, interfaces, .. } = &setup;
         let bodies = [suspension.len(), solids.len(), rigid_bodies.len(), shells.len(), gels.len(), interfaces.len()];
         let moves = droplets.len() + bodies.iter().sum::<usize>() > 0;
-        ensure!(moves, "nothing in it moves: give it [[droplets]], a [[suspension]], [[interfaces]] or other bodies");
+        ensure!(
+            moves,
+            "nothing moves in this scene. Add [[droplets]], a [[suspension]], [[interfaces]] or other bodies"
+        );
         Ok(setup)
     };
     read().with_context(|| path.display().to_string())
 }
 
-/// Table of a scene in which every entry is written out that has a value.
+/// Returns the table of a scene in which every entry is written out that has a value.
 ///
 /// # Errors
-/// A text that is no scene; a scene may break rules that other entries can mend.
+/// Returns an error for a text that is not a scene; a scene may break rules that other entries can mend.
 pub fn table_of(text: &str) -> Result<Value> {
-    match toml::from_str::<Setup>(text) {
-        Ok(setup) => Ok(Value::try_from(setup)?),
+    match Setup::read(text) {
+        Ok(setup) => written_out(&setup),
         // With the line, and what has taken the place of keys of earlier versions.
         Err(error) => Err(Setup::from_toml(text).map(drop).err().map_or(error.into(), Into::into)),
     }
 }
 
-/// Scene of a table, checked.
+/// Returns the scene of a table, checked.
 ///
 /// # Errors
-/// An entry that lacks others, or a rule of [`Setup::check`] that is broken.
-pub fn setup_of(table: Value) -> Result<Setup> {
-    let setup: Setup = table.try_into()?;
+/// Returns an error for an entry that lacks others, or a rule of [`Setup::check`] that is broken.
+pub fn setup_of(table: &Value) -> Result<Setup> {
+    // The text of the error would show lines that nobody wrote.
+    let setup = read(table).map_err(|error| anyhow!(in_words(error.message())))?;
     setup.check()?;
     Ok(setup)
+}
+
+/// Returns the scene of a table, which may break rules. By way of its text, because the reader of texts is compiled already.
+///
+/// # Errors
+/// Returns an error for an entry that lacks others, or has another kind than the scene's.
+pub(crate) fn read(table: &Value) -> Result<Setup, toml::de::Error> {
+    // A value that is a table would be written as one within braces.
+    Setup::read(&table.as_table().map_or_else(|| table.to_string(), Table::to_string))
+}
+
+/// Returns the table of a scene in which every entry is written out that has a value.
+///
+/// # Errors
+/// Returns an error for a seed that TOML has no number for.
+pub fn written_out(setup: &Setup) -> Result<Value> {
+    Ok(Value::Table(setup.to_toml()?.parse()?))
 }
 
 /// Sets an entry of the table of a scene. Tables on the way to it are made if they do not exist; of values that exclude
@@ -128,7 +156,8 @@ pub fn setup_of(table: Value) -> Result<Setup> {
 /// number of an entry that exists, or the next one.
 ///
 /// # Errors
-/// A key that does not exist, with the nearest ones that do; a value of another kind than the key has.
+/// Returns an error for a key that does not exist, with the nearest ones that do; a value of another kind than the key
+/// has.
 pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
     let dotted = key.replace('[', ".").replace(']', "");
     let parts: Vec<&str> = dotted.split('.').collect();
@@ -150,16 +179,24 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
                 if !place.is_array() {
                     *place = Value::Array(Vec::new());
                 }
-                let Value::Array(list) = place else { bail!("{above} is no list") };
+                let Value::Array(list) = place else {
+                    bail!("{above} is not a list. Set the whole value of {above} instead")
+                };
                 let count = list.len();
                 let most = length.unwrap_or(count + 1).min(count + 1);
-                ensure!(number < most, "{key}: {above} has {count} entries, give a number from 0 to {}", most - 1);
+                ensure!(
+                    number < most,
+                    "{key}: the list {above} has {count} entries. Use a number from 0 to {}",
+                    most - 1
+                );
                 if number == count {
                     list.push(empty());
                 }
                 &mut list[number]
             }
-            Kind::Leaf(expected) => bail!("{key}: {above} has no entries, it is {expected}"),
+            Kind::Leaf(expected) => {
+                bail!("{key}: {above} is {expected}, so it has no keys below it. Set {above} itself")
+            }
         };
     }
     // Numbers that a range made are whole where the scene has whole ones.
@@ -177,7 +214,7 @@ pub fn set(scene: &mut Value, key: &str, value: Value) -> Result<()> {
     Ok(())
 }
 
-/// All keys of scenes, entries of lists with the number 0.
+/// Returns all keys of scenes, entries of lists with the number 0.
 #[must_use]
 pub fn all() -> Vec<String> {
     let mut found = Vec::new();
@@ -212,7 +249,7 @@ fn empty() -> Value {
     Value::Table(Table::new())
 }
 
-/// Entries of a value, which becomes a table if it is none.
+/// Returns the entries of a value, which becomes a table if it is none.
 fn entries(place: &mut Value) -> &mut Table {
     if !place.is_table() {
         *place = empty();
@@ -220,19 +257,23 @@ fn entries(place: &mut Value) -> &mut Table {
     place.as_table_mut().expect("a table, since it was made one")
 }
 
-/// Problem of a scene that has nothing but a value at a path.
+/// Returns the problem of a scene that has nothing but a value at a path.
 fn problem(path: &[impl AsRef<str>], value: Value) -> Option<String> {
     let scene = path.iter().rev().fold(value, |value, part| match part.as_ref() {
         part if part.parse::<usize>().is_ok() => Value::Array(vec![value]),
         part => Value::Table(Table::from_iter([(part.to_owned(), value)])),
     });
-    scene.try_into::<Setup>().err().map(|error| error.message().to_owned())
+    read(&scene).err().map(|error| error.message().to_owned())
 }
 
-/// Kind of the value at a path, which the error about a key that it cannot have shows.
+/// Returns the kind of the value at a path, which the error about a key that it cannot have shows.
 fn kind(path: &[impl AsRef<str>]) -> Kind {
     let said = problem(path, Value::Table(Table::from_iter([(NO_KEY.to_owned(), Value::Integer(0))])));
     let said = said.unwrap_or_default();
+    // The reader lists the keys of the one-of-several kind in this way.
+    if let Some((_, names)) = said.split_once("available keys: ") {
+        return Kind::Table(names.split(", ").map(str::to_owned).collect());
+    }
     let (found, expected) = said.split_once("expected ").unwrap_or((&said, ""));
     let names = || expected.split('`').skip(1).step_by(2).map(str::to_owned).collect();
     if found.starts_with("unknown field") {
@@ -248,7 +289,7 @@ fn kind(path: &[impl AsRef<str>]) -> Kind {
     }
 }
 
-/// Message about a key whose part at that depth does not exist, with the nearest keys.
+/// Returns the message about a key whose part at that depth does not exist, with the nearest keys.
 fn unknown(parts: &[&str], depth: usize) -> String {
     let is_number = |part: &str| part.parse::<usize>().is_ok();
     let mut near = Vec::new();
@@ -265,11 +306,11 @@ fn unknown(parts: &[&str], depth: usize) -> String {
     let near: Vec<&str> = near.iter().take(SUGGESTED).map(|(_, key)| key.as_str()).collect();
     let above = if depth == 0 { "a scene".to_owned() } else { parts[..depth].join(".") };
     let (key, part) = (parts.join("."), parts[depth]);
-    format!("there is no key {key}, because {above} has no {part}; the nearest keys are {}", near.join(", "))
+    format!("there is no key {key}, because {above} has no {part}. The nearest keys are {}", near.join(", "))
 }
 
-/// Edit distance of two keys (no dimension), part by part: a part that was left out counts less than one too many or
-/// another one.
+/// Returns the edit distance of two keys (no dimension), part by part: a part that was left out counts less than one
+/// too many or another one.
 fn distance(wrong: &[&str], right: &[&str]) -> f64 {
     const LEFT_OUT: f64 = 0.4;
     let mut row: Vec<f64> = (0..=right.len()).map(|k| LEFT_OUT * k as f64).collect();
@@ -284,10 +325,57 @@ fn distance(wrong: &[&str], right: &[&str]) -> f64 {
     row[right.len()]
 }
 
-/// Message without names of types.
-fn in_words(problem: &str) -> String {
-    let words = [("f64", "a number"), ("usize", "a whole number"), ("u64", "a whole number"), ("invalid type: ", "")];
+/// Returns the message about a value in the words of the user, without names of types.
+pub(crate) fn in_words(problem: &str) -> String {
+    let words = [
+        ("f64", "a number"),
+        ("usize", "a whole number that is not negative"),
+        ("u64", "a whole number that is not negative"),
+        ("u32", "a whole number that is not negative"),
+        ("i64", "a whole number"),
+        ("a sequence", "a list"),
+        ("an array of length", "a list of length"),
+        ("floating point `", "the number `"),
+        ("integer `", "the number `"),
+        ("boolean `", "the truth value `"),
+        ("string \"", "the text \""),
+        ("missing field ", "missing required key "),
+        ("unknown field ", "there is no key "),
+        ("unknown variant ", "there is no choice "),
+        (", expected one of ", ". Use one of "),
+        (", expected ", " cannot be used. Use "),
+        ("invalid type: ", ""),
+        ("invalid value: ", ""),
+    ];
     words.iter().fold(problem.to_owned(), |text, (name, words)| text.replace(name, words))
+}
+
+/// Refuses droplets whose particles would collapse to a point early in a run.
+///
+/// # Errors
+/// Returns an error if the activity of a droplet is at least as strong as its excluded volume, so that nothing stops
+/// particles that attract each other, and far above the threshold of swimming.
+pub fn refuse_collapse(setup: &Setup) -> Result<()> {
+    let placed = setup.placed()?;
+    for (number, droplet) in placed.droplets.iter().enumerate() {
+        let Some(numbers) = placed.numbers(droplet)? else { continue };
+        let collapses =
+            numbers.excluded_volume.is_some_and(|ratio| ratio <= 1.0) && numbers.peclet > FAR_ABOVE_THRESHOLD;
+        let Some(Particles { activity, excluded_volume: ExcludedVolume::Step(strength), .. }) = droplet.particles
+        else {
+            continue;
+        };
+        if !collapses {
+            continue;
+        }
+        let key =
+            if number < setup.droplets.len() { format!("droplets[{number}].particles") } else { "suspension".into() };
+        bail!(
+            "{key}.activity = {activity}: the excluded volume is only {strength}, so the particles would collapse to a \
+             point. Use an activity weaker than -{strength}, or a larger excluded volume"
+        );
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The program `motile`, and what it shares with the examples of the repository.
 //!
-//! `motile run scene.toml` runs a scene file and records all of its bodies; `motile sweep` makes many runs, `motile
-//! steady` finds steady states, `motile check` says what a scene would do, and `motile new` writes one to begin with.
-//! If you write a program of your own, you will rarely need this package: build a scene with `motile`, and attach
-//! observers of `motile-output`.
+//! To run a scene file and record all of its bodies, use `motile run scene.toml`. For many runs use `motile sweep`, and
+//! for steady states `motile steady`. To see what a scene would do, use `motile check`, and to write a first one,
+//! `motile new`. If you write your own program, you will rarely need this package: build a scene with `motile`, and
+//! attach observers of `motile-output`.
 //!
 //! * [`command_line`]: the frame of a program, with errors in one sentence.
 //! * [`keys`]: entries of scenes by their keys, as in `--set droplets.0.particles.activity=-4`.

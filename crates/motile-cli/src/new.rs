@@ -56,7 +56,7 @@ const EXAMPLES: [(&str, &str); 16] = examples![
 /// Writes a scene file, or lists the examples.
 ///
 /// # Errors
-/// An example that does not exist; a file that exists already or cannot be written.
+/// Returns an error for an example that does not exist; a file that exists already or cannot be written.
 pub(crate) fn write(flags: &NewFlags) -> Result<()> {
     let names = || EXAMPLES.map(|(name, _)| name).join(", ");
     if flags.list {
@@ -76,7 +76,7 @@ pub(crate) fn write(flags: &NewFlags) -> Result<()> {
     };
     let path = flags.file.display();
     let mut file = match OpenOptions::new().write(true).create_new(true).open(&flags.file) {
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => bail!("{path} exists already: give another name"),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => bail!("{path} exists already. Use another name"),
         file => file.with_context(|| format!("writing {path}"))?,
     };
     file.write_all(text.as_bytes()).with_context(|| format!("writing {path}"))?;

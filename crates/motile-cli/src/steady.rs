@@ -53,8 +53,8 @@ pub struct SteadyFlags {
 /// Finds a steady state of a scene, or follows a branch of them, as the flags say.
 ///
 /// # Errors
-/// A scene that cannot be read or has no such states; a key along which states cannot be followed; files that cannot be
-/// written.
+/// Returns an error for a scene that cannot be read or has no such states; a key along which states cannot be followed;
+/// files that cannot be written.
 pub fn steady(flags: &SteadyFlags) -> Result<()> {
     let setup = flags.scene.setup()?;
     let name = flags.scene.name();
@@ -77,8 +77,8 @@ pub fn steady(flags: &SteadyFlags) -> Result<()> {
     draw(&setup, &settings)
 }
 
-/// Parameter that a key of a scene stands for: the one whose change is a change of this key. The names of parameters
-/// are accepted too.
+/// Returns the parameter that a key of a scene stands for: the one whose change is a change of this key. The names of
+/// parameters are accepted too.
 fn parameter(setup: &Setup, key: &str) -> Result<Parameter> {
     if let Some((_, named)) = Parameter::NAMES.iter().find(|(name, _)| *name == key) {
         return Ok(*named);
@@ -86,14 +86,14 @@ fn parameter(setup: &Setup, key: &str) -> Result<Parameter> {
     for (_, parameter) in Parameter::NAMES {
         let Some(value) = parameter.get(setup) else { continue };
         let other = 1.01 * value + 0.001;
-        let mut table = Value::try_from(setup)?;
+        let mut table = keys::written_out(setup)?;
         keys::set(&mut table, key, Value::Float(other))?;
-        if table.try_into::<Setup>().is_ok_and(|changed| parameter.with(setup, other).is_ok_and(|it| it == changed)) {
+        if keys::read(&table).is_ok_and(|changed| parameter.with(setup, other).is_ok_and(|it| it == changed)) {
             return Ok(parameter);
         }
     }
     let names = Parameter::NAMES.map(|(name, _)| name).join(", ");
-    bail!("states cannot be followed along {key}: give the key, or the name, of one of the parameters {names}")
+    bail!("steady states cannot be followed along {key}. Use one of the parameters {names}")
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Parameter sweeps: many runs of one scene, on all cores of a machine or on many machines.
 //!
 //! The command `motile sweep plan.toml` makes the runs of a [`Plan`]: a scene, a time, ranges of the scene's entries.
-//! Each run has a folder of its own with scene file, trajectory, checkpoint and summary. Finished runs are not
-//! repeated, unless scene, settings, time or the version of the program have changed; interrupted ones continue from
-//! their checkpoints; failed ones are listed and do not keep the others from running. Several processes may work on one
+//! Each run has its own folder with scene file, trajectory, checkpoint and summary. Finished runs are not repeated,
+//! unless scene, settings, time or the version of the program have changed; interrupted ones continue from their
+//! checkpoints; failed ones are listed and do not keep the others from running. Several processes may work on one
 //! sweep: a run belongs to the first that takes it. `--shard 2/4` makes the second of four shares. `motile sweep
 //! plan.toml collect` writes one table of all results, byte for byte the same in whatever order they were made; `motile
 //! sweep plan.toml status` lists how many runs are left.
@@ -81,7 +81,8 @@ fn shard(text: &str) -> Result<Shard, String> {
 /// Makes the runs of a plan, collects their results, or lists their states, as the flags say.
 ///
 /// # Errors
-/// A plan that cannot be read or is not valid; files that cannot be written; runs that failed or were stopped.
+/// Returns an error for a plan that cannot be read or is not valid; files that cannot be written; runs that failed or
+/// were stopped.
 pub fn sweep(flags: &SweepFlags) -> Result<()> {
     let plan = Plan::read(&flags.plan)?;
     let name = flags.plan.file_stem().context("a plan is a file")?;
@@ -114,7 +115,7 @@ fn make(mut trials: Vec<Trial>, flags: &SweepFlags) -> Result<()> {
     let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = flags.threads.map_or_else(processors, usize::from);
     let Some(runs) = trials.first().and_then(|trial| trial.folder.parent().map(PathBuf::from)) else {
-        bail!("no run is left in this share: {failed_before} of {total} failed before");
+        bail!("no run is left here: {failed_before} of {total} failed before. Remove their folders to retry");
     };
     trials.iter().try_for_each(Trial::discard_others)?;
     let pool = RunPool::new(&runs, threads, flags.quiet)?;
@@ -170,7 +171,7 @@ fn collect(trials: &[Trial], directory: &std::path::Path) -> Result<()> {
     let mut rows = Vec::new();
     let older = trials.iter().filter(|trial| trial.other_version().is_some()).count();
     if older > 0 {
-        say(format_args!("{older} results are of another version of motile and left out: make the runs again"));
+        say(format_args!("{older} results are of another version of motile and left out. Make the runs again"));
     }
     for trial in trials {
         let State::Finished(found) = trial.state() else { continue };

@@ -235,11 +235,13 @@ fn wrong_input_is_refused_in_one_sentence() {
     let scene = directory.file("scene.toml", "[[droplets]]\n");
     let out = directory.path("out");
     for (status, arguments, words) in [
-        (1, vec!["--set", "droplets.0.activity=-4"], "the nearest keys are droplets.0.particles.activity"),
-        (1, vec!["--set", "viscosity=high"], "viscosity = \"high\": string \"high\", expected a number"),
+        (1, vec!["--set", "droplets.0.activity=-4"], "The nearest keys are droplets.0.particles.activity"),
+        (1, vec!["--set", "viscosity=high"], "viscosity = \"high\": the text \"high\" cannot be used. Use a number"),
         (1, vec!["--set", "droplets.0.tension=-4"], "tension"),
-        (1, vec!["--set", "region.channel.width=3"], "missing field `length`"),
-        (1, vec!["--set", "droplets=[]"], "nothing in it moves"),
+        (1, vec!["--set", "droplets.0.particles.activity=-12"], "activity = -12: the excluded volume is only 10"),
+        (1, vec!["--set", "viscosity=1e300"], "viscosity = 1e300: use a number from 1e-50 to 1e50"),
+        (1, vec!["--set", "region.channel.width=3"], "missing required key `length`"),
+        (1, vec!["--set", "droplets=[]"], "nothing moves in this scene"),
         (2, vec!["--set", "viscosity"], "must be KEY=VALUE"),
         (2, vec!["--time", "-1"], "--time -1: must be a number above 0"),
         (2, vec!["--tim", "1"], "there is no flag --tim (did you mean --time?"),
@@ -250,12 +252,20 @@ fn wrong_input_is_refused_in_one_sentence() {
         assert!(!Path::new(&out).exists(), "{arguments:?}: nothing is made");
     }
     let wrong = directory.file("wrong.toml", "viscosty = 3.0\n[[droplets]]\n");
+    let binary = directory.path("binary.toml");
+    fs::write(&binary, [0x7f, 0x45, 0xff, 0xfe]).unwrap();
     for command in ["run", "check", "steady"] {
         let told = refused(1, &[command, &wrong]);
-        assert!(told.contains("unknown field `viscosty`"), "{told}");
-        assert!(refused(1, &[command, "no-such-file.toml"]).contains("no-such-file.toml"), "{command}");
+        assert!(told.contains("unknown key `viscosty`"), "{told}");
+        let missing = refused(1, &[command, "no-such-file.toml"]);
+        assert!(missing.contains("no-such-file.toml: there is no such file"), "{missing}");
+        let told = refused(1, &[command, &binary]);
+        assert!(told.contains("binary.toml: the file is not text"), "{told}");
     }
-    assert!(refused(2, &["runn", &scene]).contains("is not one of run, sweep, steady, check, new"));
+    assert!(
+        refused(2, &["runn", &scene])
+            .contains("there is no command \"runn\". Use one of run, sweep, steady, check, new")
+    );
     assert!(refused(1, &["run", &scene, "--checkpoint", &scene, "--out", &out]).contains("are one file"));
 }
 
@@ -400,14 +410,74 @@ fn sweeps_make_and_collect_their_runs() {
     let text = fs::read_to_string(Path::new(&out).join("results.csv")).unwrap();
     assert!(text.lines().count() == 3 && text.starts_with("label,droplets.0.particles.activity,"), "{text}");
     let wrong = directory.file("wrong.toml", "time = 1.0\n[grid]\nviscosty = [1.0]\n[[scene.droplets]]\n");
-    assert!(refused(1, &["sweep", &wrong]).contains("the nearest keys are viscosity"));
+    assert!(refused(1, &["sweep", &wrong]).contains("The nearest keys are viscosity"));
+}
+
+/// A page of the reference.
+fn page(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference");
+    fs::read_to_string(folder.join(name)).expect("a page")
+}
+
+/// The page of observables has each column of the tables of runs; of numbered columns it has the first and the last.
+#[test]
+fn the_page_of_observables_has_each_column() {
+    let (text, directory, mut count) = (page("observables.md"), Directory::new("columns"), 0);
+    let stem = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit() || "xyz_".contains(c)).to_owned();
+    let names: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+    let stems: Vec<String> = names.iter().map(|name| stem(name)).collect();
+    for example in ["swimmer", "elastic_walls", "circles", "gel", "exchange", "active_walls", "shear", "drop"] {
+        let (scene, out) = (directory.path(&format!("{example}.toml")), directory.path(example));
+        succeeds(&["new", &scene, "--example", example]);
+        succeeds(&["run", &scene, "--time", "0.02", "--no-pictures", "--quiet", "--out", &out]);
+        for entry in fs::read_dir(&out).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|extension| extension != "csv") {
+                continue;
+            }
+            for column in table(&path).0 {
+                let numbered = stem(&column) != column && stems.contains(&stem(&column));
+                assert!(names.contains(&column.as_str()) || numbered, "{column} of {}", path.display());
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 300, "{count}");
+}
+
+/// The page on the program has every flag of each command, and no others.
+#[test]
+fn the_page_has_the_flags_of_each_command() {
+    let (text, mut count) = (page("program.md"), 0);
+    for command in ["run", "check", "new", "sweep", "steady"] {
+        let (_, section) = text.split_once(&format!("\n## motile {command}\n")).unwrap();
+        let section = section.split("\n## ").next().unwrap();
+        let flags = |text: &str| -> Vec<String> {
+            let names = text.split("--").skip(1).map(|rest| {
+                rest.split(|c: char| !c.is_ascii_alphanumeric() && c != '-').next().unwrap_or_default().to_owned()
+            });
+            names.filter(|name| name.starts_with(char::is_alphabetic) && name != "help").collect()
+        };
+        // Each flag stands at the beginning of a line of the help.
+        let help = succeeds(&[command, "--help"]);
+        let lines = help.lines().filter(|line| line.trim_start().starts_with('-'));
+        let known: Vec<String> = lines.flat_map(|line| flags(line).into_iter().take(1)).collect();
+        let shown = flags(section);
+        for flag in &known {
+            assert!(shown.contains(flag), "motile {command} has --{flag}, the page has not");
+        }
+        for flag in &shown {
+            assert!(known.contains(flag), "motile {command} has no --{flag}, the page has");
+        }
+        count += known.len();
+    }
+    assert!(count > 30, "{count}");
 }
 
 /// Each key that the page on the program names is one.
 #[test]
 fn the_page_names_keys_that_exist() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/running.md");
-    let text = fs::read_to_string(page).unwrap();
+    let text = page("program.md");
     let known: Vec<String> = motile_cli::keys::all();
     let rows = text.lines().skip_while(|line| !line.starts_with("| flag | key")).skip(2);
     let mut named = 0;

@@ -33,19 +33,19 @@ pub enum InteriorError {
 motile_base::debug_as_explanation!(InteriorError);
 
 impl InteriorError {
-    /// Droplet whose number of markers changes.
+    /// Returns the error for droplet whose number of markers changes.
     pub(crate) fn changing_markers() -> Self {
         let what = "a droplet with a gel or particles inside needs a fixed number of markers";
         Self::refused(what, "", "Use equally spaced markers (`Equidistributed`)")
     }
 
-    /// Droplet without particles on its interface that could be exchanged.
+    /// Returns the error for droplet without particles on its interface that could be exchanged.
     pub(crate) fn no_particles() -> Self {
         let what = "a droplet that exchanges particles with its inside needs particles on its interface";
         Self::refused(what, "this droplet has none", "Build it with a list of particle numbers")
     }
 
-    /// Mesh of too many nodes.
+    /// Returns the error for mesh of too many nodes.
     pub(crate) fn too_fine(nodes: f64, most: usize) -> Self {
         let value = format!("it would have some {nodes:.1e} nodes, more than {most}");
         Self::refused("the mesh is too fine", value, "Use a larger spacing")

@@ -27,10 +27,11 @@ pub(crate) struct Factor {
 }
 
 impl Factor {
-    /// Place for a factor on edges between nodes at positions (length), of which the first `held` are left out.
+    /// Returns the place for a factor on edges between nodes at positions (length), of which the first `held` are left
+    /// out.
     ///
     /// # Errors
-    /// More entries than fit in memory.
+    /// Returns an error for more entries than fit in memory.
     pub(crate) fn new(edges: &[[usize; 2]], nodes: &[Vec2], held: usize) -> Result<Self, InteriorError> {
         let count = nodes.len() - held;
         let mut order: Vec<usize> = (0..count).collect();

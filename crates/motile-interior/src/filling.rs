@@ -27,19 +27,19 @@ pub(crate) struct Filling {
 /// `InteriorBody` and `Body` by which the inner nodes are markers that move with the host.
 macro_rules! in_droplet {
     (mesh) => {
-        /// Positions of the nodes (length), the droplet's markers first.
+        /// Returns the positions of the nodes (length), the droplet's markers first.
         #[must_use]
         pub fn nodes(&self) -> &[Vec2] {
             &self.filling.nodes
         }
 
-        /// Triangles by the numbers of their nodes, counter-clockwise.
+        /// Returns the triangles by the numbers of their nodes, counter-clockwise.
         #[must_use]
         pub fn triangles(&self) -> &[[usize; 3]] {
             self.filling.mesh.triangles()
         }
 
-        /// Handle of the droplet that is filled.
+        /// Returns the handle of the droplet that is filled.
         #[must_use]
         pub fn droplet(&self) -> Handle<ActiveDroplet> {
             self.filling.host
@@ -79,8 +79,8 @@ macro_rules! in_droplet {
 pub(crate) use in_droplet;
 
 impl Filling {
-    /// Mesh of a spacing (length), which grows by a factor from ring to ring, in `droplet`, which is or will be the
-    /// body `host` of the scene.
+    /// Creates a mesh of a spacing (length), which grows by a factor from ring to ring, in `droplet`, which is or will
+    /// be the body `host` of the scene.
     pub(crate) fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
@@ -98,12 +98,12 @@ impl Filling {
         Ok(filling)
     }
 
-    /// Positions of the droplet's markers (length).
+    /// Returns the positions of the droplet's markers (length).
     pub(crate) fn markers(&self) -> &[Vec2] {
         &self.nodes[..self.mesh.marker_count()]
     }
 
-    /// Numbers of the inner nodes, which are the markers of the body.
+    /// Returns the numbers of the inner nodes, which are the markers of the body.
     pub(crate) fn inner(&self) -> std::ops::RangeFrom<usize> {
         self.mesh.marker_count()..
     }
@@ -146,7 +146,7 @@ impl Filling {
         if self.fits { Ok(()) } else { Err(InteriorError::changing_markers().into()) }
     }
 
-    /// Number of inner nodes.
+    /// Returns the number of inner nodes.
     pub(crate) fn inner_count(&self) -> usize {
         self.mesh.node_count() - self.mesh.marker_count()
     }

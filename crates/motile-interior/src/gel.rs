@@ -67,8 +67,8 @@ use crate::{
 };
 
 /// Largest relative error of the activity at which an aster or a vortex loses its stability, on a mesh and a grid of
-/// that spacing over the radius, and its order in the spacing: the worst of two modes each at alignments down to -0.6
-/// (`tests/rates.rs`). Growth rates err by up to twice as much.
+/// that spacing over the radius, and its order in the spacing. It is the worst of two modes each at alignments down to
+/// -0.6 (`tests/rates.rs`). Growth rates are off by up to twice as much.
 const CORE_ERROR: f64 = 0.04;
 const CORE_SPACING: f64 = 0.05;
 const CORE_ORDER: f64 = 0.85;
@@ -90,12 +90,15 @@ pub struct GelInDroplet {
 }
 
 impl GelInDroplet {
-    /// Gel in `droplet`, which is or will be the body `host` of the scene, on a mesh of a spacing (length).
+    /// Creates a gel in `droplet`, which is or will be the body `host` of the scene, on a mesh of a spacing (length).
     ///
     /// # Errors
-    /// A material that [`GelMaterial::checked`] refuses; a spacing that is not positive; a mesh of too many nodes;
-    /// angles of the start that are not finite; a droplet with a number of markers that changes, or so bent that the
-    /// mesh folds.
+    /// Returns an error for:
+    /// * a material that [`GelMaterial::checked`] refuses,
+    /// * a spacing that is not positive,
+    /// * a mesh of too many nodes,
+    /// * angles of the start that are not finite,
+    /// * a droplet with a number of markers that changes, or so bent that the mesh folds.
     pub fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
@@ -119,13 +122,13 @@ impl GelInDroplet {
 
     in_droplet!(mesh);
 
-    /// Director at the nodes, of length 1 (no dimension).
+    /// Returns the director at the nodes, of length 1 (no dimension).
     #[must_use]
     pub fn directors(&self) -> &[Vec2] {
         &self.director.directors
     }
 
-    /// Topological defects of the director.
+    /// Returns the topological defects of the director.
     #[must_use]
     pub fn defects(&self) -> Vec<Defect> {
         self.director.defects(&self.filling.nodes)
@@ -178,7 +181,7 @@ impl Body for GelInDroplet {
         let error = CORE_ERROR * (spacing / CORE_SPACING).powf(CORE_ORDER);
         let message = format!(
             "the activity at which the director around a defect becomes unstable is off by up to {:.1} %, and growth \
-             rates by twice as much: use a finer mesh and a finer grid, both with a spacing of {:.3} radii for 1 %",
+             rates by twice as much. Use a finer mesh and a finer grid, both with a spacing of {:.3} radii for 1 %",
             100.0 * error,
             CORE_SPACING * (0.01 / CORE_ERROR).powf(1.0 / CORE_ORDER)
         );

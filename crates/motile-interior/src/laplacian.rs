@@ -9,11 +9,11 @@ use crate::{InteriorError, factor::Factor};
 /// Iterations before the conjugate gradients end; they take the root of the condition number, below a hundred.
 const MOST_ITERATIONS: usize = 3000;
 
-/// Sides of a triangle, from the first corner to the second and so on: number of the edge, and 1 where the side runs
-/// from its lower node to its higher, else -1.
+/// Sides of a triangle, from the first corner to the second and so on: number of the edge, and 1 if the side runs from
+/// its lower node to its higher, else -1.
 pub(crate) type Sides = [(usize, f64); 3];
 
-/// Edges of a triangulation as pairs of nodes, the lower first, and the sides of each triangle.
+/// Returns the edges of a triangulation as pairs of nodes, the lower first, and the sides of each triangle.
 pub(crate) fn edges(triangles: &[[usize; 3]]) -> (Vec<[usize; 2]>, Vec<Sides>) {
     let (mut edges, mut numbers) = (Vec::new(), HashMap::new());
     let mut side = |from: usize, to: usize| {
@@ -31,7 +31,7 @@ pub(crate) fn edges(triangles: &[[usize; 3]]) -> (Vec<[usize; 2]>, Vec<Sides>) {
 /// Laplace operator for values at the nodes of a triangulation: `(lap c)_i = -(K c)_i/M_i`, `(K c)_i = SUM_j w_ij (c_i
 /// - c_j)` over the edges at a node.
 ///
-/// Values at the first nodes may be held at zero; lists of values are then those of the others.
+/// Values at the first nodes may be held at zero; lists of values then hold the others.
 #[derive(Debug, Clone)]
 pub(crate) struct Laplacian {
     edges: Vec<[usize; 2]>,
@@ -93,7 +93,7 @@ impl Preconditioner {
 }
 
 impl Laplacian {
-    /// Operator with weights and masses of zero.
+    /// Returns the operator with weights and masses of zero.
     pub(crate) fn new(edges: Vec<[usize; 2]>, nodes: usize, held: usize, tolerance: f64) -> Self {
         let [diagonal, residual, scaled, direction, image] = [(); 5].map(|()| vec![0.0; nodes - held]);
         let (weights, masses) = (vec![0.0; edges.len()], vec![0.0; nodes]);
@@ -101,8 +101,8 @@ impl Laplacian {
         Self { edges, weights, masses, held, tolerance, preconditioner, residual, scaled, direction, image }
     }
 
-    /// The operator with weights and masses for nodes at positions (length), solved with the help of a factor for
-    /// them: for a mesh without periods that stays near these positions.
+    /// Returns the operator with weights and masses for nodes at positions (length), solved with the help of a factor
+    /// for them: for a mesh without periods that stays near these positions.
     pub(crate) fn with_factor(
         mut self,
         nodes: &[Vec2],

@@ -13,11 +13,11 @@
 //! sigma   = 2 eta u - zeta_b (p p - 1/2) + nu1/2 (p h + h p) + 1/2 (p h - h p) - K grad p . grad p
 //! ```
 //!
-//! u is the rate of strain, nu1 < 0 for rods, zeta_b < 0 for a contractile gel; the last terms are the antisymmetric
-//! and the Ericksen stress.
+//! Here u is the rate of strain, nu1 < 0 for rods, and zeta_b < 0 for a contractile gel. The last terms are the
+//! antisymmetric and the Ericksen stress.
 //!
-//! A gel is a body of its own beside the droplet that it fills. Below, a contractile gel fills a droplet of constant
-//! tension, with a director that is free at the interface and starts nearly uniform:
+//! A gel is a separate body, in addition to the droplet that it fills. In this example, a contractile gel fills a
+//! droplet of constant tension, with a director that is free at the interface and starts nearly uniform:
 //!
 //! ```
 //! use active_interface::{ActiveDroplet, Curve};
@@ -40,7 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Equations of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the environment on cell
+//! Equations of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the environment on cell
 //! migration", PhD thesis, University of Sheffield.
 
 mod error;

@@ -9,7 +9,7 @@ use motile_base::{PeriodicSeries, Vec2, internal::at_least, positive, within};
 use crate::InteriorError;
 use ring::{Ring, RingValues};
 
-/// Growth of the spacing from one ring to the next inner one, up to the spacing asked for, where none is given.
+/// Growth of the spacing from one ring to the next inner one, up to the spacing asked for, if none is given.
 pub(crate) const GROWTH: f64 = 1.25;
 /// Distance of rings over the spacing of their nodes: the height sqrt(3)/2 of equilateral triangles.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
@@ -19,11 +19,11 @@ const MOST_NODES: usize = 1 << 17;
 /// Triangulation of the inside of a closed curve of M markers: the first M nodes are the markers, the others lie on
 /// rings within.
 ///
-/// Inner nodes lie where the harmonic map takes them that has the markers' positions on the boundary of the unit disc:
-/// a node at radius r and angle a of the disc lies at `SUM_k r^|k| x_k exp(i k a)`, x_k the Fourier coefficients of the
-/// markers, |k| < M/2. So the mesh has no state of its own, moves as smoothly as
-/// the interface, follows any translation and stretching exactly, and cannot fold inside a convex curve (Rado, Kneser,
-/// Choquet), nor inside another one as long as its modes are small.
+/// Inner nodes lie where the harmonic map takes them that has the markers' positions on the boundary of the unit disc.
+/// A node at radius r and angle a of the disc lies at `SUM_k r^|k| x_k exp(i k a)`, x_k the Fourier coefficients of the
+/// markers, |k| < M/2. The mesh therefore has no separate state, moves as smoothly as the interface, follows any
+/// translation and stretching exactly, and cannot fold inside a convex curve (Rado, Kneser, Choquet), nor inside
+/// another one as long as its modes are small.
 ///
 /// ```
 /// use motile_interior::DiscMesh;
@@ -47,24 +47,24 @@ pub struct DiscMesh {
 }
 
 impl DiscMesh {
-    /// Largest spacing over the radius: that of a mesh of two or three rings.
+    /// Largest spacing over the radius: the spacing of a mesh of two or three rings.
     pub const COARSEST: f64 = 0.5;
 
-    /// Mesh for a curve of a number of markers, with a spacing that changes inwards from that of the markers to
-    /// `spacing`, larger or smaller, in units of the radius of a circle of the curve's length, by a quarter from ring
-    /// to ring.
+    /// Creates a mesh for a curve of a number of markers, with a spacing that changes inwards from the spacing of the
+    /// markers to `spacing`, larger or smaller, in units of the radius of a circle of the curve's length, by a quarter
+    /// from ring to ring.
     ///
     /// # Errors
-    /// Fewer than 8 markers, a spacing that is not positive or above 0.5, more than 131072 nodes.
+    /// Returns an error for fewer than 8 markers, a spacing that is not positive or above 0.5, more than 131072 nodes.
     pub fn new(markers: usize, spacing: f64) -> Result<Self, InteriorError> {
         Self::graded(markers, spacing, GROWTH)
     }
 
-    /// Mesh as of [`new`](Self::new) whose spacing changes by a factor from ring to ring: with 2 there are half as many
-    /// nodes where the markers are much closer than `spacing`, and triangles of sharper angles.
+    /// Creates a mesh as of [`new`](Self::new) whose spacing changes by a factor from ring to ring. With 2 there are
+    /// half as many nodes where the markers are much closer than `spacing`, and triangles of sharper angles.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new); a growth below 1 or above 2.
+    /// Returns the errors of [`new`](Self::new); a growth below 1 or above 2.
     pub fn graded(markers: usize, spacing: f64, growth: f64) -> Result<Self, InteriorError> {
         at_least("markers", markers, 8)?;
         positive("the spacing of the mesh inside", spacing)?;
@@ -94,26 +94,26 @@ impl DiscMesh {
         Ok(Self { markers, nodes: outer.start + outer.count, triangles, rings, series: PeriodicSeries::new(markers)? })
     }
 
-    /// Number M of markers, which are the first nodes.
+    /// Returns the number M of markers, which are the first nodes.
     #[must_use]
     pub fn marker_count(&self) -> usize {
         self.markers
     }
 
-    /// Number of nodes, markers among them.
+    /// Returns the number of nodes, markers among them.
     #[must_use]
     pub fn node_count(&self) -> usize {
         self.nodes
     }
 
-    /// Triangles by the numbers of their nodes, counter-clockwise.
+    /// Returns the triangles by the numbers of their nodes, counter-clockwise.
     #[must_use]
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 
-    /// Positions (length) or velocities (length per time) of inner nodes from those of the markers: fills the entries
-    /// after the first M of a list for all nodes. Lists of another length are left as they are.
+    /// Positions (length) or velocities (length per time) of inner nodes from the same of the markers: fills the
+    /// entries after the first M of a list for all nodes. Lists of another length are left as they are.
     pub fn place(&mut self, nodes: &mut [Vec2]) {
         let Some((markers, mut inner)) = nodes.split_at_mut_checked(self.markers) else { return };
         if self.markers + inner.len() != self.nodes || self.series.analyse_vectors(markers).is_err() {
@@ -127,8 +127,8 @@ impl DiscMesh {
     }
 }
 
-/// Radii and spacings of the rings within the unit circle, whose spacing is `first`, towards another spacing; the
-/// innermost ring is a triangle.
+/// Returns the radii and spacings of the rings within the unit circle, whose spacing is `first`, towards another
+/// spacing; the innermost ring is a triangle.
 fn sizes(first: f64, last: f64, growth: f64) -> Vec<(f64, f64)> {
     let (mut spacing, mut depth) = (first, 0.0);
     let mut sizes = Vec::new();

@@ -31,9 +31,9 @@ const PECLET_LIMIT: f64 = 2.0;
 /// Residual of the implicit diffusion, relative to the right-hand side: far below the error of a step. No particle is
 /// lost by it.
 const TOLERANCE: f64 = 1e-10;
-/// Growth of the mesh's spacing from ring to ring: fields inside vary no faster beside the interface than elsewhere.
-/// With 288 markers and a spacing of 0.11 radii speeds and numbers differ by 1e-5 from those with a growth of a
-/// quarter, in two thirds of the time.
+/// Growth of the mesh's spacing from ring to ring: fields inside vary no faster near the interface than elsewhere. With
+/// 288 markers and a spacing of 0.11 radii speeds and numbers differ by 1e-5 from those with a growth of a quarter, in
+/// two thirds of the time.
 const GROWTH: f64 = 2.0;
 
 /// Observables of the particles inside a droplet.
@@ -52,7 +52,7 @@ pub struct InteriorObservables {
 
 /// Particles inside a droplet that diffuse, are carried along by the fluid and are exchanged with the interface.
 ///
-/// A body of a scene without forces of its own ([`motile_scene::InteriorBody`] of the droplet), with the density C
+/// A body of a scene that causes no forces ([`motile_scene::InteriorBody`] of the droplet), with the density C
 /// (particles per area), the concentration c on the interface and the rates of binding and unbinding of [`Exchange`]:
 ///
 /// ```text
@@ -87,13 +87,16 @@ pub struct ParticlesInDroplet {
 }
 
 impl ParticlesInDroplet {
-    /// Particles in `droplet`, which is or will be the body `host` of the scene: with a diffusion constant (length
-    /// squared per time), a density as a function of position (particles per area), on a mesh of a spacing (length).
-    /// The number of particles on the droplet must be open to exchange ([`ActiveDroplet::with_open_number`]).
+    /// Returns the particles in `droplet`, which is or will be the body `host` of the scene: with a diffusion constant
+    /// (length squared per time), a density as a function of position (particles per area), on a mesh of a spacing
+    /// (length). The number of particles on the droplet must be open to exchange ([`ActiveDroplet::with_open_number`]).
     ///
     /// # Errors
-    /// Densities that are negative or not finite; a diffusion constant or spacing that is not positive; a mesh of too
-    /// many nodes; a droplet without particles, with a number of markers that changes, or so bent that the mesh folds.
+    /// Returns an error for:
+    /// * densities that are negative or not finite,
+    /// * a diffusion constant or spacing that is not positive,
+    /// * a mesh of too many nodes,
+    /// * a droplet without particles, with a number of markers that changes, or so bent that the mesh folds.
     pub fn new(
         droplet: &ActiveDroplet,
         host: Handle<ActiveDroplet>,
@@ -144,18 +147,18 @@ impl ParticlesInDroplet {
 
     in_droplet!(mesh);
 
-    /// Numbers of particles in the cells around the nodes.
+    /// Returns the numbers of particles in the cells around the nodes.
     #[must_use]
     pub fn numbers(&self) -> &[f64] {
         &self.numbers
     }
 
-    /// Densities at the nodes (particles per area).
+    /// Returns the densities at the nodes (particles per area).
     pub fn densities(&self) -> impl Iterator<Item = f64> {
         self.numbers.iter().zip(&self.cells.areas).map(|(number, area)| number / area)
     }
 
-    /// Observables in the present state; they do not depend on the flow.
+    /// Returns the observables in the present state; they do not depend on the flow.
     #[must_use]
     pub fn seen(&self) -> InteriorObservables {
         let number = self.numbers.iter().sum();
@@ -170,18 +173,18 @@ impl ParticlesInDroplet {
         InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] }
     }
 
-    /// Number of particles on the interface and inside at the start.
+    /// Returns the number of particles on the interface and inside at the start.
     #[must_use]
     pub fn initial_number(&self) -> f64 {
         self.initial_number
     }
 
-    /// Nodes at the ends of a segment.
+    /// Returns the nodes at the ends of a segment.
     fn ends(&self, segment: usize) -> [usize; 2] {
         [segment, (segment + 1) % self.on.len()]
     }
 
-    /// Rate at which particles bind to a segment from the cell of the node at one of its ends (1/time).
+    /// Returns the rate at which particles bind to a segment from the cell of the node at one of its ends (1/time).
     fn binding(&self, segment: usize, end: usize) -> f64 {
         0.5 * self.exchange.binding() * self.lengths[segment] * self.numbers[end] / self.cells.areas[end]
     }
@@ -195,8 +198,8 @@ impl ParticlesInDroplet {
         out.iter_mut().zip(image).for_each(|(out, image)| *out -= factor * self.constant * image);
     }
 
-    /// Largest element Peclet number: speed of the fluid relative to the mesh times the width of a cell over the
-    /// diffusion constant.
+    /// Returns the largest element Peclet number: speed of the fluid relative to the mesh times the width of a cell
+    /// over the diffusion constant.
     fn element_peclet(&self) -> f64 {
         let speeds = self.filling.fluid.iter().zip(&self.filling.motion).map(|(fluid, motion)| fluid.distance(*motion));
         let widest = speeds.zip(&self.cells.areas).map(|(speed, area)| speed * area.sqrt()).fold(0.0, f64::max);
@@ -343,7 +346,7 @@ impl Body for ParticlesInDroplet {
         }
         let [text, limit] = told_apart([peclet, PECLET_LIMIT]);
         let message = format!(
-            "the element Peclet number inside is {text}, above {limit}: upwind fluxes add diffusion, give \
+            "the element Peclet number inside is {text}, above {limit}: upwind fluxes add diffusion. Use \
              a narrower mesh spacing inside"
         );
         let cause = "particles inside not resolved";

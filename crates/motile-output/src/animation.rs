@@ -23,7 +23,7 @@ const LEAST_LEVELS: usize = 8;
 /// Index of the palette for pixels that stay as in the frame before.
 const UNCHANGED: u8 = 255;
 
-/// Observer that takes [`Snapshot`]s of a run and writes them as an animation in the end.
+/// Observer that takes [`Snapshot`]s of a run and writes them as an animation when the run ends.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -47,15 +47,15 @@ pub struct Animation {
 }
 
 impl Animation {
-    /// Film of the rectangle of `raster`, with fields on its cells or, where there are more than 120 in a direction, on
-    /// larger ones.
+    /// Creates a film of the rectangle of `raster`, with fields on its cells or, if there are more than 120 in a
+    /// direction, on larger ones.
     #[must_use]
     pub fn new(look: Look, raster: Raster) -> Self {
         Self { look, raster: raster.coarsened(FRAME_CELLS), format: Format::FRAME, frames: Vec::new() }
     }
 
-    /// Frames `pixels` wide (100 to 2000) in place of 440; narrower ones have fewer colours of the pressure, and a file
-    /// grows with their area.
+    /// Uses frames `pixels` wide (100 to 2000) in place of 440; narrower ones have fewer colours of the pressure, and a
+    /// file grows with their area.
     #[must_use]
     pub fn of_width(self, pixels: f64) -> Self {
         let (usual, factor) = (Format::FRAME, pixels / Format::FRAME.width);
@@ -64,18 +64,18 @@ impl Animation {
         Self { format: Format { width: pixels, em, levels: levels.max(LEAST_LEVELS), ..usual }, ..self }
     }
 
-    /// Time of the first frame, later than the scene's start in a run that was resumed: frames are kept with the film
-    /// alone.
+    /// Returns the time of the first frame, later than the scene's start in a run that was resumed: frames are kept
+    /// with the film alone.
     #[must_use]
     pub fn begins(&self) -> Option<f64> {
         self.frames.first().map(|seen| seen.time)
     }
 
-    /// Writes the animation as a GIF that repeats for ever; between walls each frame shows the tracks up to its time.
+    /// Writes the animation as a GIF that repeats forever; between walls each frame shows the tracks up to its time.
     ///
     /// # Errors
-    /// [`OutputError::Empty`] without frames; [`OutputError::Size`]: a width outside of 100 to 2000 pixels;
-    /// [`OutputError::Write`]; those of drawing the frames.
+    /// Returns [`OutputError::Empty`] if there are no frames; [`OutputError::Size`] for a width outside of 100 to 2000
+    /// pixels; [`OutputError::Write`]; the errors of drawing the frames.
     pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         OutputError::check_size("an animation with a width (pixels)", self.format.width, 100.0, 2000.0)?;
         let legends = self.look.legends(&self.frames);
@@ -107,7 +107,7 @@ impl Frames {
         self.size = [image.width(), image.height()].map(|side| side as usize);
     }
 
-    /// Writes a GIF that repeats for ever.
+    /// Writes a GIF that repeats forever.
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         OutputError::check_format(path, &["gif"])?;
         if self.frames.is_empty() {
@@ -135,7 +135,7 @@ fn encode(path: &Path, size: [usize; 2], frames: &[Vec<u16>], histogram: &Histog
     Ok(())
 }
 
-/// Smallest rectangle in which the frame differs from the one before, with equal pixels transparent.
+/// Returns the smallest rectangle in which the frame differs from the one before, with equal pixels transparent.
 fn changes(before: &[u8], now: &[u8], width: usize) -> gif::Frame<'static> {
     let first = before.is_empty();
     let changed = |k: usize| first || before[k] != now[k];

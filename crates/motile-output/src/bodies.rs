@@ -1,4 +1,4 @@
-//! Table of all bodies that are neither droplets nor interfaces, and table of the flow, as CSV files.
+//! Tables of all bodies that are neither droplets nor interfaces, and of the flow, as CSV files.
 
 use std::error::Error;
 use std::path::Path;
@@ -12,8 +12,8 @@ use crate::{CsvTable, OutputError};
 /// Values of a row by the names of their columns.
 type Row = Vec<(&'static str, f64)>;
 
-/// Observer that measures all rigid bodies, shells, elastic solids and gels, and writes them to one CSV file,
-/// at each call a row for each of them.
+/// Observer that measures all rigid bodies, shells, elastic solids and gels, and writes them to one CSV file: at each
+/// call, one row for each of them.
 ///
 /// The columns are `time`, `body` (the [`Handle::index`] of the body in its scene) and what the bodies of the scene
 /// have, with empty fields for a body that lacks it:
@@ -51,8 +51,8 @@ pub struct BodiesCsv {
 }
 
 impl BodiesCsv {
-    /// Observer of all bodies that writes to `path`. In a resumed run, past time 0, the table begins with the rows that
-    /// the checkpoint holds.
+    /// Creates an observer of all bodies that writes to `path`. In a resumed run, past time 0, the table begins with
+    /// the rows that the checkpoint holds.
     ///
     /// # Errors
     /// Returns [`OutputError::Empty`] if the scene has no such body, [`OutputError::Scene`] if a body cannot be
@@ -68,7 +68,7 @@ impl BodiesCsv {
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of all bodies")? })
     }
 
-    /// True if a scene has bodies for this table.
+    /// Returns true if a scene has bodies for this table.
     #[must_use]
     pub fn has_bodies<H: Hydrodynamics>(system: &System<H>) -> bool {
         system.bodies::<RigidBody>().next().is_some()
@@ -78,7 +78,7 @@ impl BodiesCsv {
             || system.bodies::<GelInDroplet>().next().is_some()
     }
 
-    /// Names and values of the row of each body in the present state, the time and the body's number first.
+    /// Returns the names and values of the row of each body in the present state, the time and the body's number first.
     ///
     /// # Errors
     /// Returns [`OutputError::Scene`] if a body cannot be measured.
@@ -86,7 +86,7 @@ impl BodiesCsv {
         rows(system)
     }
 
-    /// Table of all rows, in a resumed run also of those before.
+    /// Returns the table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
@@ -106,7 +106,7 @@ fn all<B: motile::scene::Body, H: Hydrodynamics>(system: &System<H>) -> Vec<Hand
     system.bodies().map(|(handle, _)| handle).collect()
 }
 
-/// Columns and values of each body.
+/// Returns the columns and values of each body.
 fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputError> {
     let time = system.time();
     let row = |index: usize, values: &[(&'static str, f64)]| -> Row {
@@ -203,8 +203,8 @@ pub struct FlowCsv {
 }
 
 impl FlowCsv {
-    /// Observer of the flow that writes to `path`. In a resumed run, past time 0, the table begins with the rows that
-    /// the checkpoint holds.
+    /// Creates an observer of the flow that writes to `path`. In a resumed run, past time 0, the table begins with the
+    /// rows that the checkpoint holds.
     ///
     /// # Errors
     /// Returns [`OutputError::Scene`] if the flow cannot be computed, and [`OutputError::Write`] if the file cannot be
@@ -214,7 +214,7 @@ impl FlowCsv {
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of the flow")? })
     }
 
-    /// Table of all rows, in a resumed run also of those before.
+    /// Returns the table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
@@ -228,7 +228,7 @@ impl<H: Hydrodynamics> Observer<H> for FlowCsv {
     }
 }
 
-/// Columns and values of the flow.
+/// Returns the columns and values of the flow.
 fn flow_row<H: Hydrodynamics>(system: &mut System<H>) -> Result<Row, OutputError> {
     system.evaluate()?;
     let [along, up] = system.report().mean_pressure_gradient;

@@ -14,7 +14,7 @@ impl Rgb {
     /// Grid lines of plots.
     pub(crate) const PALE: Self = Self([226, 229, 234]);
 
-    /// Linear mixture: `self` at `t = 0`, `other` at `t = 1`.
+    /// Returns the linear mixture: `self` at `t = 0`, `other` at `t = 1`.
     pub(crate) fn mix(self, other: Self, t: f64) -> Self {
         let channel = |k: usize| {
             let (a, b) = (f64::from(self.0[k]), f64::from(other.0[k]));
@@ -23,7 +23,7 @@ impl Rgb {
         Self([channel(0), channel(1), channel(2)])
     }
 
-    /// Colour as SVG writes it, for instance `#22262e`.
+    /// Returns the colour as SVG writes it, for instance `#22262e`.
     pub(crate) fn hex(self) -> String {
         let [r, g, b] = self.0;
         format!("#{r:02x}{g:02x}{b:02x}")
@@ -72,13 +72,13 @@ pub(crate) struct ColourScale {
 const BLUE: [f64; 3] = [37.0, 8.0, -44.0];
 const RED: [f64; 3] = [37.0, 38.0, 23.55];
 
-/// Blue, white, red: straight lines in CIELAB, so that equal steps look equal.
+/// Returns the blue, white, red: straight lines in CIELAB, so that equal steps look equal.
 fn blue_red(t: f64) -> Rgb {
     let (end, part) = if t < 0.5 { (BLUE, 1.0 - 2.0 * t) } else { (RED, 2.0 * t - 1.0) };
     lab([97.0 + part * (end[0] - 97.0), part * end[1], part * end[2]])
 }
 
-/// Colour of CIELAB coordinates (CIE 1976, white D65) in sRGB (IEC 61966-2-1).
+/// Returns the colour of CIELAB coordinates (CIE 1976, white D65) in sRGB (IEC 61966-2-1).
 fn lab([lightness, a, b]: [f64; 3]) -> Rgb {
     let middle = (lightness + 16.0) / 116.0;
     let linear = |f: f64| if f > 6.0 / 29.0 { f.powi(3) } else { 108.0 / 841.0 * (f - 4.0 / 29.0) };
@@ -92,19 +92,19 @@ fn lab([lightness, a, b]: [f64; 3]) -> Rgb {
     Rgb(rows.map(channel))
 }
 
-/// Black, purple, pink, pale yellow.
+/// Returns the black, purple, pink, pale yellow.
 fn magma(t: f64) -> Rgb {
     Rgb(colorous::MAGMA.eval_continuous(t).as_array())
 }
 
-/// Violet, green, yellow.
+/// Returns the violet, green, yellow.
 fn viridis(t: f64) -> Rgb {
     Rgb(colorous::VIRIDIS.eval_continuous(t).as_array())
 }
 
 impl ColourScale {
-    /// Scale over a range, or over all values but the smallest and largest half percent, so that a few outliers, such
-    /// as pressures next to an interface, do not hide the differences among the others.
+    /// Returns the scale over a range, or over all values but the smallest and largest half percent, so that a few
+    /// outliers, such as pressures next to an interface, do not hide the differences among the others.
     pub(crate) fn of_most(values: impl Iterator<Item = f64>, range: Option<[f64; 2]>, label: &'static str) -> Self {
         let mut sorted: Vec<f64> = values.filter(|v| v.is_finite()).collect();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -120,7 +120,7 @@ impl ColourScale {
         Self { map: viridis, label, low, high, ends: [low, high], exceeded }
     }
 
-    /// Scale in the colours of a map of the pressure.
+    /// Returns the scale in the colours of a map of the pressure.
     pub(crate) fn coloured(self, colours: PressureColours) -> Self {
         let largest = self.low.abs().max(self.high.abs());
         match colours {
@@ -129,18 +129,18 @@ impl ColourScale {
         }
     }
 
-    /// Scale from zero (black) to the largest of the values (pale yellow); `None` if none is above zero.
+    /// Creates a scale from zero (black) to the largest of the values (pale yellow); `None` if none is above zero.
     pub(crate) fn from_zero(values: impl Iterator<Item = f64>, label: &'static str) -> Option<Self> {
         let high = values.filter(|v| v.is_finite()).fold(0.0, f64::max);
         (high > 0.0).then_some(Self { map: magma, label, low: 0.0, high, ends: [0.0, high], exceeded: [false; 2] })
     }
 
-    /// Scale in colours from violet over green to yellow.
+    /// Returns the scale in colours from violet over green to yellow.
     pub(crate) fn green(self) -> Self {
         Self { map: viridis, ..self }
     }
 
-    /// Colour of a value; grey for not a number.
+    /// Returns the colour of a value; grey for not a number.
     pub(crate) fn colour(&self, value: f64) -> Rgb {
         let t = (value.clamp(self.low, self.high) - self.ends[0]) / (self.ends[1] - self.ends[0]);
         if t.is_nan() { Rgb::GREY } else { (self.map)(t.clamp(0.0, 1.0)) }

@@ -12,15 +12,15 @@ use crate::{CsvTable, OutputError};
 /// Column of the number of the droplet.
 const DROPLET: &str = "droplet";
 
-/// Observer that measures all droplets and writes their observables to one CSV file, at each call a row for each of
+/// Observer that measures all droplets and writes their observables to one CSV file: at each call, one row for each of
 /// them.
 ///
 /// The columns are `time`, `droplet` (the [`Handle::index`] of the droplet in its scene) and the observables of
-/// [`crate::TrajectoryCsv`] without those of solids and of particles inside: all that some droplet has, with empty
-/// fields for a droplet that lacks them. Centroids `x` and `y` (length) are not wrapped: a droplet that leaves a
-/// periodic region on one side goes on beyond it, and does not return on the other. Droplets that are added or removed
-/// during the run have rows for as long as they are there; one that is added may not have observables that no droplet
-/// had at the start.
+/// [`crate::TrajectoryCsv`] without the observables of solids and of particles inside: all that some droplet has, with
+/// empty fields for a droplet that lacks them. Centroids `x` and `y` (length) are not wrapped: a droplet that leaves a
+/// periodic region on one side continues beyond it, and does not return on the other. Droplets that are added or
+/// removed during the run have rows for as long as they are there; one that is added may not have observables that no
+/// droplet had at the start.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -43,12 +43,12 @@ pub struct DropletsCsv {
 }
 
 impl DropletsCsv {
-    /// Observer of all droplets that writes to `path`. In a resumed run, past time 0, the table begins with the rows
-    /// that the checkpoint holds.
+    /// Creates an observer of all droplets that writes to `path`. In a resumed run, past time 0, the table begins with
+    /// the rows that the checkpoint holds.
     ///
     /// # Errors
-    /// [`OutputError::Empty`]: a scene without droplets; [`OutputError::Write`]; [`OutputError::Observer`]: a state
-    /// that cannot be measured.
+    /// Returns [`OutputError::Empty`] for a scene without droplets; [`OutputError::Write`]; [`OutputError::Observer`]
+    /// for a state that cannot be measured.
     pub fn create<H: Hydrodynamics>(path: impl AsRef<Path>, system: &mut System<H>) -> Result<Self, OutputError> {
         let mut names = Vec::new();
         for droplet in all(system) {
@@ -61,7 +61,7 @@ impl DropletsCsv {
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of all droplets")? })
     }
 
-    /// Table of all rows, in a resumed run also of those before.
+    /// Returns the table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
@@ -82,7 +82,7 @@ impl<H: Hydrodynamics> Observer<H> for DropletsCsv {
     }
 }
 
-/// All droplets.
+/// Returns all droplets.
 fn all<H: Hydrodynamics>(system: &System<H>) -> Vec<Handle<ActiveDroplet>> {
     system.bodies().map(|(handle, _)| handle).collect()
 }

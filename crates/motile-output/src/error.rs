@@ -22,8 +22,8 @@ pub enum OutputError {
         /// Error of the system.
         source: io::Error,
     },
-    /// Picture whose name does not end in that of a format that can be written.
-    #[error("{} cannot be written: give a name that ends in .{}", path.display(), formats.join(" or ."))]
+    /// Picture whose name does not end like a format that can be written.
+    #[error("{} cannot be written. Use a name that ends in .{}", path.display(), formats.join(" or ."))]
     Format {
         /// Path of the file.
         path: PathBuf,
@@ -31,7 +31,7 @@ pub enum OutputError {
         formats: &'static [&'static str],
     },
     /// Image, panel or number of cells that is too small or too large.
-    #[error("{what} of {given} cannot be drawn: give {least:?} to {most:?}")]
+    #[error("{what} of {given} cannot be drawn. Use a number from {least:?} to {most:?}")]
     Size {
         /// Object that is to have the size.
         what: &'static str,
@@ -44,7 +44,7 @@ pub enum OutputError {
     },
     /// Rectangle that is empty, not finite, or much longer than wide.
     #[error(
-        "the rectangle of size {size:?} at {corner:?} cannot be drawn: give finite sizes above 0, of ratio below 20"
+        "the rectangle of size {size:?} at {corner:?} cannot be drawn. Use finite sizes above 0, of ratio below 20"
     )]
     Rectangle {
         /// Lower left corner (length).
@@ -53,18 +53,18 @@ pub enum OutputError {
         size: [f64; 2],
     },
     /// Range of colours that is empty or not finite.
-    #[error("colours cannot range from {low} to {high}: give finite ends, the lower one first")]
+    #[error("colours cannot range from {low} to {high}. Use two finite numbers, the lower one first")]
     Range {
         /// Lower end.
         low: f64,
         /// Upper end.
         high: f64,
     },
-    /// Unbounded domain, which has no rectangle of its own to draw.
-    #[error("an unbounded domain cannot be drawn: give a raster of the part that is to be seen")]
+    /// Unbounded domain, which has no rectangle to draw by default.
+    #[error("an unbounded region cannot be drawn as a whole. Choose the rectangle that you want to see")]
     Unbounded,
-    /// Number of values other than that of their points, cells or columns.
-    #[error("{given} {what} where there must be {expected}")]
+    /// Number of values that differs from the number of their points, cells or columns.
+    #[error("{given} {what} were given, but {expected} are needed. Use as many as there are")]
     Count {
         /// Name of the values.
         what: String,
@@ -75,7 +75,7 @@ pub enum OutputError {
     },
     /// Distance of streamlines that is not positive, or so small that lines would fill the picture.
     #[error(
-        "streamlines cannot be {spacing} apart in a rectangle of {size:?}: give a distance of at least a thousandth of \
+        "streamlines cannot be {spacing} apart in a rectangle of {size:?}. Use a distance of at least a thousandth of \
          it"
     )]
     Streamlines {
@@ -85,7 +85,7 @@ pub enum OutputError {
         size: [f64; 2],
     },
     /// Name that a file cannot hold: empty, given twice, or with characters that would need to be escaped.
-    #[error("{name:?} cannot be the name of {what}: give another one, of letters, digits, '_', '-' and spaces")]
+    #[error("{name:?} cannot be the name of {what}. Use letters, digits, '_', '-' and spaces only")]
     Name {
         /// Name that was given.
         name: String,
@@ -93,7 +93,7 @@ pub enum OutputError {
         what: &'static str,
     },
     /// Column that a table does not have.
-    #[error("there is no column {name:?}: give one of {known:?}")]
+    #[error("the table has no column {name:?}. Use one of {known:?}")]
     Column {
         /// Name that was given.
         name: String,
@@ -101,7 +101,7 @@ pub enum OutputError {
         known: Vec<String>,
     },
     /// Figure or animation with nothing in it.
-    #[error("{0} cannot be written: add at least one")]
+    #[error("{0} cannot be written. Add at least one")]
     Empty(&'static str),
     /// Flow that cannot be computed, or droplet that the scene does not have.
     #[error(transparent)]
@@ -123,7 +123,7 @@ pub enum OutputError {
 motile::base::debug_as_explanation!(OutputError);
 
 impl OutputError {
-    /// Conversion of errors of writing to `path` into ones that name the path.
+    /// Returns the conversion of errors of writing to `path` into ones that name the path.
     pub(crate) fn writing<E: Into<io::Error>>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
         |source| Self::Write { path: path.into(), source: source.into() }
     }

@@ -9,8 +9,8 @@ use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError, snapshot::at_markers};
 
-/// Observer that measures all interfaces that are periodic along x and writes their observables to one CSV file, at
-/// each call a row for each of them.
+/// Observer that measures all interfaces that are periodic along x and writes their observables to one CSV file: at
+/// each call, one row for each of them.
 ///
 /// The columns are `time`, `interface` (the [`Handle::index`] of the interface in its scene) and the entries of
 /// [`motile::active_interface::observables::PeriodicObservables`]: height, length, number of particles, flux,
@@ -37,12 +37,12 @@ pub struct InterfacesCsv {
 }
 
 impl InterfacesCsv {
-    /// Observer of all interfaces that writes to `path`. In a resumed run, past time 0, the table begins with the rows
-    /// that the checkpoint holds.
+    /// Creates an observer of all interfaces that writes to `path`. In a resumed run, past time 0, the table begins
+    /// with the rows that the checkpoint holds.
     ///
     /// # Errors
-    /// [`OutputError::Empty`]: a scene without such interfaces; [`OutputError::Write`]; [`OutputError::Observer`]: a
-    /// state that cannot be measured.
+    /// Returns [`OutputError::Empty`] for a scene without such interfaces; [`OutputError::Write`];
+    /// [`OutputError::Observer`] for a state that cannot be measured.
     pub fn create<H: Hydrodynamics>(path: impl AsRef<Path>, system: &mut System<H>) -> Result<Self, OutputError> {
         let rows = rows(system)?;
         let first =
@@ -51,7 +51,7 @@ impl InterfacesCsv {
         Ok(Self { table: CsvTable::of_run(path, &names, system, "table of all interfaces")? })
     }
 
-    /// Table of all rows, in a resumed run also of those before.
+    /// Returns the table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
@@ -66,7 +66,7 @@ impl<H: Hydrodynamics> Observer<H> for InterfacesCsv {
     }
 }
 
-/// Columns and values of each interface.
+/// Returns the columns and values of each interface.
 fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Vec<(&'static str, f64)>>, OutputError> {
     let time = system.time();
     let handles: Vec<Handle<ActiveInterface>> = system.bodies().map(|(handle, _)| handle).collect();
@@ -96,7 +96,7 @@ impl InterfaceLine {
     }
 }
 
-/// Values with the first one again at the end.
+/// Returns the values with the first one again at the end.
 pub(crate) fn closed<T: Copy>(mut values: Vec<T>) -> Vec<T> {
     values.extend(values.first().copied());
     values

@@ -1,6 +1,6 @@
 //! Pictures, plots, animations, CSV and ParaView files of simulations with [`motile`].
 //!
-//! A run of a droplet that leaves a trajectory and a picture:
+//! This run of a droplet leaves a trajectory and a picture:
 //!
 //! ```
 //! use motile::prelude::*;
@@ -33,7 +33,7 @@
 //! | long work | [`Progress`] bar |
 //!
 //! Pictures and plots are drawn once, as vectors, and written as SVG or PNG. They need no fonts of the system and no C
-//! libraries: Noto Sans is bundled (SIL Open Font License). Failures end in an [`OutputError`].
+//! libraries: Noto Sans is bundled (SIL Open Font License). Failures return an [`OutputError`].
 
 mod animation;
 mod bodies;

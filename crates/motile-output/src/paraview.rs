@@ -18,9 +18,9 @@ use motile::base::Vec2;
 const RECORD: &str = "files for ParaView";
 
 /// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
-/// and, where there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`),
-/// gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies and membranes
-/// (`curves.pvd`), and the markers of bodies of your own that are no curves (`points.pvd`).
+/// and, if there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`), gels
+/// (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies and membranes (`curves.pvd`), and
+/// the markers of your own bodies that are not curves (`points.pvd`).
 ///
 /// | file | location | quantity (dimension) |
 /// |---|---|---|
@@ -75,10 +75,11 @@ pub struct ParaView {
 }
 
 impl ParaView {
-    /// Observer whose files are in `directory`, which is created if needed, with the flow in the cells of `raster`.
+    /// Creates an observer whose files are in `directory`, which is created if needed, with the flow in the cells of
+    /// `raster`.
     ///
     /// # Errors
-    /// [`OutputError::Write`]: a directory that cannot be created.
+    /// Returns [`OutputError::Write`] for a directory that cannot be created.
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, OutputError> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
         let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
@@ -109,7 +110,7 @@ impl ParaView {
     }
 }
 
-/// File of all interfaces, each droplet's markers with its own forces and velocities.
+/// Returns the file of all interfaces, each droplet's markers with its own forces and velocities.
 fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<VtkFile, OutputError> {
     let (mut tension, mut velocity, mut force): (Vec<f64>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     for (handle, droplet) in system.bodies::<ActiveDroplet>() {
@@ -137,7 +138,7 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         .cell_scalars("droplet", numbers))
 }
 
-/// File of all rigid bodies and membranes; `None` if there are none.
+/// Returns the file of all rigid bodies and membranes; `None` if there are none.
 fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, OutputError> {
     let (mut lines, mut velocity, mut force): (Vec<Vec<Vec2>>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     for (handle, _) in curves(system) {
@@ -151,7 +152,7 @@ fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, 
     Ok((!lines.is_empty()).then(|| file().cell_scalars("body", numbers)))
 }
 
-/// File of the markers of all bodies of other types; `None` if there are none.
+/// Returns the file of the markers of all bodies of other types; `None` if there are none.
 fn marker_points<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, OutputError> {
     let (mut points, mut velocity, mut force): (Vec<Vec2>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     let mut numbers: Vec<f64> = Vec::new();

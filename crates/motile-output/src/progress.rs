@@ -8,7 +8,7 @@ use motile::active_interface::observables::{InterfaceState, centroid_velocity};
 use motile::base::internal::decimals;
 use motile::scene::{Hydrodynamics, Observer, System, Warnings};
 
-/// Smallest time between two updates of the bar, and between two lines where there is no terminal.
+/// Smallest time between two updates of the bar, and between two lines if there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
 const LINE_INTERVAL: Duration = Duration::from_secs(15);
 /// Divisions of the bar.
@@ -16,8 +16,8 @@ const DIVISIONS: f64 = 12.0;
 /// Control sequence that returns to the start of a terminal's line and clears it (ECMA-48).
 const CLEAR: &str = "\r\x1b[K";
 
-/// Progress bar on the standard error, with a text on the state of the work and the time left. Where standard error is
-/// not a terminal, a line every quarter of a minute; if hidden, nothing.
+/// Progress bar on the standard error, with a text on the state of the work and the time left. If standard error is not
+/// a terminal, a line every quarter of a minute; if hidden, nothing.
 #[derive(Debug)]
 pub struct Progress {
     started: Instant,
@@ -27,7 +27,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Progress bar of work that starts now.
+    /// Creates a progress bar of work that starts now.
     #[must_use]
     pub fn new(hidden: bool) -> Self {
         let (started, terminal) = (Instant::now(), std::io::stderr().is_terminal());
@@ -78,13 +78,13 @@ pub struct RunProgress {
 }
 
 impl RunProgress {
-    /// Progress of a run to time `end`.
+    /// Creates a progress of a run to time `end`.
     #[must_use]
     pub fn new(end: f64, hidden: bool) -> Self {
         Self { end, progress: Progress::new(hidden), warnings: Warnings::default() }
     }
 
-    /// Warnings of the run so far.
+    /// Returns the warnings of the run so far.
     #[must_use]
     pub fn warnings(&self) -> &Warnings {
         &self.warnings
@@ -121,7 +121,8 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
     }
 }
 
-/// Time left, given the seconds that a part of the work took: as minutes and seconds, or hours, minutes and seconds.
+/// Returns the time left, given the seconds that a part of the work took: as minutes and seconds, or hours, minutes and
+/// seconds.
 fn left(seconds: f64, done: f64) -> String {
     if done.is_nan() || done <= 0.0 {
         return "?".into();

@@ -28,12 +28,12 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// Raster of `cells` = `[nx, ny]` cells over the rectangle of a lower left corner and a size (length), periodic in
-    /// the directions marked.
+    /// Creates a raster of `cells` = `[nx, ny]` cells over the rectangle of a lower left corner and a size (length),
+    /// periodic in the directions marked.
     ///
     /// # Errors
-    /// [`OutputError::Size`] with no cells or more than 4096 in a direction, [`OutputError::Rectangle`] with one that
-    /// is empty or not finite.
+    /// Returns [`OutputError::Size`] with no cells or more than 4096 in a direction, [`OutputError::Rectangle`] with
+    /// one that is empty or not finite.
     pub fn new(origin: [f64; 2], size: [f64; 2], cells: [usize; 2], periodic: [bool; 2]) -> Result<Self, OutputError> {
         for count in cells {
             OutputError::check_size("a raster with a side (cells)", count as f64, 1.0, MOST_CELLS as f64)?;
@@ -46,11 +46,11 @@ impl Raster {
         }
     }
 
-    /// Raster over a scene that is bounded by walls or periodic, with cells of width `spacing` (length), or wider so
-    /// that there are at most 512 in a direction.
+    /// Creates a raster over a scene that is bounded by walls or periodic, with cells of width `spacing` (length), or
+    /// wider so that there are at most 512 in a direction.
     ///
     /// # Errors
-    /// [`OutputError::Unbounded`]; [`OutputError::Size`] with a spacing that is not positive.
+    /// Returns [`OutputError::Unbounded`]; [`OutputError::Size`] with a spacing that is not positive.
     pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, OutputError> {
         OutputError::check_size(CELLS_OF_A_WIDTH, spacing, f64::MIN_POSITIVE, f64::INFINITY)?;
         let domain = system.hydrodynamics().fluid_view().domain;
@@ -67,7 +67,7 @@ impl Raster {
         Ok(Self { tilt, ..Self::new(origin, [width, height], cells, periodic)? })
     }
 
-    /// These cells for the present state of a system: a shear displaces images while a run goes on.
+    /// These cells for the present state of a system: a shear displaces images during a run.
     pub(crate) fn in_state_of<H: Hydrodynamics>(self, system: &System<H>) -> Self {
         if self.tilt.is_none() && !self.periodic[1] {
             return self;
@@ -76,12 +76,12 @@ impl Raster {
         Self { tilt, periodic: [self.periodic[0], tilt.is_none()], ..self }
     }
 
-    /// Raster over all bodies of a scene and a margin around them (length), with cells as [`Raster::of`] has: for
-    /// unbounded fluid.
+    /// Creates a raster over all bodies of a scene and a margin around them (length), with cells as [`Raster::of`] has:
+    /// for unbounded fluid.
     ///
     /// # Errors
-    /// [`OutputError::Empty`] for a scene without bodies; [`OutputError::Size`] with a spacing that is not positive;
-    /// [`OutputError::Rectangle`] with a margin that is not finite.
+    /// Returns [`OutputError::Empty`] for a scene without bodies; [`OutputError::Size`] with a spacing that is not
+    /// positive; [`OutputError::Rectangle`] with a margin that is not finite.
     pub fn around<H: Hydrodynamics>(system: &System<H>, margin: f64, spacing: f64) -> Result<Self, OutputError> {
         OutputError::check_size(CELLS_OF_A_WIDTH, spacing, f64::MIN_POSITIVE, f64::INFINITY)?;
         let markers = system.markers().positions();
@@ -93,19 +93,19 @@ impl Raster {
         Self::new((low - Vec2::splat(margin)).to_array(), size, cells, [false; 2])
     }
 
-    /// Raster over the same rectangle with at most `most` cells in a direction.
+    /// Returns the raster over the same rectangle with at most `most` cells in a direction.
     pub(crate) fn coarsened(self, most: usize) -> Self {
         let longest = self.cells[0].max(self.cells[1]);
         Self { cells: self.cells.map(|n| (n * most.min(longest) / longest).max(1)), ..self }
     }
 
-    /// Numbers of cells in x and y.
+    /// Returns the numbers of cells in x and y.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
-    /// Lower left corner (length).
+    /// Returns the lower left corner (length).
     #[must_use]
     pub fn origin(&self) -> [f64; 2] {
         self.origin
@@ -117,13 +117,13 @@ impl Raster {
         self.periodic
     }
 
-    /// Sides along x and y (length).
+    /// Returns the sides along x and y (length).
     #[must_use]
     pub fn size(&self) -> [f64; 2] {
         self.size
     }
 
-    /// Sample points (length), in the order of the samples.
+    /// Returns the sample points (length), in the order of the samples.
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
         let at =
@@ -132,7 +132,7 @@ impl Raster {
         (0..self.cells[1]).flat_map(row).collect()
     }
 
-    /// True where fields are known: within the rectangle, in periodic directions everywhere.
+    /// Returns true if fields are known: within the rectangle, in periodic directions everywhere.
     #[must_use]
     pub fn covers(&self, point: Vec2) -> bool {
         (0..2).all(|k| {
@@ -141,7 +141,7 @@ impl Raster {
         })
     }
 
-    /// Entries of bilinear interpolation along an axis: the two neighbours, and the weight of the second.
+    /// Returns the entries of bilinear interpolation along an axis: the two neighbours, and the weight of the second.
     fn neighbours(&self, coordinate: f64, axis: usize) -> (usize, usize, f64) {
         let n = self.cells[axis];
         let t = (coordinate - self.origin[axis]) / self.size[axis] * n as f64 - 0.5;
@@ -152,7 +152,7 @@ impl Raster {
     }
 }
 
-/// Displacement along x of images above (length), where a shear moves them.
+/// Returns the displacement along x of images above (length), where a shear moves them.
 fn tilt<H: Hydrodynamics>(system: &System<H>) -> Option<f64> {
     let hydrodynamics = system.hydrodynamics();
     let moves = !hydrodynamics.imposed().is_none() || hydrodynamics.strain() != 0.0;
@@ -168,16 +168,17 @@ pub struct Samples<T> {
 }
 
 impl<T: Copy + Mul<f64, Output = T> + Add<Output = T>> Samples<T> {
-    /// Field from samples in the order of [`Raster::points`].
+    /// Creates a field from samples in the order of [`Raster::points`].
     ///
     /// # Errors
-    /// [`OutputError::Count`].
+    /// Returns [`OutputError::Count`] if there is not one value for each point.
     pub fn new(raster: Raster, values: Vec<T>) -> Result<Self, OutputError> {
         OutputError::check_count("samples on a raster", values.len(), raster.cells[0] * raster.cells[1])?;
         Ok(Self { raster, values })
     }
 
-    /// Value at a point (length) by bilinear interpolation; beyond a border that is not periodic, at the nearest point.
+    /// Returns the value at a point (length) by bilinear interpolation; beyond a border that is not periodic, at the
+    /// nearest point.
     #[must_use]
     pub fn at(&self, point: Vec2) -> T {
         let (i0, i1, s) = self.raster.neighbours(point.x, 0);

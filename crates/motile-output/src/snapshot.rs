@@ -87,10 +87,11 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Snapshot of the present state of a system, with the flow on a raster.
+    /// Creates a snapshot of the present state of a system, with the flow on a raster.
     ///
     /// # Errors
-    /// [`OutputError::Scene`]: a flow that cannot be computed; [`OutputError::Interface`]: a droplet without area.
+    /// Returns [`OutputError::Scene`] for a flow that cannot be computed; [`OutputError::Interface`] for a droplet
+    /// without area.
     pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self, OutputError> {
         let points = raster.points();
         let mut flow = vec![FlowSample::default(); points.len()];
@@ -98,11 +99,11 @@ impl Snapshot {
         Ok(Self { flow, ..Self::of_bodies(system, raster)? })
     }
 
-    /// Snapshot of the bodies alone, without the flow and what it costs: no picture can be drawn of it that shows the
-    /// flow.
+    /// Creates a snapshot of the bodies alone, without the flow and what it costs: no picture can be drawn of it that
+    /// shows the flow.
     ///
     /// # Errors
-    /// [`OutputError::Interface`]: a droplet without area.
+    /// Returns [`OutputError::Interface`] for a droplet without area.
     pub fn of_bodies<H: Hydrodynamics>(system: &System<H>, raster: Raster) -> Result<Self, OutputError> {
         let shape = |(_, droplet): (_, &ActiveDroplet)| {
             let markers = droplet.markers().to_vec();
@@ -142,7 +143,7 @@ impl Snapshot {
         self.flow.iter().map(|sample| sample.pressure).collect()
     }
 
-    /// Velocities at the sample points (length per time).
+    /// Returns the velocities at the sample points (length per time).
     #[must_use]
     pub fn velocity(&self) -> Vec<Vec2> {
         self.flow.iter().map(|sample| sample.velocity).collect()

@@ -18,7 +18,7 @@ pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item
     system.bodies().map(|(_, solid)| solid)
 }
 
-/// Present shape of a solid; one period of a periodic wall.
+/// Returns the present shape of a solid; one period of a periodic wall.
 pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     let (mesh, displacements): (_, Vec<Vec2>) = (solid.mesh(), solid.displacements().collect());
     let mut shape = SolidShape::default();
@@ -57,7 +57,7 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     shape
 }
 
-/// Bodies of a system that are curves but no fluid interfaces: rigid bodies, membranes.
+/// Returns the bodies of a system that are curves but no fluid interfaces: rigid bodies, membranes.
 pub(crate) fn curves<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
@@ -65,7 +65,7 @@ pub(crate) fn curves<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item
     })
 }
 
-/// Shapes of these bodies; rigid ones are filled.
+/// Returns the shapes of these bodies; rigid ones are filled.
 pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
     let periods = system.hydrodynamics().fluid_view().domain.periods;
     curves(system).map(move |(_, body)| {
@@ -78,7 +78,7 @@ pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
     })
 }
 
-/// Bodies of a system of types that this crate does not know, whose markers are points in no order.
+/// Returns the bodies of a system of types that this crate does not know, whose markers are points in no order.
 pub(crate) fn others<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
@@ -87,7 +87,7 @@ pub(crate) fn others<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item
     })
 }
 
-/// Shapes of these bodies: filled where they tell their surface, otherwise a dot at each marker.
+/// Returns the shapes of these bodies: filled if they have a surface, otherwise a dot at each marker.
 pub(crate) fn other_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
     let periods = system.hydrodynamics().fluid_view().domain.periods;
     others(system).map(move |(_, body)| {
@@ -101,7 +101,7 @@ pub(crate) fn other_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
     })
 }
 
-/// Shape of rigid walls and obstacles; open ones reach to the straight walls behind them.
+/// Returns the shape of rigid walls and obstacles; open ones reach to the straight walls behind them.
 pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> SolidShape {
     let mut shape = SolidShape::default();
     let mut line: Vec<Vec2> = Vec::new();
@@ -133,13 +133,13 @@ pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> So
     shape
 }
 
-/// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
+/// Returns the deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
 pub(crate) fn stress_deviators(solid: &Solid) -> Vec<f64> {
     let Ok(stresses) = solid.stresses() else { return vec![f64::NAN; solid.mesh().triangles().len()] };
     stresses.iter().map(deviator).collect()
 }
 
-/// Deviator of a symmetric stress.
+/// Returns the deviator of a symmetric stress.
 pub(crate) fn deviator(stress: &Mat2) -> f64 {
     (0.5 * (stress.x_axis.x - stress.y_axis.y)).hypot(stress.x_axis.y)
 }
@@ -177,16 +177,17 @@ impl SolidMeter {
         "smallest_jacobian",
     ];
 
-    /// Meter for a system with solids; `None` for one without.
+    /// Creates a meter for a system with solids; `None` for one without.
     #[must_use]
     pub fn of<H: Hydrodynamics>(system: &System<H>) -> Option<Self> {
         solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY) })
     }
 
-    /// Values of [`SolidMeter::NAMES`] in the present state; not a number for quantities that the system does not have.
+    /// Returns the values of [`SolidMeter::NAMES`] in the present state; not a number for quantities that the system
+    /// does not have.
     ///
     /// # Errors
-    /// [`OutputError::Solid`]: a solid whose energy is not defined, such as one with an inverted triangle.
+    /// Returns [`OutputError::Solid`] for a solid whose energy is not defined, such as one with an inverted triangle.
     pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<[f64; 8], OutputError> {
         let mut pair = solids(system);
         let width = pair.next().zip(pair.next()).and_then(|(lower, upper)| width_between(lower, upper).ok());

@@ -1,7 +1,7 @@
 //! Evenly spaced streamlines.
 //!
 //! After B. Jobard and W. Lefer, "Creating evenly-spaced streamlines of arbitrary density" (1997): each new line starts
-//! at a fixed distance beside an earlier one, and ends where it comes too near another. Where a flow is its own mirror
+//! at a fixed distance from an earlier one, and ends where it comes too near another. If a flow is its own mirror
 //! image, lines are traced on one side of the mirror line and reflected.
 
 mod mirrors;
@@ -28,12 +28,12 @@ const STAGNANT: f64 = 1e-4;
 /// direction of the flow. The first passes through `anchor` and determines the others, so that lines move along with an
 /// anchor that moves with the flow. In periodic directions lines continue beyond the borders, unwrapped.
 ///
-/// Where the flow is its mirror image (to half a percent) in a level or upright line through the anchor or the middle
-/// of the raster, so are the streamlines, and the first one is on that line or beside it.
+/// If the flow is its mirror image (to half a percent) in a level or upright line through the anchor or the middle of
+/// the raster, so are the streamlines, and the first one is on that line or next to it.
 ///
 /// # Errors
-/// [`OutputError::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a
-/// million cells of it.
+/// Returns [`OutputError::Streamlines`] for a spacing that is not positive and finite, or so small that there would be
+/// more than a million cells of it.
 pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>, OutputError> {
     let raster = &field.raster;
     let size = raster.size;
@@ -103,8 +103,8 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// Streamline through a seed, which joins the neighbourhood; `None` if the seed is too near a line or the line too
-    /// short.
+    /// Returns the streamline through a seed, which joins the neighbourhood. It is `None` if the seed is too near a
+    /// line or the line too short.
     fn line(&mut self, seed: Vec2) -> Option<Vec<Vec2>> {
         if !self.field.raster.covers(seed)
             || !self.mirrors.is_ahead(seed)
@@ -131,7 +131,7 @@ impl Tracer<'_> {
         keep.then_some(line)
     }
 
-    /// End of a line that has returned to its seed or to an image of it; `None` for other lines.
+    /// Returns the end of a line that has returned to its seed or to an image of it; `None` for other lines.
     fn closing(&self, ahead: &[Vec2], seed: Vec2) -> Option<Vec2> {
         let [.., before, last] = ahead else { return None };
         let end = self.near.nearest_image(seed, *last);
@@ -141,7 +141,7 @@ impl Tracer<'_> {
         (near && along.dot(gap) > 0.0 && along.perp_dot(gap).abs() < 0.1 * self.spacing).then_some(end)
     }
 
-    /// Line from a seed downstream (`sign` 1) or upstream (-1), without the seed.
+    /// Returns the line from a seed downstream (`sign` 1) or upstream (-1), without the seed.
     fn follow(&mut self, seed: Vec2, sign: f64) -> Vec<Vec2> {
         let apart = (2.0 * STEPS) as i64;
         let mut line = Vec::new();
@@ -165,7 +165,8 @@ impl Tracer<'_> {
         line
     }
 
-    /// Step of a length along the field (classical Runge-Kutta on its direction); `None` where the field is not known.
+    /// Returns the step of a length along the field (classical Runge-Kutta on its direction); `None` if the field is
+    /// not known.
     fn step(&self, p: Vec2, length: f64) -> Option<Vec2> {
         let direction = |p: Vec2| {
             let v = self.field.raster.covers(p).then(|| self.field.at(p))?;
@@ -211,7 +212,7 @@ impl Neighbourhood {
         self.points[j * self.cells[0] + i].push((p, self.kept.len() - 1, number));
     }
 
-    /// Periodic image of `p` that is nearest to `q`.
+    /// Returns the periodic image of `p` that is nearest to `q`.
     fn nearest_image(&self, mut p: Vec2, q: Vec2) -> Vec2 {
         for k in (0..2).filter(|&k| self.raster.periodic[k]) {
             p[k] -= self.raster.size[k] * ((p[k] - q[k]) / self.raster.size[k]).round();
@@ -219,8 +220,8 @@ impl Neighbourhood {
         p
     }
 
-    /// True if a wanted point of a line is nearer to `p` than `distance` (at most a spacing), over periodic images;
-    /// `wanted` is given its number on the present line, or `None` for other lines.
+    /// Returns true if a wanted point of a line is nearer to `p` than `distance` (at most a spacing), over periodic
+    /// images. The closure `wanted` is given its number on the present line, or `None` for other lines.
     fn any(&self, p: Vec2, distance: f64, wanted: impl Fn(Option<i64>) -> bool) -> bool {
         let at = self.cell(p);
         let around = |k: usize| {

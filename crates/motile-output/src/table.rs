@@ -42,11 +42,11 @@ struct Kept {
 }
 
 impl CsvTable {
-    /// Table with a new file, which gets the header.
+    /// Creates a table with a new file, which gets the header.
     ///
     /// # Errors
-    /// [`OutputError::Name`]: an empty name, one given twice, or one with a comma, a quotation mark or the end of a
-    /// line. [`OutputError::Write`].
+    /// Returns [`OutputError::Name`] for an empty name, one given twice, or one with a comma, a quotation mark or the
+    /// end of a line. [`OutputError::Write`].
     pub fn create(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
         for (k, name) in names.iter().enumerate() {
             if name.is_empty() || name.contains([',', '"', '\n', '\r']) || names[..k].contains(name) {
@@ -63,10 +63,11 @@ impl CsvTable {
         Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path, kept: None })
     }
 
-    /// Table as by [`CsvTable::create`], with the rows that the file has if it is a table of the same columns.
+    /// Creates a table as by [`CsvTable::create`], with the rows that the file has if it is a table of the same
+    /// columns.
     ///
     /// # Errors
-    /// As [`CsvTable::create`].
+    /// Returns the errors of [`CsvTable::create`].
     pub fn resume(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let mut lines = text.lines();
@@ -80,12 +81,12 @@ impl CsvTable {
         Ok(table)
     }
 
-    /// Table as by [`CsvTable::create`] for a run of `system`, the first column being the time. The system keeps the
-    /// rows as the record `name`, and so do checkpoints: the table of a resumed run begins with the rows so far, and
-    /// the others follow as if the run had not been interrupted.
+    /// Creates a table as by [`CsvTable::create`] for a run of `system`, the first column being the time. The system
+    /// keeps the rows as the record `name`, and so do checkpoints. The table of a resumed run begins with the rows so
+    /// far, and the others follow as if the run had not been interrupted.
     ///
     /// # Errors
-    /// As [`CsvTable::create`].
+    /// Returns the errors of [`CsvTable::create`].
     pub fn of_run<H: Hydrodynamics>(
         path: impl AsRef<Path>,
         names: &[&str],
@@ -109,7 +110,7 @@ impl CsvTable {
     /// was not due for one.
     ///
     /// # Errors
-    /// As [`CsvTable::push`].
+    /// Returns the errors of [`CsvTable::push`].
     pub fn push_state<H: Hydrodynamics>(&mut self, system: &mut System<H>, row: &[f64]) -> Result<(), OutputError> {
         self.push_rows(system, &[row])
     }
@@ -117,7 +118,7 @@ impl CsvTable {
     /// Adds rows for the present state of the system, as [`CsvTable::push_state`] adds one.
     ///
     /// # Errors
-    /// As [`CsvTable::push`].
+    /// Returns the errors of [`CsvTable::push`].
     pub(crate) fn push_rows<H: Hydrodynamics>(
         &mut self,
         system: &mut System<H>,
@@ -142,7 +143,7 @@ impl CsvTable {
     /// Adds a row, in the order of the columns. Numbers that are not finite become empty fields of the file.
     ///
     /// # Errors
-    /// [`OutputError::Count`], [`OutputError::Write`].
+    /// Returns [`OutputError::Count`], [`OutputError::Write`].
     pub fn push(&mut self, row: &[f64]) -> Result<(), OutputError> {
         OutputError::check_count("values of a row", row.len(), self.names.len())?;
         writeln!(self.file, "{}", Self::line(row)).map_err(OutputError::writing(&self.path))?;
@@ -150,10 +151,10 @@ impl CsvTable {
         Ok(())
     }
 
-    /// A row from values by the names of their columns; not a number in the others.
+    /// Returns a row from values by the names of their columns; not a number in the others.
     ///
     /// # Errors
-    /// [`OutputError::Column`]: a name that is no column.
+    /// Returns [`OutputError::Column`] for a name that is not a column.
     pub(crate) fn row<'a>(&self, values: impl Iterator<Item = (&'a str, f64)>) -> Result<Vec<f64>, OutputError> {
         let mut row = vec![f64::NAN; self.names.len()];
         for (name, value) in values {
@@ -162,29 +163,29 @@ impl CsvTable {
         Ok(row)
     }
 
-    /// Number of a column.
+    /// Returns the number of a column.
     fn index(&self, name: &str) -> Result<usize, OutputError> {
         let missing = || OutputError::Column { name: name.to_string(), known: self.names.clone() };
         self.names.iter().position(|n| n == name).ok_or_else(missing)
     }
 
-    /// Line of a file for a row, without its end. Numbers that are not finite become empty fields.
+    /// Returns the line of a file for a row, without its end. Numbers that are not finite become empty fields.
     #[must_use]
     pub fn line(row: &[f64]) -> String {
         let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
         row.iter().map(field).collect::<Vec<String>>().join(",")
     }
 
-    /// Rows so far.
+    /// Returns the rows so far.
     #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
 
-    /// Points of column `y` over column `x`, for plots.
+    /// Returns the points of column `y` over column `x`, for plots.
     ///
     /// # Errors
-    /// [`OutputError::Column`]: a table without one of the columns.
+    /// Returns [`OutputError::Column`] for a table without one of the columns.
     pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, OutputError> {
         let (x, y) = (self.index(x)?, self.index(y)?);
         Ok(self.rows.iter().map(|row| (row[x], row[y])).collect())
@@ -193,7 +194,7 @@ impl CsvTable {
     /// Writes all rows that are still buffered to the file.
     ///
     /// # Errors
-    /// [`OutputError::Write`].
+    /// Returns [`OutputError::Write`] if the file cannot be written.
     pub fn flush(&mut self) -> Result<(), OutputError> {
         self.file.flush().map_err(OutputError::writing(&self.path))
     }

@@ -5,7 +5,7 @@ use motile::base::internal::decimals;
 /// Most decimals of a time.
 const MOST: usize = 3;
 
-/// A time (time) with one decimal, or with as many as tell it, at most three: 0.37 is not 0.4.
+/// Returns a time (time) with one decimal, or with as many as it needs, at most three: 0.37 is not 0.4.
 pub(crate) fn time_label(time: f64) -> String {
     let tells = |digits: usize| {
         let power = 10.0_f64.powi(digits as i32);

@@ -18,9 +18,10 @@ const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
 
 /// Observer that measures a droplet and writes the observables to a CSV file, a row at each call.
 ///
-/// The columns are those of [`TrajectoryRecord::entries`], without those of walls where there are none. Where particles
-/// diffuse inside the droplet, their number and the flux of exchange follow (`number_inside`, `exchange_flux`, as with
-/// a well-mixed inside), and where there are elastic solids the quantities of [`SolidMeter::NAMES`].
+/// The columns are the entries of [`TrajectoryRecord::entries`], without the columns of walls if there are none. If
+/// particles diffuse inside the droplet, their number and the flux of exchange follow (`number_inside`,
+/// `exchange_flux`, as with a well-mixed inside), and if there are elastic solids the quantities of
+/// [`SolidMeter::NAMES`].
 ///
 /// ```
 /// use motile::prelude::*;
@@ -47,11 +48,11 @@ pub struct TrajectoryCsv {
 }
 
 impl TrajectoryCsv {
-    /// Observer of a droplet that writes to `path`. In a resumed run, past time 0, the table begins with the rows that
-    /// the checkpoint holds, and the others follow as if the run had not been interrupted.
+    /// Creates an observer of a droplet that writes to `path`. In a resumed run, past time 0, the table begins with the
+    /// rows that the checkpoint holds, and the others follow as if the run had not been interrupted.
     ///
     /// # Errors
-    /// [`OutputError::Write`]; [`OutputError::Observer`]: a state that cannot be measured.
+    /// Returns [`OutputError::Write`]; [`OutputError::Observer`] for a state that cannot be measured.
     pub fn create<H: Hydrodynamics>(
         path: impl AsRef<Path>,
         system: &mut System<H>,
@@ -69,19 +70,19 @@ impl TrajectoryCsv {
         Ok(Self { meter, last: None, centre_line, table, inside, solids, last_solids: None })
     }
 
-    /// Last record; `None` before the run.
+    /// Returns the last record; `None` before the run.
     #[must_use]
     pub fn last(&self) -> Option<&TrajectoryRecord> {
         self.last.as_ref()
     }
 
-    /// Table of all rows, in a resumed run also of those before.
+    /// Returns the table of all rows, in a resumed run also of those before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
     }
 
-    /// Times and positions of the centroid.
+    /// Returns the times and positions of the centroid.
     #[must_use]
     pub fn track(&self) -> Track {
         let columns = self.table.curve("time", "x").and_then(|x| Ok((x, self.table.curve("time", "y")?)));
@@ -89,11 +90,11 @@ impl TrajectoryCsv {
         x.into_iter().zip(y).map(|((time, x), (_, y))| (time, Vec2::new(x, y))).collect()
     }
 
-    /// Trajectory across the channel, with heights from the centre line; without walls from the height of the first
-    /// row.
+    /// Returns the trajectory across the channel, with heights from the centre line; without walls from the height of
+    /// the first row.
     ///
     /// # Errors
-    /// None for the rows of a run.
+    /// Returns no error for the rows of a run.
     pub fn trajectory(&self) -> Result<Trajectory, OutputError> {
         let column = |name: &str| -> Result<Vec<f64>, OutputError> {
             Ok(self.table.curve("time", name)?.into_iter().map(|(_, value)| value).collect())
@@ -105,7 +106,7 @@ impl TrajectoryCsv {
         Ok(trajectory.with_lateral_velocities(column("velocity_y")?)?)
     }
 
-    /// Last measurement of the solids ([`SolidMeter::NAMES`]); `None` without solids.
+    /// Returns the last measurement of the solids ([`SolidMeter::NAMES`]); `None` without solids.
     #[must_use]
     pub fn last_solids(&self) -> Option<&[f64; 8]> {
         self.last_solids.as_ref()
@@ -114,7 +115,7 @@ impl TrajectoryCsv {
     /// Completes the file: adds the last state of a run that broke off, if it can be measured, and writes all rows.
     ///
     /// # Errors
-    /// [`OutputError::Write`].
+    /// Returns [`OutputError::Write`] if the file cannot be written.
     pub fn finish<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), OutputError> {
         if self.table.rows().last().map(|row| row[0]) != Some(system.time()) {
             // A state from which a run cannot continue may be one that cannot be measured.
@@ -127,7 +128,7 @@ impl TrajectoryCsv {
 }
 
 impl TrajectoryCsv {
-    /// Row of the present state.
+    /// Returns the row of the present state.
     fn measure<H: Hydrodynamics>(
         &mut self,
         system: &mut System<H>,

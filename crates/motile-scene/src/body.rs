@@ -15,15 +15,15 @@ use serde::{Deserialize, Serialize};
 use crate::{BodyError, BodyFlow, FluidView, Handle, MarkerKind, gap::SurfaceCurve, saved_state::SavedState};
 use motile_base::Vec2;
 
-/// A body with observables beyond its markers, such as the speed of a droplet.
+/// Measures a body beyond its markers, for example the speed of a droplet.
 pub trait Observe: Body {
     /// Observables at one time.
     type Observables;
 
-    /// Observables of the present state, from the flow at the markers in that state.
+    /// Returns the observables of the present state, from the flow at the markers in that state.
     ///
     /// # Errors
-    /// A state in which it cannot be computed.
+    /// Returns an error for a state in which it cannot be computed.
     fn observables(&self, view: &FluidView, flow: &BodyFlow<'_>) -> Result<Self::Observables, BodyError>;
 }
 
@@ -32,25 +32,26 @@ pub trait Observe: Body {
 pub struct StepInfo {
     /// Its length (time).
     pub dt: f64,
-    /// True where the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it
-    /// off the explicit one.
+    /// True if the body should slow down its stiff couplings, by adding a diffusion to its implicit part and
+    /// subtracting it from the explicit one.
     pub stabilised: bool,
 }
 
-/// A body of a scene.
+/// A body of a scene. Implement this trait to put your own kind of body into the fluid.
 ///
 /// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate
-/// explicit, the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a
-/// body may keep what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`],
+/// explicit, the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, so a body
+/// may keep what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`],
 /// [`Body::write_forces`], [`Body::rate`].
+#[doc(alias("cell", "particle"))]
 pub trait Body: Any + fmt::Debug + Send {
-    /// A name for messages.
+    /// Returns a name for messages.
     fn name(&self) -> &str;
 
-    /// Kind of the markers.
+    /// Returns the kind of the markers.
     fn kind(&self) -> MarkerKind;
 
-    /// Number of markers; may change in [`Body::end_step`] only.
+    /// Returns the number of markers; may change in [`Body::end_step`] only.
     fn marker_count(&self) -> usize;
 
     /// Writes the marker positions (length).
@@ -59,10 +60,10 @@ pub trait Body: Any + fmt::Debug + Send {
     /// Writes the forces on the fluid at the markers (force).
     ///
     /// # Errors
-    /// A state in which the forces are not defined.
+    /// Returns an error for a state in which the forces are not defined.
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError>;
 
-    /// Number of entries of the state, in units that only the body knows.
+    /// Returns the number of entries of the state, in units that only the body knows.
     fn state_len(&self) -> usize;
 
     /// Copies the state to `state`, which has [`Body::state_len`] entries.
@@ -71,7 +72,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// Takes a state over.
     ///
     /// # Errors
-    /// A state that is not finite or not possible.
+    /// Returns an error for a state that is not finite or not possible.
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError>;
 
     /// Writes the explicit part of the state's rate of change (unit of the state per time) to `rate`, from the
@@ -81,7 +82,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// Called before the first evaluation of a step.
     ///
     /// # Errors
-    /// A state from which no step can start.
+    /// Returns an error for a state from which no step can start.
     fn begin_step(&mut self, _view: &FluidView, _step: StepInfo) -> Result<(), BodyError> {
         Ok(())
     }
@@ -97,71 +98,72 @@ pub trait Body: Any + fmt::Debug + Send {
     /// redistribution of markers, checks.
     ///
     /// # Errors
-    /// A state that cannot be.
+    /// Returns an error for a state that cannot be.
     fn end_step(&mut self, _view: &FluidView, _dt: f64) -> Result<(), BodyError> {
         Ok(())
     }
 
-    /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are
-    /// rejected do not come here.
+    /// Called when the step that [`Body::end_step`] has ended is accepted. Use it for what you count over a run,
+    /// because rejected steps do not come here.
     fn keep_step(&mut self) {}
 
-    /// Tells `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for each
-    /// reason there is.
+    /// Reports to `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for
+    /// each reason.
     fn step_limits(&self, _view: &FluidView, _limits: &mut dyn FnMut(StepLimit)) {}
 
-    /// Doubts about the accuracy of the present state, from the flow of the last evaluation; by default none.
+    /// Returns the doubts about the accuracy of the present state, from the flow of the last evaluation; by default
+    /// none.
     fn warnings(&self, _view: &FluidView) -> Vec<Warning> {
         Vec::new()
     }
 
-    /// The body's surface, to which gaps are measured, on which a repulsion acts, and whose curves carry layers where
-    /// markers trace all of them: by default the closed curve through the markers of one, and nothing of other bodies.
-    /// It is asked for when the body joins a scene, has been changed by hand, or has another number of markers.
+    /// Returns the body's surface, to which gaps are measured, on which a repulsion acts, and whose curves carry layers
+    /// where markers trace all of them. By default this is the closed curve through the markers of one, and nothing of
+    /// other bodies. A scene calls it when the body joins, has been changed by hand, or has another number of markers.
     fn surfaces(&self) -> Vec<SurfaceCurve> {
         self.kind().surface(self.marker_count())
     }
 
-    /// The body as one that fills another body of the scene; by default it does not.
+    /// Returns the body as one that fills another body of the scene; by default it does not.
     fn as_interior_body(&mut self) -> Option<&mut dyn InteriorBody> {
         None
     }
 
-    /// The body as one whose forces depend on the velocities of its markers; by default they do not.
+    /// Returns the body as one whose forces depend on the velocities of its markers; by default they do not.
     fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
         None
     }
 
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):
-    /// the radius of a droplet for positions, say. Zero stands for the extent of the body's markers, their root mean
-    /// square distance from their mean (length), which is right for positions in any unit; for a body of one marker the
-    /// scene takes the width of its domain. By default all are zero. A body whose state holds anything else than
-    /// positions, such as angles or numbers of particles, has to write scales of its own.
+    /// for positions, for example, the radius of a droplet. Zero stands for the extent of the body's markers, their
+    /// root mean square distance from their mean (length), which is right for positions in any unit. For a body of one
+    /// marker, the scene takes the width of its domain. By default all are zero. A body whose state holds anything else
+    /// than positions, such as angles or numbers of particles, has to write its own scales.
     fn write_scales(&self, scales: &mut [f64]) {
         scales.fill(0.0);
     }
 
-    /// Writes the state of the mirror image of the body in y = 0 to `image`, given a state of its own and the number
-    /// `markers[k]` among the markers of the image that the image of marker k has; linear in the state. `false` where
+    /// Writes the state of the mirror image of the body in y = 0 to `image`, given a state of the body and the number
+    /// `markers[k]` among the markers of the image that the image of marker k has; linear in the state. `false` if
     /// there is no such operation, as by default.
     fn mirror(&self, _markers: &[usize], _state: &[f64], _image: &mut [f64]) -> bool {
         false
     }
 
-    /// Moves a state of the body by `by` (length), all else as it is. `false` where there is no such operation, as by
+    /// Moves a state of the body by `by` (length), all else as it is. `false` if there is no such operation, as by
     /// default.
     fn translate(&self, _by: Vec2, _state: &mut [f64]) -> bool {
         false
     }
 
-    /// Parameters of the body: named numbers that stay the same over a run, such as its
-    /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
-    /// out if it may change.
+    /// Returns the parameters of the body: named numbers that stay the same over a run, such as its moduli. A scene
+    /// refuses a checkpoint of a body with other parameters. By default the number of markers, which a body leaves out
+    /// if it may change.
     fn properties(&self) -> Vec<(String, f64)> {
         vec![("the number of markers".to_owned(), self.marker_count() as f64)]
     }
 
-    /// Everything from which [`Body::load`] makes the present state again, bitwise: by default what
+    /// Returns everything from which [`Body::load`] restores the present state, bitwise. By default this is what
     /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
     fn save(&self) -> SavedState {
         let mut reals = vec![0.0; self.state_len()];
@@ -172,7 +174,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// Takes back what [`Body::save`] of a body made in the same way wrote.
     ///
     /// # Errors
-    /// The state of another body, or a state that cannot be.
+    /// Returns an error for the state of another body, or a state that cannot be.
     fn load(&mut self, _view: &FluidView, saved: &SavedState) -> Result<(), BodyError> {
         self.read_state(saved.reals_of(self.state_len())?)
     }
@@ -185,19 +187,19 @@ impl<B: Body> From<Handle<B>> for Handle<dyn Body> {
     }
 }
 
-/// A body that fills another one, its host, up to the host's markers: a gel inside a droplet, say.
+/// A body that fills another one, its host, up to the host's markers: for example, a gel inside a droplet.
 ///
-/// It is a body of its own with a state and markers, its inner points. Besides it follows its host, and puts forces on
-/// the host's markers too. Whatever the viscosity inside its host, it lies in that fluid.
+/// It is a separate body with a state and with markers, its inner points. It also follows its host, and puts forces on
+/// the host's markers. It lies in the fluid inside its host, whatever the viscosity there.
 pub trait InteriorBody {
-    /// The body that it fills, which was added to the scene before it.
+    /// Returns the body that it fills, which was added to the scene before it.
     fn host(&self) -> Handle<dyn Body>;
 
     /// Takes over the host in a new state, before anything that depends on it is asked: markers, forces; and at the end
     /// of a step, before and after the host's own [`Body::end_step`], then its own.
     fn update_host(&mut self, host: &dyn Body);
 
-    /// Adds its forces on the fluid at the host's markers (force) to those of the host, after its own
+    /// Adds its forces on the fluid at the host's markers (force) to the forces of the host, after its own
     /// [`Body::write_forces`].
     fn add_host_forces(&self, forces: &mut [Vec2]);
 
@@ -205,24 +207,24 @@ pub trait InteriorBody {
     /// from them how its markers move, before [`Body::rate`].
     fn host_moved(&mut self, host: &dyn Body, velocities: &[Vec2]);
 
-    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the interior_body,
-    /// after its own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
+    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the interior body,
+    /// after its own [`Body::rate`]. What it puts there, its own state loses. By default nothing.
     fn add_host_rate(&self, _rate: &mut [f64]) {}
 }
 
-/// A body with forces `-D v` that are linear in the velocities v of its markers, beside those of
-/// [`Body::write_forces`]: a solid more viscous than the fluid, say. D is symmetric and positive
-/// semidefinite: no motion gains energy by it.
+/// A body with forces `-D v` that are linear in the velocities v of its markers, in addition to the forces of
+/// [`Body::write_forces`]: for example, a solid more viscous than the fluid. D is symmetric and positive semidefinite:
+/// no motion gains energy by it.
 ///
-/// Velocities and these forces are solved for together, by conjugate gradients in some evaluations of the flow, so that
-/// steps are as stable as without them, however large D is.
+/// Velocities and these forces are solved for together, by conjugate gradients with several evaluations of the flow.
+/// Steps are therefore as stable as without them, however large D is.
 pub trait Viscous {
     /// Adds `-D v` (force) to the forces on the fluid, from the velocities v of the markers (length per time), at the
     /// state of the last [`Body::write_forces`].
     fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]);
 }
 
-/// A doubt about the accuracy of a state from which a run goes on: results may be off by more than a per cent.
+/// A doubt about the accuracy of a state from which a run continues: results may be off by more than 1 %.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// Name of the body that it is about.

@@ -20,17 +20,17 @@ use motile_base::{
     internal::{told, told_apart},
 };
 
-/// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
+/// The whole state of a scene. A run that continues from it is bitwise the same as if it had never stopped.
 ///
 /// It holds what observers have found so far as well ([`crate::System::record_mut`], [`crate::Warnings`]).
 ///
-/// To resume, make the same scene again and give it to [`Scene::resume`]. The scene has to be the same: its domain, the
-/// drive along it, the viscosities, the walls, the bodies and their materials ([`crate::Body::properties`], with the
-/// numbers of markers and points that they started with), the number of nodes of boundary integrals. If the scene was
-/// built from a description ([`Scene::described_by`]), each of its entries has to be the same too. You may change how
-/// the scene is computed: time step, integrator and observers, grid spacing (with markers and meshes as before),
-/// kernel, corrections, transport of particles. The flow of the state is then recomputed. To continue with other
-/// parameters, use [`Scene::take_over`].
+/// To resume, build the same scene again and pass the checkpoint to [`Scene::resume`]. The scene has to be the same:
+/// its domain, the drive along it, the viscosities, the walls, the bodies and their materials
+/// ([`crate::Body::properties`], with the numbers of markers and points that they started with), the number of nodes of
+/// boundary integrals. If the scene was built from a description ([`Scene::described_by`]), each of its entries has to
+/// be the same too. You may change how the scene is computed: time step, integrator and observers, grid spacing (with
+/// markers and meshes as before), kernel, corrections, transport of particles. The flow of the state is then
+/// recomputed. To continue with other parameters, use [`Scene::take_over`].
 ///
 /// ```
 /// use motile_scene::{Scene, Substrate, checkpoint::Checkpoint};
@@ -92,7 +92,7 @@ impl Part {
     }
 }
 
-/// Numbers that were computed in the same way differ by less than this part of them on any machine.
+/// Numbers that were computed in the same way differ by less than this fraction of them on any machine.
 const ROUND_OFF: f64 = 1e-9;
 
 /// Later times at which an imposed flow that is a function of time is compared, in mean steps so far, or in units of
@@ -108,7 +108,7 @@ const COUNTS: [&str; 5] = [
     "the number of nodes",
 ];
 
-/// The imposed flow at the present time, and if it is a function of time at later times (time).
+/// Returns the imposed flow at the present time, and if it is a function of time at later times (time).
 fn imposed_from_now<H: Hydrodynamics>(system: &System<H>) -> Vec<(f64, ImposedFlow)> {
     let (time, steps) = (system.time(), system.steps());
     let unit = if steps > 0 && time > 0.0 { time / steps as f64 } else { 1.0 };
@@ -138,7 +138,7 @@ fn compare_flows<H: Hydrodynamics>(system: &System<H>, checkpoint: &Checkpoint) 
     }
 }
 
-/// First length that a saved domain has otherwise than the present one, in words.
+/// Returns the first length that a saved domain has otherwise than the present one, in words.
 fn difference(saved: Domain, present: Domain) -> String {
     let lengths = |Domain { origin: [x, y], periods, walls }: Domain| {
         let [below, above] = walls.map_or([None; 2], |walls| walls.map(Some));
@@ -180,8 +180,8 @@ fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)])
 /// Values of entries that say least.
 const EMPTY: [&str; 6] = ["0.0", "0", "false", "\"\"", "a list of 0", "[]"];
 
-/// The first entry of a description ([`Scene::described_by`]) that is not the same here and in what was saved, in
-/// words. A scene that was put together by hand has no entries, and none that is different.
+/// Returns the first entry of a description ([`Scene::described_by`]) that is not the same here and in what was saved,
+/// in words. A scene that was put together by hand has no entries, and none that is different.
 #[must_use]
 pub fn other_entry(here: &BTreeMap<String, String>, saved: &BTreeMap<String, String>) -> Option<String> {
     if here.is_empty() || saved.is_empty() {
@@ -198,7 +198,7 @@ pub fn other_entry(here: &BTreeMap<String, String>, saved: &BTreeMap<String, Str
     Some(format!("{key} is {} in it and {} here", shown(saved), shown(here)))
 }
 
-/// Number of a kind of markers in files.
+/// Returns the number of a kind of markers in files.
 fn kind(kind: MarkerKind) -> u8 {
     match kind {
         MarkerKind::Interface { viscosity_inside: None } => 0,
@@ -213,25 +213,25 @@ fn kind(kind: MarkerKind) -> u8 {
 }
 
 impl Checkpoint {
-    /// Version of the program that wrote it ([`crate::VERSION`]).
+    /// Returns the version of the program that wrote it ([`crate::VERSION`]).
     #[must_use]
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// Description that it was saved with.
+    /// Returns the description that it was saved with.
     #[must_use]
     pub fn description(&self) -> &str {
         &self.description
     }
 
-    /// Time of the state (time).
+    /// Returns the time of the state (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Steps up to it.
+    /// Returns the number of steps up to the state.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.steps
@@ -239,7 +239,7 @@ impl Checkpoint {
 }
 
 impl<H: Hydrodynamics> Scene<H> {
-    /// The present state, with a description to tell checkpoints apart by.
+    /// Returns the present state, with a description that distinguishes checkpoints.
     #[must_use]
     pub fn checkpoint(&self, description: impl Into<String>) -> Checkpoint {
         let (system, integrator) = (self.system(), self.integrator());
@@ -269,14 +269,17 @@ impl<H: Hydrodynamics> Scene<H> {
         }
     }
 
-    /// Goes on from a checkpoint of this scene: the steps that follow are, bitwise, those that would have followed
-    /// there. With another integrator that starts afresh. After an error the scene is as it was.
+    /// Continues from a checkpoint of this scene. The steps that follow are bitwise the steps that would have followed
+    /// there. Another integrator starts afresh. After an error, the scene is as it was.
     ///
     /// # Errors
-    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses; [`SceneError::Refused`] if
-    /// another version of the program wrote it ([`Checkpoint::version`]), or if an entry of the description
-    /// ([`Scene::described_by`]), a body, the fluid or the imposed flow is different, with its name and both values. An
-    /// imposed flow that is a function of time is compared at the time of the state and at four later times, up to a
+    /// Returns an error for:
+    /// * a checkpoint of another domain, of other bodies, or of a state that a body refuses,
+    /// * [`SceneError::Refused`] if another version of the program wrote it ([`Checkpoint::version`]), or if an entry
+    ///   of the description ([`Scene::described_by`]), a body, the fluid or the imposed flow is different, with its
+    ///   name and both values.
+    ///
+    /// An imposed flow that is a function of time is compared at the time of the state and at four later times, up to a
     /// thousand mean steps later.
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare(checkpoint)?;
@@ -288,15 +291,42 @@ impl<H: Hydrodynamics> Scene<H> {
         })
     }
 
-    /// Goes on from a checkpoint of another scene of the same bodies, whose parameters, region or imposed flow may be
-    /// others than here: bodies take over their places and what they carry, the scene the time, the number of steps
-    /// and the strain of a sheared box. The flow is computed anew, time steps start afresh. After an error the scene is
-    /// as it was.
+    /// Replaces the state of this scene with one saved from a scene that has the same bodies.
+    ///
+    /// Use this to change parameters in the middle of a run: build a second scene with the new activity, viscosity,
+    /// region or imposed flow, and pass it the checkpoint of the first. Bodies keep their positions and whatever they
+    /// carry, such as particles. The scene also takes over the time, the number of steps, and the strain of a sheared
+    /// box. The flow is recomputed at the next step, and step-size control starts afresh. To continue a run with
+    /// *unchanged* parameters, use [`Scene::resume`], which is bitwise exact.
+    ///
+    /// ```
+    /// use motile_base::Vec2;
+    /// use motile_scene::{MarkerBody, Scene, StepSize, Substrate};
+    ///
+    /// // A spring draws a point to the origin, on a substrate of friction 2.
+    /// let build = |stiffness: f64| -> Result<_, Box<dyn std::error::Error>> {
+    ///     let spring = move |positions: &[Vec2], forces: &mut [Vec2]| forces[0] = -stiffness * positions[0];
+    ///     let mut scene = Scene::new(Substrate::new(2.0)?);
+    ///     let point = scene.add(MarkerBody::new("point", vec![Vec2::X], spring));
+    ///     Ok((scene, point))
+    /// };
+    /// let adaptive = StepSize::Adaptive { tolerance: 1e-4 };
+    /// let (mut soft, _) = build(1.0)?;
+    /// soft.run(1.0).step_size(adaptive).go()?;
+    ///
+    /// // From time 1 on, the spring is three times as stiff.
+    /// let (mut stiff, point) = build(3.0)?;
+    /// stiff.take_over(&soft.checkpoint("soft"))?;
+    /// stiff.run(2.0).step_size(adaptive).go()?;
+    /// let place = stiff.body(point)?.markers()[0];
+    /// assert!((place.x - (-0.5_f64 - 1.5).exp()).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// [`SceneError::Refused`] for other bodies, another number of them, or bodies of another number of markers or
-    /// points; [`SceneError::Body`] for a state that a body refuses; places at which bodies overlap, or lie beyond
-    /// walls, here.
+    /// In every case, the scene is left as it was. Returns [`SceneError::Refused`] if the checkpoint has other bodies,
+    /// another number of them, or bodies of another number of markers or points. Returns [`SceneError::Body`] if a body
+    /// refuses its saved state, and [`SceneError`] if bodies would overlap or lie beyond the walls of this scene.
     pub fn take_over(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare_bodies(checkpoint)?;
         for ((_, body), part) in self.system().all_bodies().zip(&checkpoint.bodies) {

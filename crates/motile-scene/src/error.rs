@@ -20,7 +20,7 @@ pub enum FlowError {
     #[error(transparent)]
     Solver(Arc<dyn std::error::Error + Send + Sync>),
     /// A body with a curve of too few or too many nodes or points.
-    #[error("a curve of body {body} has {found} {what}: use {least} to {most}")]
+    #[error("a curve of body {body} has {found} {what}. Use a number from {least} to {most}")]
     Count {
         /// Number of the body, in the order of addition.
         body: usize,
@@ -28,13 +28,13 @@ pub enum FlowError {
         what: &'static str,
         /// How many there are.
         found: usize,
-        /// Least number.
+        /// Minimum number.
         least: usize,
         /// Largest number.
         most: usize,
     },
     /// A marker position or force is not a finite number.
-    #[error("{what} of marker {marker} of body {body} is ({x}, {y}), so the run has failed: use a smaller time step")]
+    #[error("{what} of marker {marker} of body {body} is ({x}, {y}), so the run has failed. Use a smaller time step")]
     NonFinite {
         /// Position or force.
         what: &'static str,
@@ -49,8 +49,8 @@ pub enum FlowError {
     },
     /// A marker lies beyond a wall.
     #[error(
-        "marker {marker} of body {body} at {} is {} beyond the wall, more than {}: \
-         move it, or use a smaller time step or a finer grid",
+        "marker {marker} of body {body} at {} is {} beyond the wall, more than {}. \
+         Move it, or use a smaller time step or a finer grid",
         place(*x, *y), told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
     BeyondWall {
@@ -70,7 +70,7 @@ pub enum FlowError {
     /// A gap between a wall and a rigid body that the nodes of the body do not resolve.
     #[error(
         "the gap between rigid body {body} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
-         so narrow a gap. Its speed may be off by 1 %, and by more the narrower the gap. Use {needed} nodes or \
+         so narrow a gap, and the speed may be off by 1 % or more. Use {needed} nodes or \
          more, or keep the body away from the wall",
         told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
     )]
@@ -88,8 +88,8 @@ pub enum FlowError {
     },
     /// An iteration did not converge.
     #[error(
-        "{what} stopped at a relative residual of {} after {iterations} iterations, above {}: \
-         if a gap has become too narrow, or a body is too slender for its nodes, use more nodes, a finer grid or a \
+        "{what} stopped at a relative residual of {} after {iterations} iterations, above {}. \
+         If a gap has become too narrow, or a body is too slender for its nodes, use more nodes, a finer grid or a \
          repulsion of longer range",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
@@ -143,7 +143,7 @@ impl FlowError {
 #[non_exhaustive]
 pub enum BodyError {
     /// A state that is not finite.
-    #[error("{what} number {index} is {value}: use a smaller time step")]
+    #[error("{what} number {index} is {value}. Use a smaller time step")]
     NonFinite {
         /// The quantity.
         what: &'static str,
@@ -154,7 +154,7 @@ pub enum BodyError {
     },
     /// An interface crosses itself.
     #[error(
-        "the interface crosses itself at {}, between markers {first} and {second}: use a smaller time \
+        "the interface crosses itself at {}, between markers {first} and {second}. Use a smaller time \
          step or activity, or a finer grid",
         place(*x, *y)
     )]
@@ -170,7 +170,7 @@ pub enum BodyError {
     },
     /// A bound on a conserved quantity was exceeded.
     #[error(
-        "{what} has changed by {}{} of its value, more than {}: use a smaller time step or spacing",
+        "{what} has changed by {}{} of its value, more than {}. Use a smaller time step or spacing",
         if *change < 0.0 { "-" } else { "" },
         told_apart([change.abs(), *bound])[0],
         told_apart([change.abs(), *bound])[1]
@@ -193,9 +193,9 @@ pub enum BodyError {
 
 motile_base::debug_as_explanation!(BodyError);
 
-/// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
+/// A scene could not be made or advanced. After an error in a step, the scene holds the state before that step.
 ///
-/// The text carries the direct cause; [`SceneError::explanation`] tells those of that as well.
+/// The text carries the direct cause; [`SceneError::explanation`] adds the causes of that cause.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -219,7 +219,7 @@ pub enum SceneError {
     },
     /// Bodies that overlap before anything is computed for them.
     #[error(
-        "at time {time} {body} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}: move the bodies apart",
+        "at time {time} {body} overlaps {other} by {} at ({x:.4}, {y:.4}), more than {}. Move the bodies apart",
         told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
         time = told(*time)
     )]
@@ -241,7 +241,7 @@ pub enum SceneError {
     },
     /// A body has come into an interface or out of it in a step.
     #[error(
-        "at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step",
+        "at time {time} {body}, which was {before}, has come to lie {now}. Use a smaller time step",
         time = told(*time)
     )]
     Containment {
@@ -256,7 +256,7 @@ pub enum SceneError {
     },
     /// An interface and another body, or its own image in a periodic domain, or two solids have come to overlap.
     #[error(
-        "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}: use a \
+        "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}. Use a \
          smaller time step, a finer grid or a repulsion between the interfaces",
         told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
         time = told(*time)
@@ -279,7 +279,7 @@ pub enum SceneError {
     },
     /// A gap is narrower than the bound that was set.
     #[error(
-        "at time {time} the gap between {body} and {other} is {} at ({x:.4}, {y:.4}), below the bound of {}: use \
+        "at time {time} the gap between {body} and {other} is {} at ({x:.4}, {y:.4}), below the bound of {}. Use \
          a finer grid, no grid or a repulsion, or a lower bound if the flow in the gap does not matter",
         told_apart([*gap, *bound])[0], told_apart([*gap, *bound])[1],
         time = told(*time)
@@ -316,7 +316,7 @@ pub enum SceneError {
     },
     /// A time step above the stable one.
     #[error(
-        "time step {} is above the stable {} set by {reason} of {body}: use a smaller one",
+        "time step {} is above the stable {} set by {reason} of {body}. Use a smaller one",
         told_apart([*dt, *limit])[0], told_apart([*dt, *limit])[1]
     )]
     TimeStepTooLarge {
@@ -343,7 +343,7 @@ pub enum SceneError {
     },
     /// A run has taken all the steps it was allowed.
     #[error(
-        "at time {time} the run has used all {most} steps that it was allowed: allow more steps or longer ones",
+        "at time {time} the run has used all {most} steps that it was allowed. Allow more steps or longer ones",
         time = told(*time)
     )]
     TooManySteps {
@@ -352,9 +352,9 @@ pub enum SceneError {
         /// The number allowed.
         most: usize,
     },
-    /// The run was told to stop.
+    /// The run was stopped on request.
     #[error(
-        "stopped at time {time}: the state is that of the last complete step, from which you can continue the run",
+        "stopped at time {time}: the scene holds the last complete step, from which you can continue the run",
         time = told(*time)
     )]
     Stopped {
@@ -391,8 +391,8 @@ motile_base::debug_as_explanation!(SceneError);
 const GO_ON: &str = "start from its state with other values by `Scene::take_over`";
 
 impl SceneError {
-    /// Neighbouring interfaces that are periodic along x, the lower one and the upper one or an image of the lower, and
-    /// give the fluid between them two viscosities (stress times time).
+    /// Returns the error for neighbouring interfaces that are periodic along x, the lower one and the upper one or an
+    /// image of the lower, and give the fluid between them two viscosities (stress times time).
     pub(crate) fn two_viscosities(time: f64, [body, other]: [String; 2], viscosities: [f64; 2]) -> Self {
         let (time, [lower, upper]) = (told(time), told_apart(viscosities));
         let between = format!("the fluid between {body} and {other}, or the image of one,");
@@ -400,7 +400,7 @@ impl SceneError {
         Self::refused(what, "", "Give both the same viscosity inside, or turn one of them over")
     }
 
-    /// A stability limit so short that a run would never end.
+    /// Returns the error for a stability limit so short that a run would never end.
     pub(crate) fn step_too_short(dt: f64, least: f64, reason: &str, body: &str) -> Self {
         let [dt, least] = told_apart([dt, least]);
         let what = format!("the time step at the start of the run would be {dt}, set by {reason} of {body}");
@@ -409,7 +409,7 @@ impl SceneError {
         Self::refused(what, value, remedy)
     }
 
-    /// A step size that is a fraction of the stability limit, where no body states a finite one.
+    /// Returns the error for a step size that is a fraction of the stability limit, where no body states a finite one.
     pub(crate) fn no_step_limit(time: f64) -> Self {
         let what =
             format!("at time {} no body states a limit of the time step, so there is no fraction of it", told(time));
@@ -417,31 +417,31 @@ impl SceneError {
         Self::refused(what, "", remedy)
     }
 
-    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    /// Returns the error for adaptive steps with an integrator whose errors cannot be estimated.
     pub(crate) fn no_error_estimate(integrator: &str) -> Self {
         let what = format!("the error of a step of {integrator} cannot be estimated");
         Self::refused(what, "", "Use another step size than `StepSize::Adaptive`")
     }
 
-    /// Parts of the motion that an integrator would have to treat implicitly and does not.
+    /// Returns the error for parts of the motion that an integrator would have to treat implicitly and does not.
     pub(crate) fn implicit_parts(integrator: &str) -> Self {
         let what = format!("the {integrator} integrator cannot handle particles or gels");
         let value = "their diffusion is treated implicitly";
         Self::refused(what, value, "Use the midpoint rule or the Runge-Kutta-Chebyshev method")
     }
 
-    /// A checkpoint that is not of this scene.
+    /// Returns the error for a checkpoint that is not of this scene.
     pub(crate) fn foreign_checkpoint(difference: impl Into<String>) -> Self {
         Self::refused("the checkpoint is of another scene", difference, "Resume with the scene that wrote it")
     }
 
-    /// A checkpoint of another domain: the difference in words.
+    /// Returns the error for a checkpoint of another domain: the difference in words.
     pub(crate) fn other_domain(difference: String) -> Self {
         let remedy = format!("Resume with the scene that wrote it, or {GO_ON}");
         Self::refused("the checkpoint is of another scene", difference, remedy)
     }
 
-    /// The refusal of bodies of another resolution, from the one of another property.
+    /// Returns the error for the refusal of bodies of another resolution, from the one of another property.
     pub(crate) fn of_other_resolution(self) -> Self {
         match self {
             Self::Refused(Refusal { value, .. }) => {
@@ -452,28 +452,29 @@ impl SceneError {
         }
     }
 
-    /// A checkpoint of a scene whose fluid or bodies are made of something else: the body or the scene, its property,
-    /// and the values of the property in the checkpoint and here.
+    /// Returns the error for a checkpoint of a scene whose fluid or bodies are made of something else. It names the
+    /// body or the scene, its property, and the values of the property in the checkpoint and here.
     pub(crate) fn other_property(of: &str, property: &str, saved: Option<f64>, present: Option<f64>) -> Self {
         let value = format!("for {of}, {property} is {} in it and {} here", shown(saved), shown(present));
         let remedy = format!("Resume with the values it was saved with, or {GO_ON}");
         Self::refused("the checkpoint is of other physics", value, remedy)
     }
 
-    /// A checkpoint of a program that may compute other numbers.
+    /// Returns the error for a checkpoint of a program that may compute other numbers.
     pub(crate) fn other_version(saved: &str) -> Self {
         let what = format!("the checkpoint is of motile {saved}, and this is motile {}", crate::VERSION);
         let value = "a run of two versions has the numbers of neither";
         Self::refused(what, value, "Resume with the version that wrote it, or start a new run")
     }
 
-    /// A checkpoint of a scene with another description: the key, and its values in the checkpoint and here, in words.
+    /// Returns the error for a checkpoint of a scene with another description: the key, and its values in the
+    /// checkpoint and here, in words.
     pub(crate) fn other_entry(entry: &str) -> Self {
         let remedy = format!("Resume with the values it was saved with, start a new run, or {GO_ON}");
         Self::refused("the checkpoint is of another description", entry, remedy)
     }
 
-    /// The refusal of a checkpoint with the entry of the description that is different.
+    /// Returns the error for the refusal of a checkpoint with the entry of the description that is different.
     pub(crate) fn with_entry(self, entry: &str) -> Self {
         match self {
             Self::Refused(Refusal { what, value, remedy }) => {
@@ -483,26 +484,26 @@ impl SceneError {
         }
     }
 
-    /// A body that cannot be moved as a whole.
+    /// Returns the error for a body that cannot be moved as a whole.
     pub(crate) fn immovable(body: &str) -> Self {
         let remedy = "Move only droplets, rigid bodies, shells and plain markers";
         Self::refused(format!("{body} cannot be moved as a whole"), "", remedy)
     }
 
-    /// A handle of another scene.
+    /// Returns the error for a handle of another scene.
     pub(crate) fn foreign_handle() -> Self {
         let remedy = "Use the handle that this scene returned when the body was added";
         Self::refused("the handle is of a body of another scene", "", remedy)
     }
 
-    /// The flow of the present state is asked for before it has been computed.
+    /// Returns the error for a request of the flow before it has been computed for the present state.
     pub(crate) fn not_evaluated(body: &str) -> Self {
         let what = format!("the flow at {body} is not known in the present state");
         Self::refused(what, "", "Call `evaluate` first, or `observe`, which does it for you")
     }
 
-    /// Body so close to a rigid wall that nodes of that spacing make nothing of the flow between them; all but the time
-    /// are lengths.
+    /// Returns the error for a body so close to a rigid wall that nodes of that spacing make nothing of the flow
+    /// between them; all but the time are lengths.
     pub(crate) fn coarse_wall(time: f64, body: &str, gap: f64, spacing: f64, resolved: f64) -> Self {
         let [gap, spacing, resolved] = [gap, spacing, resolved].map(|length| decimals(4, length));
         let what = format!("at time {} the gap between {body} and a rigid wall is {gap}", told(time));
@@ -510,14 +511,15 @@ impl SceneError {
         Self::refused(what, value, format!("Give the wall a spacing of {resolved}, or keep {body} away from it"))
     }
 
-    /// The error and its causes in one sentence.
+    /// Returns the error and its causes in one sentence.
     #[must_use]
     pub fn explanation(&self) -> String {
         motile_base::internal::explanation(self)
     }
 }
 
-/// Sentence of [`SceneError::Stagnation`]: of an attempt that ended in an error the error, which has the remedy, first.
+/// Returns the sentence of [`SceneError::Stagnation`]: of an attempt that ended in an error the error, which has the
+/// remedy, first.
 fn stagnation(time: f64, steps: [f64; 2], source: Option<&SceneError>) -> String {
     let [dt, least] = told_apart(steps);
     match source {
@@ -527,14 +529,14 @@ fn stagnation(time: f64, steps: [f64; 2], source: Option<&SceneError>) -> String
             told(time)
         ),
         None => format!(
-            "at time {} the time step would have to fall to {dt}, below the minimum of {least}: use a larger \
+            "at time {} the time step would have to fall to {dt}, below the minimum of {least}. Use a larger \
              tolerance, or refine the grid and the markers",
             told(time)
         ),
     }
 }
 
-/// Text of a property that may be missing.
+/// Returns the text of a property that may be missing.
 fn shown(value: Option<f64>) -> String {
     value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }

@@ -35,7 +35,7 @@ pub(crate) const REACH: f64 = 4.0;
 pub(crate) struct Gap {
     /// Number of the body whose corner it is measured from.
     pub(crate) body: usize,
-    /// Where that corner is (length).
+    /// Place of that corner (length).
     pub(crate) place: Vec2,
     /// Number of the other body.
     pub(crate) other: usize,
@@ -44,8 +44,8 @@ pub(crate) struct Gap {
     pub(crate) width: f64,
 }
 
-/// Gaps that were found: the narrowest one, and of those that have closed beyond what contact allows the one that has
-/// most, which another one may well be narrower than.
+/// Gaps that were found: the narrowest one, and the one that has closed furthest beyond what contact allows. Another
+/// one may be narrower than that.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Gaps {
     pub(crate) narrowest: Option<Gap>,
@@ -74,7 +74,7 @@ impl Gaps {
         }
     }
 
-    /// These and those of later bodies.
+    /// These and the ones of later bodies.
     fn and(mut self, later: Self) -> Self {
         if let Some(gap) = later.narrowest {
             self.add(gap, f64::INFINITY);
@@ -113,7 +113,7 @@ struct Corner {
 }
 
 impl Surfaces {
-    /// The surfaces of bodies that are no part of a scene yet.
+    /// Creates the surfaces of bodies that are not yet in a scene.
     #[must_use]
     pub fn of(bodies: impl IntoIterator<Item = (Boundary, MarkerKind)>) -> Self {
         let (mut boundaries, kinds): (Vec<Boundary>, _) = bodies.into_iter().unzip();
@@ -139,8 +139,8 @@ impl Surfaces {
         self.tree.each_near(frame, periods, reach, &mut |place| visit(self.numbers[place]));
     }
 
-    /// Lays out the surfaces of bodies with their markers where they are now, and the period in x (length; 0 where
-    /// there is none).
+    /// Lays out the surfaces of bodies with their markers where they are now, and the period in x (length; 0 if there
+    /// is none).
     pub(crate) fn update(&mut self, markers: &Markers, period: f64) {
         let Self { kinds, boundaries, firsts, corners, .. } = self;
         boundaries.resize_with(markers.groups().len(), Boundary::default);
@@ -169,9 +169,9 @@ impl Surfaces {
         self.sort();
     }
 
-    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
-    /// (length). Of interfaces inside one another that is a gap below what the polygons through their markers tell of
-    /// the curves.
+    /// Returns two interfaces, or one and its own image, without fluid between them: the body, the other one and where
+    /// (length). Of interfaces inside one another that is a gap below what the polygons through their markers resolve
+    /// of the curves.
     #[must_use]
     pub fn contact(&self, view: &FluidView) -> Option<(usize, usize, Vec2)> {
         let interfaces = |bodies: [usize; 2]| bodies.iter().all(|&body| self.kinds[body].is_curve());
@@ -185,8 +185,8 @@ impl Surfaces {
         narrowest.filter(closed).map(|gap| (gap.body, gap.other, gap.place))
     }
 
-    /// The smallest signed distance of a corner of an interface from solids (length), the interface, the number of the
-    /// corner in it, and where that is (length).
+    /// Returns the smallest signed distance of a corner of an interface from solids (length), the interface, the number
+    /// of the corner in it, and where that is (length).
     pub(crate) fn nearest_solid(&self, periods: Periods) -> Option<(f64, usize, usize, Vec2)> {
         let of_kind = |closed: bool| {
             let bodies = self.boundaries.iter().zip(&self.kinds).enumerate();
@@ -203,7 +203,7 @@ impl Surfaces {
         gaps.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// True where a body lies inside an interface, or inside one of its images.
+    /// Returns true if a body lies inside an interface, or inside one of its images.
     fn lies_in(&self, inner: usize, outer: usize, periods: Periods) -> bool {
         if inner == outer || !self.kinds[outer].holds_fluid() {
             return false;
@@ -214,12 +214,13 @@ impl Surfaces {
         self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 
-    /// The gaps that are looked at during steps, below `bound` (length) or four times what contacts are measured in.
+    /// Returns the gaps that are looked at during steps, below `bound` (length) or four times what contacts are
+    /// measured in.
     pub(crate) fn gaps_near(&self, view: &FluidView, bound: f64) -> Gaps {
         self.gaps(view, bound.max(REACH * self.contact_scale(view)), |_| true)
     }
 
-    /// The narrowest gap, however wide: looked for in a reach that grows until there is one.
+    /// Returns the narrowest gap, however wide: looked for in a reach that grows until there is one.
     pub(crate) fn narrowest(&self, view: &FluidView) -> Option<Gap> {
         let size = self.tree.frame()?.size();
         let mut reach = REACH * self.contact_scale(view);
@@ -233,8 +234,8 @@ impl Surfaces {
         self.gaps(view, f64::INFINITY, |_| true).narrowest
     }
 
-    /// The gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies, and from
-    /// the corners of other bodies to interfaces; between others only where they have crossed.
+    /// Returns the gaps below `reach` (length) between pairs of bodies: from the corners of interfaces to all bodies,
+    /// and from the corners of other bodies to interfaces; between others only where they have crossed.
     pub(crate) fn gaps(&self, view: &FluidView, reach: f64, pairs: impl Fn([usize; 2]) -> bool + Sync) -> Gaps {
         let (scale, domain) = (self.contact_scale(view), &view.domain);
         let of_body = |body: usize, gaps: &mut Gaps| {
@@ -259,8 +260,8 @@ impl Surfaces {
         found.into_iter().reduce(Gaps::and).unwrap_or_default()
     }
 
-    /// The pairs of bodies, at least one of them an interface, whose gap is below `reach` (length), each once, and the
-    /// gaps (length); a body and its own image are a pair of one number.
+    /// Returns the pairs of bodies, at least one of them an interface, whose gap is below `reach` (length), each once,
+    /// and the gaps (length). A body and its own image are a pair of one number.
     pub(crate) fn pairs_near(&self, view: &FluidView, reach: f64) -> Vec<([usize; 2], f64)> {
         let mut pairs = Vec::new();
         for (body, from) in self.boundaries.iter().enumerate() {
@@ -310,7 +311,7 @@ impl Surfaces {
 }
 
 impl Boundary {
-    /// The boundary of a body where it is now, sorted, in a domain of these periods (length, in x and y).
+    /// Creates the boundary of a body where it is now, sorted, in a domain of these periods (length, in x and y).
     #[must_use]
     pub fn of(body: &dyn Body, periods: impl Into<Periods>) -> Self {
         let periods = periods.into();
@@ -324,7 +325,7 @@ impl Boundary {
     }
 }
 
-/// Boundary of a body and the points that gaps are measured from: its corners, or markers where it has none.
+/// Boundary of a body and the points that gaps are measured from: its corners, or markers if it has none.
 #[derive(Debug)]
 pub(crate) struct Outline {
     boundary: Boundary,
@@ -343,8 +344,8 @@ impl Outline {
         Self { boundary, points, kind: body.kind() }
     }
 
-    /// The smallest signed distance of the points of another body from the boundary (length), positive for most of
-    /// those inside an interface: what lies in it is measured from within.
+    /// Returns the smallest signed distance of the points of another body from the boundary (length), positive for most
+    /// of those inside an interface: what lies in it is measured from within.
     fn smallest(&self, other: &Self, periods: Periods) -> Option<f64> {
         let distances = || other.points.iter().map(|&point| self.boundary.distance(point, periods));
         if let (Some(_), Some(_)) = (self.kind.advance(), periods[1]) {
@@ -356,17 +357,17 @@ impl Outline {
         smallest.filter(|_| !self.boundary.is_empty())
     }
 
-    /// The gap to another body; see [`crate::System::gap`].
+    /// Returns the gap to another body; see [`crate::System::gap`].
     pub(crate) fn gap(&self, other: &Self, periods: Periods) -> Option<f64> {
         [self.smallest(other, periods), other.smallest(self, periods)].into_iter().flatten().reduce(f64::min)
     }
 }
 
-/// The smallest distance of the points to the nearer of two walls at the heights `walls` (below, above): the gap that
-/// is left between an interface and the walls (length).
+/// Returns the smallest distance of the points to the nearer of two walls at the heights `walls` (below, above). It is
+/// the gap that is left between an interface and the walls (length).
 ///
-/// Negative where a point lies beyond a wall, infinite without points, not a number where a height or the y coordinate
-/// of a point is not one. For a polygon this is the exact distance, since the nearest point of a polygon to a straight
+/// Negative where a point lies beyond a wall, infinite without points, not a number if a height or the y coordinate of
+/// a point is not one. For a polygon this is the exact distance, since the nearest point of a polygon to a straight
 /// wall is a corner.
 ///
 /// ```

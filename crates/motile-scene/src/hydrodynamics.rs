@@ -25,7 +25,7 @@ use crate::{FlowError, Warning, gap::Boundary, saved_state::SavedState};
 pub struct Domain {
     /// Lower left corner (length).
     pub origin: [f64; 2],
-    /// Periods in x and y (length); `None` where the fluid is unbounded or ends at a wall.
+    /// Periods in x and y (length); `None` if the fluid is unbounded or ends at a wall.
     pub periods: Periods,
     /// Heights of the no-slip walls below and above (length).
     pub walls: Option<[f64; 2]>,
@@ -47,23 +47,24 @@ impl From<Region> for Domain {
 pub struct FluidView {
     /// The region.
     pub domain: Domain,
-    /// Viscosity of the exterior fluid, or, for a body inside an interface, that of the fluid around it (stress times
-    /// time).
+    /// Viscosity of the exterior fluid, or, for a body inside an interface, the viscosity of the fluid around it
+    /// (stress times time).
     pub viscosity: f64,
-    /// Grid spacing (length); `None` where there is no grid.
+    /// Grid spacing (length); `None` if there is no grid.
     pub spacing: Option<f64>,
-    /// `true` where velocities of interfaces err by the second order of the spacing or less, `false` for the first.
+    /// `true` if the error of the velocities of interfaces is of second order in the spacing or better, `false` for the
+    /// first.
     pub second_order: bool,
-    /// Fourier modes along an interface that the flow resolves; `None` where the markers themselves are the resolution.
+    /// Fourier modes along an interface that the flow resolves; `None` if the markers themselves are the resolution.
     pub shape_modes: Option<usize>,
     /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
     /// displacement normal to an interface of tension gamma decays at most at the rate `stiffness * gamma / viscosity`,
-    /// with the mean of the viscosities on both sides: a quarter of the largest wave number on a flat interface.
+    /// with the mean of the viscosities on both sides. It is a quarter of the largest wave number on a flat interface.
     pub interface_stiffness: f64,
 }
 
 impl FluidView {
-    /// View of a body in fluid of that viscosity (stress times time); `None` for the exterior fluid.
+    /// Returns the view of a body in fluid of that viscosity (stress times time); `None` for the exterior fluid.
     pub(crate) fn in_fluid(&self, viscosity: Option<f64>) -> Cow<'_, Self> {
         match viscosity {
             Some(viscosity) => Cow::Owned(Self { viscosity, ..self.clone() }),
@@ -105,14 +106,17 @@ impl FlowWork {
     }
 }
 
-/// Velocities at the markers of all bodies from the forces they put on the fluid, without inertia.
+/// Computes velocities at the markers of all bodies from the forces they put on the fluid. Implement this trait for
+/// your own flow.
 ///
-/// An implementation owns its scratch and allocates nothing per call while the numbers of markers stay the same.
+/// An implementation owns its scratch memory, and allocates nothing per call while the numbers of markers stay the
+/// same.
+#[doc(alias("Stokes flow", "mobility", "flow solver"))]
 pub trait Hydrodynamics: std::fmt::Debug + Send {
-    /// The fluid as bodies see it.
+    /// Returns the fluid as bodies see it.
     fn fluid_view(&self) -> FluidView;
 
-    /// Mean pressure gradient or flux that drives the flow along a channel; by default none is stated.
+    /// Returns the mean pressure gradient or flux that drives the flow along a channel; by default none is stated.
     fn drive(&self) -> Option<Drive> {
         None
     }
@@ -121,7 +125,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// the time integral of the shear rate; by default only none is possible.
     ///
     /// # Errors
-    /// A flow that the method or the region does not have.
+    /// Returns an error for a flow that the method or the region does not have.
     fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), FlowError> {
         if flow.is_none() && strain == 0.0 {
             return Ok(());
@@ -129,60 +133,60 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         Err(FlowError::unsupported("an imposed flow", "Use boundary integrals (the method `integral`)"))
     }
 
-    /// The flow that is imposed, which velocities and samples are the sum of it and of the bodies' own; what the drive
-    /// of a channel drives is none of it.
+    /// Returns the imposed flow. Velocities and samples are the sum of it and of the flow of the bodies. The flow that
+    /// the drive of a channel causes is not part of it.
     fn imposed(&self) -> ImposedFlow {
         ImposedFlow::NONE
     }
 
-    /// Strain by which images are displaced (no dimension): one above by that times the period across.
+    /// Returns the strain by which images are displaced (no dimension): one above by that times the period across.
     fn strain(&self) -> f64 {
         0.0
     }
 
-    /// The rigid walls and obstacles at rest that there are besides the straight walls of the domain, sorted, with what
-    /// is rigid to the left of their sides; by default none.
+    /// Returns the rigid walls and obstacles at rest that there are besides the straight walls of the domain, sorted,
+    /// with what is rigid to the left of their sides; by default none.
     fn walls(&self) -> Option<&Boundary> {
         None
     }
 
-    /// Distance of the nodes of [`Hydrodynamics::walls`] at each of their sides (length), by which gaps beside the
-    /// walls are known to be resolved; by default empty, so that nothing is known.
+    /// Returns the distance of the nodes of [`Hydrodynamics::walls`] at each of their sides (length), which shows
+    /// whether gaps at the walls are resolved; by default empty, which means unknown.
     fn wall_spacings(&self) -> &[f64] {
         &[]
     }
 
-    /// True where bodies are of revolution about the x axis, whose markers are those of the meridian and its mirror
+    /// Returns true if bodies are of revolution about the x axis, whose markers lie on the meridian and its mirror
     /// image, with the forces on halves of rings; by default false.
     fn axisymmetric(&self) -> bool {
         false
     }
 
-    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`, and tells the force dipoles by which
+    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`, and reports the force dipoles by which
     /// it keeps bodies rigid ([`Markers::set_rigid_dipole`]).
     ///
     /// # Errors
-    /// Positions or forces that are not finite, markers beyond a wall, no convergence.
+    /// Returns an error for positions or forces that are not finite, markers beyond a wall, no convergence.
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError>;
 
-    /// The flow at `points` for the positions and forces in `markers` (whose velocities must be those of
-    /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. For pictures and files, not for stepping.
-    /// Points beyond a wall get the continuation of the flow by the method, which means nothing.
+    /// Writes the flow at `points` for the positions and forces in `markers` (whose velocities must come from
+    /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. Use it for pictures and files, not for
+    /// steps. Points beyond a wall get the continuation of the flow by the method, which has no physical meaning.
     ///
     /// # Errors
-    /// As [`Hydrodynamics::velocities`], and slices of different length.
+    /// Returns the errors of [`Hydrodynamics::velocities`], and an error for slices of different length.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
 
-    /// Work done since the start.
+    /// Returns the work done since the start.
     fn work(&self) -> FlowWork;
 
-    /// Settings of the flow with which results may be off by more than a per cent; by default none.
+    /// Returns the settings of the flow with which results may be off by more than 1 %; by default none.
     fn warnings(&self) -> Vec<Warning> {
         Vec::new()
     }
 
-    /// State on which the next evaluation depends besides its arguments, such as the last solution, from which an
-    /// iteration starts; by default nothing.
+    /// Returns the state on which the next evaluation depends besides its arguments, such as the last solution, from
+    /// which an iteration starts; by default nothing.
     fn save(&self) -> SavedState {
         SavedState::default()
     }

@@ -31,7 +31,7 @@ pub struct IntegratorWork {
 /// The equations of motion of all bodies of a scene as an integrator sees them: `d state/dt = rate + L state` for one
 /// flat list of numbers, the rate explicit, the linear part L implicit. [`crate::System`] is one.
 pub trait Dynamics {
-    /// Length of the state.
+    /// Returns the length of the state.
     fn state_len(&self) -> usize;
 
     /// Copies the state to `state`, resizing it.
@@ -40,20 +40,20 @@ pub trait Dynamics {
     /// Gives the bodies a state of their present lengths.
     ///
     /// # Errors
-    /// A state that a body refuses.
+    /// Returns an error for a state that a body refuses.
     fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError>;
 
-    /// The explicit rate of change (unit of the state per time) of `state`, which the bodies take over.
+    /// Writes the explicit rate of change (unit of the state per time) of `state`, which the bodies take over.
     ///
     /// # Errors
-    /// Those of the bodies and of the flow.
+    /// Returns the errors of the bodies and of the flow.
     fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError>;
 
-    /// The explicit rate of change (unit of the state per time) at the present state, whose flow is computed only if it
-    /// is not known yet.
+    /// Writes the explicit rate of change (unit of the state per time) at the present state, whose flow is computed
+    /// only if it is not known yet.
     ///
     /// # Errors
-    /// Those of the bodies and of the flow.
+    /// Returns the errors of the bodies and of the flow.
     fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError>;
 
     /// Adds `factor * L(state) state` to `out`; see [`crate::Body::add_implicit`].
@@ -65,7 +65,8 @@ pub trait Dynamics {
     /// Writes the sizes of the entries of the state; see [`crate::Body::write_scales`].
     fn write_scales(&self, scales: &mut [f64]);
 
-    /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
+    /// Returns the fastest decay that follows from the bodies' limits at the present state, without stabilisers
+    /// (1/time).
     fn fastest_decay(&self) -> f64;
 }
 
@@ -101,7 +102,7 @@ impl<I: Integrator> From<I> for Box<dyn Integrator> {
 
 /// Advances the state of all bodies by one step.
 pub trait Integrator: Any + std::fmt::Debug + Send {
-    /// Name in messages and checkpoints.
+    /// Returns the name in messages and checkpoints.
     fn name(&self) -> &'static str;
 
     /// Advances the states of `system` by `dt` (time): reads them with [`Dynamics::write_state`], computes rates
@@ -110,44 +111,44 @@ pub trait Integrator: Any + std::fmt::Debug + Send {
     /// scene's.
     ///
     /// # Errors
-    /// Those of the bodies and of the flow.
+    /// Returns the errors of the bodies and of the flow.
     fn step(&mut self, system: &mut dyn Dynamics, dt: f64) -> Result<(), SceneError>;
 
-    /// Length of the interval of stability on the negative real axis: a mode that decays at the rate r is stable for
-    /// `dt < interval / r`. No dimension; 2 for the midpoint rule, for which bodies estimate their limits.
+    /// Returns the length of the interval of stability on the negative real axis: a mode that decays at the rate r is
+    /// stable for `dt < interval / r`. No dimension; 2 for the midpoint rule, for which bodies estimate their limits.
     fn stability_interval(&self) -> f64;
 
-    /// True where bodies are to make their stiff couplings implicit by adding and subtracting a diffusion
+    /// Returns true if bodies should make their stiff couplings implicit, by adding and subtracting a diffusion
     /// ([`crate::body::StepInfo::stabilised`]); an integrator with a long interval of stability does better without.
     fn stabilised(&self) -> bool {
         true
     }
 
-    /// The constant C of an error of a step of about `C dt^3 y'''`, from which it is estimated for
-    /// [`crate::StepSize::Adaptive`]; `None`, the default, where the error is of another form. No dimension.
+    /// Returns the constant C of an error of a step of about `C dt^3 y'''`, from which it is estimated for
+    /// [`crate::StepSize::Adaptive`]; `None`, the default, if the error has another form. No dimension.
     fn error_constant(&self) -> Option<f64> {
         None
     }
 
-    /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
-    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. For
-    /// integrators whose stability limit is so long that it says nothing of accuracy.
+    /// Returns the largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
+    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. Use it
+    /// for integrators whose stability limit is so long that it says nothing about accuracy.
     fn error_bound(&self) -> Option<f64> {
         None
     }
 
-    /// Work since the start.
+    /// Returns the work since the start.
     fn work(&self) -> IntegratorWork {
         IntegratorWork::default()
     }
 
-    /// Writes what it keeps from step to step, so that it can go on bitwise identically; most keep nothing.
+    /// Writes what it keeps from step to step, so that it can continue bitwise identically; most keep nothing.
     fn save(&self, _record: &mut SavedState) {}
 
     /// Takes back what [`Integrator::save`] wrote.
     ///
     /// # Errors
-    /// A state that another kind of integrator wrote.
+    /// Returns an error for a state that another kind of integrator wrote.
     fn load(&mut self, _saved: &SavedState) -> Result<(), SceneError> {
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Bodies in Stokes flow without inertia: what is common to all bodies and to all ways of computing the flow.
+//! Bodies in Stokes flow: what all bodies and all methods of computing the flow have in common.
 //!
 //! Bodies put forces on the fluid at their markers; the fluid moves the markers:
 //!
@@ -6,12 +6,12 @@
 //! bodies --forces--> Hydrodynamics --marker velocities--> bodies (rate of their state) --> Integrator
 //! ```
 //!
-//! [`Hydrodynamics`] is everything between forces and velocities; the crates `ib-core` (by a grid) and
-//! `boundary-integral` (without one) have flows, [`Substrate`] is the simplest. A [`Body`] is anything with markers; a
-//! [`Scene`] couples bodies and advances them by an [`integrator`], watches their [gaps](gap), and is saved to a
-//! [`checkpoint`]; observers look on during a [`Run`].
+//! [`Hydrodynamics`] is everything between forces and velocities. The crates `ib-core` (with a grid) and
+//! `motile-boundary-integrals` (without one) have such flows, and [`Substrate`] is the simplest. A [`Body`] is anything
+//! with markers. A [`Scene`] couples bodies, advances them with an [`integrator`], monitors their [gaps](gap), and can
+//! be saved to a [`checkpoint`]. To record data during a [`Run`], attach an observer.
 //!
-//! A point that a spring draws to the origin, on a substrate of friction 2:
+//! In this example, a spring draws a point to the origin, on a substrate of friction 2:
 //!
 //! ```
 //! use motile_base::Vec2;
@@ -41,7 +41,7 @@ pub mod step_report;
 mod threads;
 
 /// Version of the program and, after a plus sign, of the numbers that it computes, which is raised whenever the same
-/// scene comes to other ones. Results that are kept on disk carry it, so that those of another version are not taken
+/// scene comes to other ones. Results that are kept on disk carry it, so that results of another version are not taken
 /// for new ones.
 pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+2");
 

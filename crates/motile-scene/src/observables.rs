@@ -11,10 +11,10 @@ pub use moment_ellipse::MomentEllipse;
 pub use stress::Stress;
 
 impl<H: Hydrodynamics> System<H> {
-    /// Deformation of a body that is a closed curve, and its motion along itself, in the present state.
+    /// Returns the deformation of a body that is a closed curve, and its motion along itself, in the present state.
     ///
     /// # Errors
-    /// [`SceneError::Refused`]; those of [`System::evaluate`]; a body of fewer than eight markers.
+    /// Returns [`SceneError::Refused`]; the errors of [`System::evaluate`]; a body of fewer than eight markers.
     pub fn deformation(&mut self, handle: impl Into<Handle<dyn Body>>) -> Result<Deformation, SceneError> {
         self.evaluate()?;
         let flow = self.flow_at(handle)?;

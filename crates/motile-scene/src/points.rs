@@ -29,7 +29,7 @@ pub fn translate(by: Vec2, state: &mut [f64]) {
 /// Reads marker positions (length) from a state that [`write()`] wrote.
 ///
 /// # Errors
-/// A coordinate that is not finite; the points are then as before.
+/// Returns an error for a coordinate that is not finite; the points are then as before.
 pub fn read(state: &[f64], points: &mut [Vec2]) -> Result<(), BodyError> {
     if let Some(index) = state.iter().position(|value| !value.is_finite()) {
         return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });

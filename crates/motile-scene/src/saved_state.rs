@@ -25,19 +25,19 @@ pub struct Record {
 const FOREIGN: &str = "a saved state, of another body or scene,";
 
 impl SavedState {
-    /// The counts, if there are N of them.
+    /// Returns the counts, if there are N of them.
     ///
     /// # Errors
-    /// Another number of counts.
+    /// Returns an error for another number of counts.
     pub fn counts_of<const N: usize>(&self) -> Result<[u64; N], InputError> {
         let wrong = |_| InputError::WrongLength { name: FOREIGN, expected: N, found: self.counts.len() };
         self.counts.as_slice().try_into().map_err(wrong)
     }
 
-    /// The real numbers, if there are `expected` of them and all are finite.
+    /// Returns the real numbers, if there are `expected` of them and all are finite.
     ///
     /// # Errors
-    /// Another number of them, or one that is not finite.
+    /// Returns an error for another number of them, or one that is not finite.
     pub fn reals_of(&self, expected: usize) -> Result<&[f64], InputError> {
         same_length(FOREIGN, expected, self.reals.len())?;
         all_finite("a saved state", &self.reals)?;

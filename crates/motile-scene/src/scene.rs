@@ -33,6 +33,7 @@ use crate::{
 
 /// Bodies coupled by a fluid, and the integrator that advances them.
 #[derive(Debug)]
+#[doc(alias("simulation", "world"))]
 pub struct Scene<H> {
     system: System<H>,
     integrator: Box<dyn Integrator>,
@@ -48,7 +49,7 @@ pub struct Scene<H> {
 }
 
 impl<H: Hydrodynamics> Scene<H> {
-    /// A scene without bodies, advanced by the midpoint rule.
+    /// Creates a scene without bodies, advanced by the midpoint rule.
     #[must_use]
     pub fn new(hydrodynamics: H) -> Self {
         Self {
@@ -65,8 +66,8 @@ impl<H: Hydrodynamics> Scene<H> {
         }
     }
 
-    /// Sets the integrator from the present state on (the midpoint rule otherwise): an [`IntegratorKind`] or one of
-    /// one's own. Handles stay valid.
+    /// Sets the integrator from the present state on (the midpoint rule otherwise): an [`IntegratorKind`] or your own.
+    /// Handles stay valid.
     #[must_use]
     pub fn advanced_by(self, integrator: impl Into<Box<dyn Integrator>>) -> Self {
         Self { integrator: integrator.into(), control: StepControl::default(), ..self }
@@ -87,27 +88,27 @@ impl<H: Hydrodynamics> Scene<H> {
         self
     }
 
-    /// Bounds gaps from below (length): a step after which an interface is closer to another body, to its
-    /// own image or to a wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that
-    /// they drain as the kernel and not as the fluid has it. By default gaps are measured ([`System::minimum_gap`],
-    /// [`System::minimum_wall_gap`]) and only overlaps are errors. Two solids may be closer than that, because they may
-    /// touch: of them a warning tells ([`System::warnings`]).
+    /// Bounds gaps from below (length). If a step brings an interface closer to another body, to its own image or to a
+    /// wall, it returns [`SceneError::Gap`]. Use this on a grid, because a grid resolves gaps of two spacings and more
+    /// only; narrower gaps drain as the kernel and not as the fluid has it. By default gaps are measured
+    /// ([`System::minimum_gap`], [`System::minimum_wall_gap`]) and only overlaps are errors. Two solids may be closer
+    /// than that, because they may touch: then you get a warning ([`System::warnings`]).
     ///
     /// # Errors
-    /// A bound that is not finite.
+    /// Returns an error for a bound that is not finite.
     pub fn with_least_gap(mut self, bound: f64) -> Result<Self, InputError> {
         self.system.contacts.least_gap = Some(finite("the bound on gaps", bound)?);
         Ok(self)
     }
 
-    /// Holds the scene to be its own mirror image in y = 0 from now on: after each step a body and its mirror
-    /// image, which may be itself, are taken to the mean of the two, positions and inner state. An exact solution stays
-    /// symmetric; round-off does not where the symmetric path is unstable, and so both paths can be computed. Bodies
-    /// that are added later are held as well.
+    /// Holds the scene to be its own mirror image in y = 0 from now on. After each step, a body and its mirror image,
+    /// which may be itself, are taken to the mean of the two, positions and inner state. An exact solution stays
+    /// symmetric, but round-off breaks the symmetry if the symmetric path is unstable. With this you can compute both
+    /// paths. Bodies that you add later are held as well.
     ///
     /// # Errors
-    /// [`SceneError::NotSymmetric`] for a body without a mirror image, here or in a later step; in steps also where
-    /// something else is no mirror image, such as walls.
+    /// Returns [`SceneError::NotSymmetric`] for a body without a mirror image, here or in a later step; in steps also
+    /// if something else is not a mirror image, such as walls.
     pub fn held_symmetric(mut self) -> Result<Self, SceneError> {
         self.mirror = Some(Mirror::of(&mut self.system)?);
         Ok(self)
@@ -118,38 +119,38 @@ impl<H: Hydrodynamics> Scene<H> {
     /// images, so that its strain is part of the state.
     ///
     /// # Errors
-    /// [`SceneError::Flow`] for a flow that the method or the region does not have.
+    /// Returns [`SceneError::Flow`] for a flow that the method or the region does not have.
     pub fn impose(&mut self, flow: impl Into<Imposed>) -> Result<(), SceneError> {
         self.system.impose(flow.into())
     }
 
-    /// Adds a body; the handle gives it back.
+    /// Adds a body, and returns its handle, with which you get the body back.
     pub fn add<B: Body>(&mut self, body: B) -> Handle<B> {
         self.system.push(body)
     }
 
-    /// A body.
+    /// Returns a body.
     ///
     /// # Errors
-    /// [`SceneError::Refused`] for a handle of another scene.
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
         self.system.body(handle)
     }
 
-    /// A body, to be changed between steps.
+    /// Returns a body, so that you can change it between steps.
     ///
     /// # Errors
-    /// [`SceneError::Refused`] for a handle of another scene.
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
         self.system.body_mut(handle)
     }
 
-    /// Moves bodies by `by` (length) at once, between steps: a droplet and what is inside it, say. After an error the
-    /// scene is as it was.
+    /// Moves bodies by `by` (length) at once, between steps, for example a droplet and what is inside it. After an
+    /// error, the scene is as it was.
     ///
     /// # Errors
-    /// A displacement that is not finite; [`SceneError::Refused`]; [`SceneError::Refused`] for a body that
-    /// cannot be moved as a whole; a place where it would overlap another body or lie beyond a wall.
+    /// Returns an error for a displacement that is not finite; [`SceneError::Refused`]; [`SceneError::Refused`] for a
+    /// body that cannot be moved as a whole; a place where it would overlap another body or lie beyond a wall.
     pub fn translate(&mut self, bodies: &[Handle<dyn Body>], by: Vec2) -> Result<(), SceneError> {
         finite("the displacement in x", by.x)?;
         finite("the displacement in y", by.y)?;
@@ -162,33 +163,33 @@ impl<H: Hydrodynamics> Scene<H> {
         moved
     }
 
-    /// Observables of a body in the present state, such as those of a droplet; the flow is computed if it is not known
-    /// yet.
+    /// Returns the observables of a body in the present state, such as the observables of a droplet. The flow is
+    /// computed if it is not known yet.
     ///
     /// # Errors
-    /// [`SceneError::Refused`] for a handle of another scene; those of the flow and of the body.
+    /// Returns [`SceneError::Refused`] for a handle of another scene; the errors of the flow and of the body.
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         self.system.observe(handle)
     }
 
-    /// The bodies, the fluid and the time.
+    /// Returns the bodies, the fluid and the time.
     #[must_use]
     pub fn system(&self) -> &System<H> {
         &self.system
     }
 
-    /// The bodies, the fluid and the time, to evaluate and sample the flow.
+    /// Returns the bodies, the fluid and the time, to evaluate and sample the flow.
     pub fn system_mut(&mut self) -> &mut System<H> {
         &mut self.system
     }
 
-    /// Time since the start (time).
+    /// Returns the time since the start (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.system.time()
     }
 
-    /// Steps since the start.
+    /// Returns the number of steps since the start.
     #[must_use]
     pub fn steps(&self) -> usize {
         self.system.steps()
@@ -198,7 +199,7 @@ impl<H: Hydrodynamics> Scene<H> {
     /// state.
     ///
     /// # Errors
-    /// [`SceneError::Input`], [`SceneError::TimeStepTooLarge`].
+    /// Returns [`SceneError::Input`], [`SceneError::TimeStepTooLarge`].
     pub fn check_step(&self, dt: f64) -> Result<(), SceneError> {
         positive("the time step", dt)?;
         if let Some((limit, reason, body)) = self.stable_step()
@@ -209,14 +210,14 @@ impl<H: Hydrodynamics> Scene<H> {
         Ok(())
     }
 
-    /// The largest stable step of the scene's integrator at the present state (time), or the time in which a film would
-    /// close at its present velocity where that is shorter, what sets it, and of which body.
+    /// Returns the largest stable step of the scene's integrator at the present state (time), or the time in which a
+    /// film would close at its present velocity where that is shorter, what sets it, and of which body.
     #[must_use]
     pub fn step_limit(&self) -> Option<(f64, &'static str, &str)> {
         self.least_limit(|_| true)
     }
 
-    /// The largest stable step (time), its reason and its body; see [`Scene::step_limit`].
+    /// Returns the largest stable step (time), its reason and its body; see [`Scene::step_limit`].
     pub(crate) fn stable_step(&self) -> Option<(f64, &'static str, &str)> {
         self.least_limit(|cause| cause != StepCause::Accuracy)
     }
@@ -233,17 +234,18 @@ impl<H: Hydrodynamics> Scene<H> {
         least
     }
 
-    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step.
-    /// Stability limits are not looked at here but in [`Scene::check_step`], and during a [`Run`].
+    /// Advances the scene by one step of `dt` (time). After an error, the scene is in the state before the step. This
+    /// does not check stability limits: use [`Scene::check_step`] or a [`Run`] for that.
     ///
     /// # Errors
-    /// A time step that is not positive; those of the bodies and of the flow, also at the state that the step leads to.
+    /// Returns an error for a time step that is not positive; the errors of the bodies and of the flow, also at the
+    /// state that the step leads to.
     pub fn step(&mut self, dt: f64) -> Result<(), SceneError> {
         self.attempt(dt, None).map(|_| ())
     }
 
-    /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it,
-    /// or after an error, the scene is in the state before the step.
+    /// Takes a step, and estimates its error in units of `tolerance` if one is given. If the error is above it, or
+    /// after an error, the scene is in the state before the step.
     pub(crate) fn attempt(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
         positive("the time step", dt)?;
         self.system.write_state(&mut self.saved);
@@ -281,7 +283,7 @@ impl<H: Hydrodynamics> Scene<H> {
         Ok(error.end(system, (saved, saved_lengths), dt, constant)?.map_or(1.0, |error| error / tolerance))
     }
 
-    /// The steps of the runs of this scene.
+    /// Returns the steps of the runs of this scene.
     #[must_use]
     pub fn step_report(&self) -> &StepReport {
         &self.report
@@ -297,13 +299,13 @@ impl<H: Hydrodynamics> Scene<H> {
         self.integrator.load(saved)
     }
 
-    /// The integrator.
+    /// Returns the integrator.
     #[must_use]
     pub fn integrator(&self) -> &dyn Integrator {
         self.integrator.as_ref()
     }
 
-    /// Length of the steps of runs that are given no other.
+    /// Returns the length of the steps of runs that are given no other.
     #[must_use]
     pub fn step_size(&self) -> StepSize {
         self.step_size

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Limiting {
     /// The reason, as it reads after "set by".
     pub reason: String,
-    /// The body; empty where the reason is not a body's.
+    /// The body; empty if the reason is not a body's.
     pub body: String,
     /// Steps that it set the length of.
     pub steps: usize,
@@ -24,20 +24,20 @@ pub struct StepReport {
     pub rejections: usize,
     /// Steps rejected because something went wrong in them, and retried with a shorter one.
     pub failures: usize,
-    /// The shortest step but for those that end a run or end at an exact report, which may be of any length (time;
+    /// The shortest step, except for steps that end a run or end at an exact report, which may be of any length (time;
     /// infinite before any).
     pub shortest: f64,
     /// The longest step (time).
     pub longest: f64,
     /// Largest estimated error of a step that was taken, in the measure of
-    /// [`StepSize::Adaptive`](crate::StepSize::Adaptive) (no dimension); 0 where none was estimated.
+    /// [`StepSize::Adaptive`](crate::StepSize::Adaptive) (no dimension); 0 if none was estimated.
     pub largest_error: f64,
     /// Reasons for the lengths, in the order of first occurrence.
     pub limiting: Vec<Limiting>,
 }
 
 impl StepReport {
-    /// Reason for the length of most steps.
+    /// Returns the reason for the length of most steps.
     #[must_use]
     pub fn most_limiting(&self) -> Option<&Limiting> {
         self.limiting.iter().max_by_key(|limiting| limiting.steps)

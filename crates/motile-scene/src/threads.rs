@@ -5,7 +5,7 @@ pub(crate) const MANY: usize = 6000;
 /// Pieces of work on so many markers, for any number of threads.
 pub(crate) const PIECES: usize = 16;
 
-/// Number of pieces in which work on so many markers is done where each has a result of its own.
+/// Returns the number of pieces in which work on so many markers is done where each has a separate result.
 pub(crate) fn pieces(markers: usize) -> usize {
     if markers < MANY { 1 } else { PIECES }
 }

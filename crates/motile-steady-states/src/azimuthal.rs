@@ -11,10 +11,11 @@ use crate::spectrum::{Eigenmode, NO_GROWTH, Spectrum, Symmetry, eigenvalues};
 use crate::system::{Point, System};
 use crate::{SteadyError, SteadyState};
 
-/// Largest order: those of m = 1 turn a swimmer, those of m = 2 flatten it.
+/// Largest order: disturbances of m = 1 turn a swimmer, and disturbances of m = 2 flatten it.
 const MOST_ORDER: f64 = 2.0;
-/// Part of the waves of a disturbance off the axis that is kept: products with normals alias higher ones to the poles,
-/// where a displacement that does not vanish is a singular one, whose growth rate falls as the logarithm of the nodes.
+/// Fraction of the waves of a disturbance off the axis that is kept. Products with normals alias higher ones to the
+/// poles, where a displacement that does not vanish is a singular one, whose growth rate falls as the logarithm of the
+/// nodes.
 const KEPT: f64 = 11.0 / 12.0;
 /// Speed, over the radius times the rate of diffusion, of a droplet that swims: one at rest cannot be turned.
 const SLOWEST: f64 = 1e-9;
@@ -44,14 +45,14 @@ struct Node {
     tension: [f64; 2],
 }
 
-/// Coefficients of waves of functions at the nodes: cosines from 0, or sines from 1 on.
+/// Returns the coefficients of waves of functions at the nodes: cosines start at 0, sines at 1.
 fn wave(cosine: bool, k: usize, t: f64) -> (f64, f64) {
     let n = k as f64;
     let (s, c) = (n * t).sin_cos();
     if cosine { (c, -n * s) } else { (s, n * c) }
 }
 
-/// Parameter of a node.
+/// Returns the parameter of a node.
 fn angle(node: usize, nodes: usize) -> f64 {
     PI * (node as f64 + 0.5) / nodes as f64
 }
@@ -103,8 +104,8 @@ impl Surface {
         Ok(Self { nodes: (0..n).map(node).collect(), slopes: [even, odd] })
     }
 
-    /// Derivative by t of values with the distance from the axis as a factor, even in t or odd. They are sin(t) times a
-    /// function of the other parity, so that nothing comes out of the poles.
+    /// Returns the derivative by t of values with the distance from the axis as a factor, even in t or odd. They are
+    /// sin(t) times a function of the other parity, so that nothing comes out of the poles.
     fn slope(&self, even: bool, values: impl Fn(&Node, usize) -> f64) -> DVector<f64> {
         let n = self.nodes.len();
         let values = self.nodes.iter().enumerate().map(|(j, node)| values(node, j) / angle(j, n).sin());
@@ -123,8 +124,8 @@ fn singular() -> SteadyError {
 }
 
 impl System {
-    /// Matrix of the rates (1/time) of disturbances of an order m about a steady state in three dimensions, of offsets
-    /// eta along the normal and of the concentration c', both times cos(m phi).
+    /// Returns the matrix of the rates (1/time) of disturbances of an order m about a steady state in three dimensions,
+    /// of offsets eta along the normal and of the concentration c', both times cos(m phi).
     ///
     /// With the surface's tangent tau, normal n, curvatures kappa_1 and kappa_2, the slip q and h = |X_t|
     ///
@@ -234,17 +235,18 @@ impl System {
 }
 
 impl SteadyState {
-    /// Spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order: those of
-    /// m = 1 turn a swimmer and push it aside, those of m = 2 flatten it. Shifts across the axis and turns, which
-    /// neither grow nor decay in unbounded fluid, are left out: the eigenvalues nearest to zero, of which
-    /// [`Spectrum::neutral`] is the largest. A turned droplet swims aside, so that their error is the root of the
-    /// matrix'.
+    /// Returns the spectrum in three dimensions of disturbances that vary as cos(m phi) around the axis, m the order.
+    /// Disturbances of m = 1 turn a swimmer and push it sideways, and disturbances of m = 2 flatten it. Shifts across
+    /// the axis and turns, which neither grow nor decay in unbounded fluid, are left out: the eigenvalues nearest to
+    /// zero, of which [`Spectrum::neutral`] is the largest. A turned droplet swims aside, so that their error is the
+    /// root of the matrix'.
     ///
-    /// The equations are linearised by hand and integrated over the azimuth by quadrature. Disturbances of m = 0 are
-    /// those of [`SteadyState::spectrum`].
+    /// The equations are linearised by hand and integrated over the azimuth by quadrature. For disturbances of m = 0,
+    /// use [`SteadyState::spectrum`].
     ///
     /// # Errors
-    /// Another order; a state in two dimensions; eigenvalues that do not converge; a flow that cannot be solved for.
+    /// Returns an error for another order; a state in two dimensions; eigenvalues that do not converge; a flow that
+    /// cannot be solved for.
     pub fn spectrum_around(&self, order: usize) -> Result<Spectrum, SteadyError> {
         within("the order of a disturbance", order as f64, 1.0, MOST_ORDER)?;
         let mut system = System::new(self.setup())?;

@@ -17,7 +17,7 @@ pub enum SpecialKind {
 }
 
 impl SpecialKind {
-    /// Name in files.
+    /// Returns the name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -41,7 +41,7 @@ pub struct SpecialPoint {
 }
 
 impl SpecialPoint {
-    /// Special point of a branch along a parameter; its value is not a number where the description lacks that.
+    /// Creates a special point of a branch along a parameter; its value is not a number if the description lacks that.
     #[must_use]
     pub fn new(kind: SpecialKind, critical: Critical, parameter: Parameter) -> Self {
         Self { kind, value: parameter.get(critical.state.setup()).unwrap_or(f64::NAN), critical }

@@ -28,6 +28,7 @@ type Seen<'a> = &'a mut dyn FnMut(&BranchPoint, &[SpecialPoint]) -> bool;
 
 /// Settings of a continuation by pseudo-arclength: branches are followed around folds.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("bifurcation", "pseudo-arclength", "bifurcation diagram"))]
 pub struct Continuation {
     /// Parameter along which the branch is followed.
     pub parameter: Parameter,
@@ -35,7 +36,7 @@ pub struct Continuation {
     pub range: [f64; 2],
     /// Direction of the parameter at the start: true for upwards.
     pub upwards: bool,
-    /// Largest step (no dimension): the norm of the changes of the Fourier coefficients, in units of the radius and the
+    /// Largest step (no dimension), the norm of the changes of the Fourier coefficients, in units of the radius and the
     /// mean density, and of the parameter over the length of its range.
     pub largest_step: f64,
     /// Largest number of points.
@@ -43,20 +44,21 @@ pub struct Continuation {
 }
 
 impl Continuation {
-    /// Continuation from one value of a parameter to another, with a largest step of 0.05 and at most 400 points.
+    /// Creates a continuation from one value of a parameter to another, with a largest step of 0.05 and at most 400
+    /// points.
     #[must_use]
     pub fn new(parameter: Parameter, from: f64, to: f64) -> Self {
         let range = [from.min(to), from.max(to)];
         Self { parameter, range, upwards: to > from, largest_step: 0.05, most_points: 400 }
     }
 
-    /// Branch through a state.
+    /// Returns the branch through a state.
     ///
-    /// `seen` is called with each point and the special points before it; the branch ends where it returns false.
+    /// It calls `seen` with each point and the special points before it. The branch ends when `seen` returns false.
     ///
     /// # Errors
-    /// A description without the parameter; a range that is empty or does not hold the start; no convergence at the
-    /// first step. Later failures end the branch: [`Branch::end`].
+    /// Returns an error for a description without the parameter; a range that is empty or does not hold the start; no
+    /// convergence at the first step. Later failures end the branch: [`Branch::end`].
     pub fn follow(
         &self,
         start: &SteadyState,
@@ -70,11 +72,12 @@ impl Continuation {
         follower.go(seen)
     }
 
-    /// Branch that crosses the one of a branch point there, in the direction of the critical mode or against it.
+    /// Returns the branch that crosses the one of a branch point there, in the direction of the critical mode or
+    /// against it.
     ///
     /// # Errors
-    /// As [`Continuation::follow`]; a special point that is no branch point; one at rest around a nucleus, which may
-    /// rest anywhere, that leads to nothing else.
+    /// Returns the errors of [`Continuation::follow`], and an error for a special point that is not a branch point; for
+    /// one at rest around a nucleus, which may rest anywhere, that leads to nothing else.
     pub fn switch(
         &self,
         point: &SpecialPoint,
@@ -96,15 +99,15 @@ impl Continuation {
         let profile = follower.system.profile(&follower.point);
         if !profile.nuclei.is_empty() && profile.is_at_rest() {
             return Err(SteadyError::unsupported(
-                "droplets at rest with a nucleus elsewhere cross there, no swimmers",
-                "Find a swimmer (SteadyState::find; `motile steady` does unless --uniform is given) and follow it to the \
-                 threshold",
+                "only droplets at rest with a nucleus elsewhere cross there, and no swimmers",
+                "Find a swimmer (SteadyState::find; `motile steady` does unless --uniform is given) and follow it to \
+                 the threshold",
             ));
         }
         follower.go(seen)
     }
 
-    /// First point of the branch that a critical mode leads to, beyond an amplitude of it.
+    /// Returns the first point of the branch that a critical mode leads to, beyond an amplitude of it.
     fn enter(&self, state: &SteadyState, mode: &Eigenmode, amplitude: f64) -> Result<Follower, SteadyError> {
         let mirror = state.is_mirror_symmetric() && mode.symmetry == Symmetry::Symmetric;
         let mut follower = Follower::new(*self, state, if mirror { Part::Even } else { Part::Full })?;
@@ -154,7 +157,7 @@ impl Follower {
         Ok(Self { settings, system, point, part, tangent: DVector::zeros(0), outcome: Outcome::default() })
     }
 
-    /// Number of coefficients of the part.
+    /// Returns the number of coefficients of the part.
     fn size(&self) -> usize {
         self.system.modes.part(self.part).len()
     }
@@ -163,7 +166,7 @@ impl Follower {
         self.settings.parameter.get(&self.system.model.setup).unwrap_or(f64::NAN)
     }
 
-    /// Length of the range of the parameter.
+    /// Returns the length of the range of the parameter.
     fn scale(&self) -> f64 {
         self.settings.range[1] - self.settings.range[0]
     }
@@ -175,7 +178,7 @@ impl Follower {
         Along { parameter: self.settings.parameter, direction }
     }
 
-    /// Point at an amount of a direction from here, at the same value of the parameter.
+    /// Returns the point at an amount of a direction from here, at the same value of the parameter.
     fn displaced(&self, amount: f64, direction: &DVector<f64>) -> Point {
         let range = self.system.modes.part(self.part);
         let mut point = self.point.clone();
@@ -208,7 +211,7 @@ impl Follower {
         Ok(())
     }
 
-    /// Branch to its end.
+    /// Returns the branch to its end.
     fn go(&mut self, mut seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool) -> Result<Branch, SteadyError> {
         let parameter = self.settings.parameter;
         let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new(), end: BranchEnd::MostPoints };
@@ -276,7 +279,7 @@ impl Follower {
         }
     }
 
-    /// Takes the droplet as its own base with nodes placed anew where that resolves it better. Nodes that follow a
+    /// Takes the droplet as its own base with redistributed nodes if they resolve it better. Nodes that follow a
     /// droplet which they hardly resolve follow their own errors more and more.
     fn settle_nodes(&mut self) -> Result<(), SteadyError> {
         let (point, tangent, outcome) = (self.point.clone(), self.tangent.clone(), self.outcome);
@@ -292,7 +295,7 @@ impl Follower {
         Ok(())
     }
 
-    /// Takes the droplet as its own base, with nodes placed anew, and finds the tangent over it.
+    /// Takes the droplet as its own base, with redistributed nodes, and finds the tangent over it.
     fn rebase(&mut self) -> Result<(), SteadyError> {
         let range = self.system.modes.part(self.part);
         let [ahead, behind] =
@@ -321,7 +324,7 @@ impl Follower {
     }
 
     /// Adds the present point to a branch, with the special points before it; between points where modes cross zero
-    /// growth these are `special` and those of `crossings`.
+    /// growth these are `special` and the ones of `crossings`.
     fn record(
         &self,
         branch: &mut Branch,
@@ -368,8 +371,8 @@ impl Follower {
         Ok(())
     }
 
-    /// Fold within a step, by the rule of false position (with Illinois' modification) on the slope of the parameter
-    /// along the branch, from the slopes at both ends.
+    /// Returns the fold within a step, by the rule of false position (with Illinois' modification) on the slope of the
+    /// parameter along the branch, from the slopes at both ends.
     fn fold(&mut self, before: &Place, step: f64, ends: [f64; 2]) -> Result<SpecialPoint, SteadyError> {
         let (mut low, mut high) = ((0.0, ends[0]), (step, ends[1]));
         for _ in 0..MOST_ITERATIONS {

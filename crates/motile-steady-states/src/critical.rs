@@ -24,7 +24,7 @@ pub struct Critical {
 }
 
 impl SteadyState {
-    /// Mode of this state whose eigenvalue is nearest to that of a neighbouring state's mode.
+    /// Returns the mode of this state whose eigenvalue is nearest to the eigenvalue of a neighbouring state's mode.
     pub(crate) fn track(&self, mode: &Eigenmode) -> Result<Eigenmode, SteadyError> {
         let reduced = System::new(self.setup())?.reduced(self.point(), mode.symmetry.part())?;
         let (value, _) = eigenvector(&reduced.matrix, mode.value)?;
@@ -34,16 +34,17 @@ impl SteadyState {
     /// Steady state at a nearby value of a parameter, by Newton's method from this one.
     ///
     /// # Errors
-    /// A description without this parameter; no convergence; a state that the nodes do not resolve.
+    /// Returns an error for a description without this parameter; no convergence; a state that the nodes do not
+    /// resolve.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
         self.moved_to(&parameter.with(self.setup(), value)?)
     }
 
-    /// Critical point of a mode along a parameter, where the mode neither grows nor decays: by secants on its growth
-    /// rate.
+    /// Returns the critical point of a mode along a parameter, where the mode neither grows nor decays: by secants on
+    /// its growth rate.
     ///
     /// # Errors
-    /// A description without this parameter; no critical point nearby; no convergence on the way.
+    /// Returns an error for a description without this parameter; no critical point nearby; no convergence on the way.
     pub fn critical(&self, mode: &Eigenmode, parameter: Parameter) -> Result<Critical, SteadyError> {
         let start = parameter.get(self.setup()).unwrap_or(f64::NAN);
         let unit = parameter.scale(self.setup());
@@ -74,11 +75,12 @@ impl SteadyState {
 }
 
 impl Critical {
-    /// Stability boundary in two parameters: for each of the `values` of `second`, in small steps from the value here,
-    /// the critical point along `first`; `found` is called with each. Ends before the first value without a point.
+    /// Returns the stability boundary in two parameters: for each of the `values` of `second`, in small steps from the
+    /// value here, the critical point along `first`; `found` is called with each. Ends before the first value without a
+    /// point.
     ///
     /// # Errors
-    /// A description without one of the parameters.
+    /// Returns an error for a description without one of the parameters.
     pub fn curve(
         &self,
         [first, second]: [Parameter; 2],

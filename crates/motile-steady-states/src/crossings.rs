@@ -5,8 +5,8 @@ use crate::iteration::MOST_ITERATIONS;
 use crate::spectrum::NO_GROWTH;
 use crate::{Critical, Eigenmode, Parameter, Spectrum, SteadyError, SteadyState, Symmetry};
 
-/// Eigenvalue over D/R^2 that counts as zero: a double one, as of a shift and the velocity that it starts, errs by the
-/// square root of the error of the Jacobian, 1e-10.
+/// Eigenvalue over D/R^2 that counts as zero: a double one, as of a shift and the velocity that it starts, is off by
+/// the square root of the error of the Jacobian, 1e-10.
 const NEUTRAL: f64 = 1e-5;
 /// Differences of parameter (relative), speed and frequency (in units of D/R and D/R^2) up to which two special points
 /// are one, found from both sides.
@@ -17,7 +17,7 @@ const HALVINGS: usize = 6;
 /// grows and decays: growth rates of D/R^2 times this are far from neutral ones.
 const BESIDE: f64 = 3e-4;
 
-/// True for two findings of one special point.
+/// Returns true for two findings of one special point.
 pub(crate) fn is_same(one: &SpecialPoint, other: &SpecialPoint) -> bool {
     let at = |point: &SpecialPoint| {
         let Critical { state, mode } = &point.critical;
@@ -32,7 +32,7 @@ pub(crate) fn is_same(one: &SpecialPoint, other: &SpecialPoint) -> bool {
         && (f - g).abs() < SAME
 }
 
-/// Points where modes cross zero growth between two points of a branch.
+/// Returns the points where modes cross zero growth between two points of a branch.
 pub(crate) fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) -> Vec<SpecialPoint> {
     let mut found = Vec::new();
     let rate = before.state.diffusion_rate();
@@ -76,8 +76,8 @@ pub(crate) fn crossings(parameter: Parameter, before: &BranchPoint, after: &Bran
     found
 }
 
-/// True where the number of growing modes of the symmetry of a critical mode differs on the two sides of its point, by
-/// the spectra there.
+/// Returns true if the number of growing modes of the symmetry of a critical mode differs on the two sides of its
+/// point, by the spectra there.
 fn crosses(critical: &Critical, parameter: Parameter, neutral: usize) -> Result<bool, SteadyError> {
     let Critical { state, mode } = critical;
     let (at, unit) = (parameter.get(state.setup()).unwrap_or(f64::NAN), parameter.scale(state.setup()));
@@ -88,8 +88,8 @@ fn crosses(critical: &Critical, parameter: Parameter, neutral: usize) -> Result<
     Ok(count(state, -1.0)? != count(state, 1.0)?)
 }
 
-/// Critical point between two points of a branch where mode k of a symmetry, in the order of growth rates without the
-/// neutral ones, crosses zero growth: by halving the step, then by secants.
+/// Returns the critical point between two points of a branch where mode k of a symmetry, in the order of growth rates
+/// without the neutral ones, crosses zero growth: by halving the step, then by secants.
 fn halved(
     parameter: Parameter,
     [before, after]: [&BranchPoint; 2],
@@ -113,8 +113,8 @@ fn halved(
     real_critical(&state, parameter, (symmetry, neutral), [low, high])
 }
 
-/// Critical point of a real mode beside neutral ones, by secants on the sum of their eigenvalues. Each errs by the
-/// square root of the Jacobian's error where they meet at zero, but not their sum.
+/// Returns the critical point of a real mode among neutral ones, by secants on the sum of their eigenvalues. Each is
+/// off by the square root of the Jacobian's error if they meet at zero, but their sum is not.
 fn real_critical(
     start: &SteadyState,
     parameter: Parameter,
@@ -139,18 +139,18 @@ fn real_critical(
     None
 }
 
-/// Number of modes that grow.
+/// Returns the number of modes that grow.
 fn growing(modes: &[Eigenmode]) -> usize {
     modes.iter().filter(|mode| mode.value.re > 0.0).count()
 }
 
-/// Number of eigenvalues of a symmetry that count as zero, in units of D/R^2 = `rate`.
+/// Returns the number of eigenvalues of a symmetry that count as zero, in units of D/R^2 = `rate`.
 fn neutral_modes(spectrum: &Spectrum, symmetry: Symmetry, rate: f64) -> usize {
     modes_of(spectrum, symmetry, 0).iter().filter(|mode| mode.value.norm() < NEUTRAL * rate).count()
 }
 
-/// Modes of a symmetry but the `neutral` ones nearest to zero, conjugate pairs twice: a pair that parts into two real
-/// modes is then no crossing.
+/// Returns the modes of a symmetry but the `neutral` ones nearest to zero, conjugate pairs twice: a pair that parts
+/// into two real modes is then no crossing.
 fn modes_of(spectrum: &Spectrum, symmetry: Symmetry, neutral: usize) -> Vec<Eigenmode> {
     let modes = spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry);
     let mut modes: Vec<Eigenmode> =

@@ -29,9 +29,10 @@ const LONGER: f64 = 1.3;
 /// Limit cycle: a swimmer that oscillates across a channel and is its own mirror image half a period later.
 ///
 /// Shape and concentration are trigonometric polynomials in space and time. The equations hold at K instants over half
-/// a period (Fourier collocation), more of them where the last harmonics ask for it; space is as in
+/// a period (Fourier collocation), more of them where the last harmonics ask for it. Space is as in
 /// [`crate::SteadyState`], over a base curve that moves and turns with the droplet.
 #[derive(Debug)]
+#[doc(alias("Hopf bifurcation", "periodic orbit", "oscillation"))]
 pub struct LimitCycle {
     pub(crate) system: System,
     /// Base curve at rest, its own mirror image.
@@ -68,12 +69,12 @@ impl PhaseDerivative {
         Self { matrices: [matrix(1.0), matrix(-1.0)], odd }
     }
 
-    /// Weight of coefficient `index` at instant k in its derivative at instant j.
+    /// Returns the weight of coefficient `index` at instant k in its derivative at instant j.
     fn weight(&self, index: usize, [j, k]: [usize; 2]) -> f64 {
         self.matrices[usize::from(self.odd.contains(&index))][(j, k)]
     }
 
-    /// Derivatives of poses: x returns after half a period, y and the angle change their sign.
+    /// Returns the derivatives of poses: x returns after half a period, y and the angle change their sign.
     fn of_poses(&self, poses: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let rate = |j: usize, axis: usize| -> f64 {
             let matrix = &self.matrices[usize::from(axis > 0)];
@@ -91,12 +92,12 @@ struct Along {
 }
 
 impl LimitCycle {
-    /// Limit cycle near a Hopf point with swings of about an amplitude (length), at the value of the parameter where it
-    /// has them; with an odd number of instants over half a period at first.
+    /// Creates a limit cycle near a Hopf point with swings of about an amplitude (length), at the value of the
+    /// parameter where it has them. With an odd number of instants over half a period at first.
     ///
     /// # Errors
-    /// A critical point that is no Hopf point of an antisymmetric mode; a droplet with a disc inside; an even number of
-    /// instants; no convergence.
+    /// Returns an error for a critical point that is no Hopf point of an antisymmetric mode; a droplet with a disc
+    /// inside; an even number of instants; no convergence.
     pub fn from_hopf(
         hopf: &Critical,
         parameter: Parameter,
@@ -153,11 +154,13 @@ impl LimitCycle {
         cycle.settled()
     }
 
-    /// Branch of limit cycles from a Hopf point, by pseudo-arclength: the first two have about the given amplitude
-    /// (length) and one and a half times that. `seen` is called with each, and the branch ends where it returns false.
+    /// Returns the branch of limit cycles from a Hopf point, by pseudo-arclength: the first two have about the given
+    /// amplitude (length) and one and a half times that. `seen` is called with each, and the branch ends where it
+    /// returns false.
     ///
     /// # Errors
-    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` had all cycles up to there.
+    /// Returns the errors of [`LimitCycle::from_hopf`], and an error if there is no convergence with the shortest step,
+    /// after `seen` had all cycles up to there.
     pub fn follow(
         hopf: &Critical,
         parameter: Parameter,
@@ -184,10 +187,10 @@ impl LimitCycle {
         Ok(())
     }
 
-    /// Limit cycle at another value of a parameter, in steps as long as they converge.
+    /// Returns the limit cycle at another value of a parameter, in steps as long as they converge.
     ///
     /// # Errors
-    /// A description without this parameter; no convergence with the shortest step.
+    /// Returns an error for a description without this parameter; no convergence with the shortest step.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
         let start = self.value(parameter);
         in_steps((self.copy(&self.system.model.setup)?, 0.0), 1.0, |last, part| {
@@ -198,8 +201,8 @@ impl LimitCycle {
         })
     }
 
-    /// Next cycle of a branch, `factor` times as far from this one as this is from the one before (pseudo-arclength, so
-    /// that folds are passed).
+    /// Returns the next cycle of a branch, `factor` times as far from this one as this is from the one before
+    /// (pseudo-arclength, so that folds are passed).
     fn beyond(&self, before: &Self, parameter: Parameter, factor: f64) -> Result<Self, SteadyError> {
         let change = self.value(parameter) - before.value(parameter);
         let ahead = self.value(parameter) + factor * change;
@@ -217,7 +220,7 @@ impl LimitCycle {
         next.settled()
     }
 
-    /// Cycle over base curves that follow it, at as many instants as it needs.
+    /// Returns the cycle over base curves that follow it, at as many instants as it needs.
     fn settled(mut self) -> Result<Self, SteadyError> {
         self.refit()?;
         self.newton(None)?;
@@ -228,7 +231,7 @@ impl LimitCycle {
         Ok(self)
     }
 
-    /// Cycle at another number of instants.
+    /// Returns the cycle at another number of instants.
     fn with_instants(&self, count: usize) -> Result<Self, SteadyError> {
         let mut next = self.copy(&self.system.model.setup)?;
         let (own, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
@@ -250,14 +253,14 @@ impl LimitCycle {
         Ok(next)
     }
 
-    /// Number of instants over half a period.
+    /// Returns the number of instants over half a period.
     #[must_use]
     pub fn instants(&self) -> usize {
         self.states.len()
     }
 
-    /// Tail of the series in time (no dimension), an error estimate: the last harmonics over the first, of the state
-    /// over its base curve.
+    /// Returns the tail of the series in time (no dimension), an error estimate. It is the last harmonics over the
+    /// first, of the state over its base curve.
     #[must_use]
     pub fn tail(&self) -> f64 {
         let (count, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
@@ -274,35 +277,35 @@ impl LimitCycle {
         size(count - 1).max(size(count - 2)) / size(1).max(size(2))
     }
 
-    /// Cycle with another description, as a start.
+    /// Returns the cycle with another description, as a start.
     pub(crate) fn copy(&self, setup: &motile::setup::Setup) -> Result<Self, SteadyError> {
         let Self { shape, poses, states, speed, tau, .. } = self;
         let (shape, poses, states) = (shape.clone(), poses.clone(), states.clone());
         Ok(Self { system: System::new(setup)?, shape, poses, states, speed: *speed, tau: *tau })
     }
 
-    /// Value of a parameter of the description; not a number where it has no such parameter.
+    /// Returns the value of a parameter of the description; not a number if it has no such parameter.
     #[must_use]
     pub fn value(&self, parameter: Parameter) -> f64 {
         parameter.get(&self.system.model.setup).unwrap_or(f64::NAN)
     }
 
-    /// Period (time).
+    /// Returns the period (time).
     #[must_use]
     pub fn period(&self) -> f64 {
         TAU * self.tau
     }
 
-    /// Mean speed along the channel (length per time).
+    /// Returns the mean speed along the channel (length per time).
     #[must_use]
     pub fn mean_speed(&self) -> f64 {
         self.speed
     }
 
-    /// Largest distance of the centroid from the centre line (length).
+    /// Returns the largest distance of the centroid from the centre line (length).
     ///
     /// # Errors
-    /// More nodes than a transform takes.
+    /// Returns an error for more nodes than a transform takes.
     pub fn amplitude(&self) -> Result<f64, SteadyError> {
         let heights = (0..self.poses.len()).map(|j| Ok(self.profile(j)?.moments()?.centroid.y));
         let heights = heights.collect::<Result<Vec<f64>, SteadyError>>()?;
@@ -320,13 +323,13 @@ impl LimitCycle {
         Ok((0..2000).map(|k| height(TAU * f64::from(k) / 2000.0).abs()).fold(0.0, f64::max))
     }
 
-    /// Base curve at an instant.
+    /// Returns the base curve at an instant.
     fn base(&self, instant: usize) -> Result<Base, SteadyError> {
         let [x, y, angle] = self.poses[instant];
         Ok(Base::new(&self.shape)?.moved(Vec2::new(x, y), angle))
     }
 
-    /// Droplet at an instant, in the frame that moves with the mean speed.
+    /// Returns the droplet at an instant, in the frame that moves with the mean speed.
     fn profile(&self, instant: usize) -> Result<Profile, SteadyError> {
         Ok(self.system.profile_over(&self.base(instant)?, &self.states[instant]))
     }
@@ -335,7 +338,7 @@ impl LimitCycle {
         PhaseDerivative::new(self.states.len(), self.system.modes.part(Part::Odd))
     }
 
-    /// States at the instants, each over its base curve and in the frame of that curve.
+    /// Returns the states at the instants, each over its base curve and in the frame of that curve.
     pub(crate) fn points(&self) -> Result<Vec<Point>, SteadyError> {
         let point = |(j, pose_rate)| -> Result<Point, SteadyError> {
             let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
@@ -345,8 +348,8 @@ impl LimitCycle {
         self.derivative().of_poses(&self.poses).into_iter().enumerate().map(point).collect()
     }
 
-    /// Residual of the equations, dx/dphase - tau dx/dt instant after instant, and dx/dphase over tau: the rates of a
-    /// solution, which are smoother than those of the equations before there is one.
+    /// Returns the residual of the equations, dx/dphase - tau dx/dt instant after instant, and dx/dphase over tau: the
+    /// rates of a solution, which are smoother than the rates of the equations before there is one.
     fn residual(&mut self) -> Result<(DVector<f64>, Vec<DVector<f64>>), SteadyError> {
         let (count, n) = (self.states.len(), self.system.modes.len());
         let derivative = self.derivative();
@@ -370,8 +373,8 @@ impl LimitCycle {
         Ok((residual, own))
     }
 
-    /// Linearised equations, bordered by shifts along the channel and in time, area and number of particles; and what
-    /// these two lack over all instants.
+    /// Returns the linearised equations, bordered by shifts along the channel and in time, area and number of
+    /// particles; and what these two lack over all instants.
     fn matrix(&mut self) -> Result<(DMatrix<f64>, [f64; 2]), SteadyError> {
         let (count, n) = (self.states.len(), self.system.modes.len());
         let size = count * n;
@@ -442,7 +445,7 @@ impl LimitCycle {
         })
     }
 
-    /// Linear equations for a correction, factorised, and what area and number of particles lack.
+    /// Returns the linear equations for a correction, factorised, and what area and number of particles lack.
     fn factorised(&mut self, along: Option<&Along>) -> Result<(Elimination, [f64; 2]), SteadyError> {
         let (mut matrix, lacks) = self.matrix()?;
         if let Some(Along { parameter, direction, change }) = along {
@@ -526,13 +529,13 @@ impl LimitCycle {
     }
 }
 
-/// Motion of a frame about the origin from the rate of a pose, which turns about its own place.
+/// Returns the motion of a frame about the origin from the rate of a pose, which turns about its own place.
 fn motion([x, y, turn]: [f64; 3], pose: [f64; 3]) -> FrameMotion {
     [x + turn * pose[1], y - turn * pose[0], turn]
 }
 
-/// Weights of the instant `k` of `count` over half a period in the trigonometric interpolation at a phase: for
-/// quantities that return after half a period, and for those that return with the opposite sign.
+/// Returns the weights of the instant `k` of `count` over half a period in the trigonometric interpolation at a phase:
+/// for quantities that return after half a period, and for those that return with the opposite sign.
 pub(crate) fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
     let all = 2 * count;
     let at = |k: usize| {

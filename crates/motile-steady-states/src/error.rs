@@ -39,23 +39,23 @@ pub enum SteadyError {
 motile_base::debug_as_explanation!(SteadyError);
 
 impl SteadyError {
-    /// Scene or request whose states are not of the kind that is solved for here.
+    /// Returns the error for scene or request whose states are not of the kind that is solved for here.
     pub(crate) fn unsupported(what: impl Into<String>, remedy: &str) -> Self {
         Self::refused(what, "", remedy)
     }
 
-    /// Shape or concentration that the nodes do not resolve.
+    /// Returns the error for shape or concentration that the nodes do not resolve.
     pub(crate) fn unresolved(what: &str, nodes: usize, tail: f64) -> Self {
         let value = format!("the ratio of its highest Fourier modes to the largest is {tail:.1e}");
         Self::refused(format!("the {what} is not resolved by {nodes} nodes"), value, "Use more nodes")
     }
 
-    /// Linear equations that have no solution.
+    /// Returns the error for linear equations that have no solution.
     pub(crate) fn singular(unknown: &str, remedy: &str) -> Self {
         Self::refused(format!("the linear equations of {unknown} are singular"), "", remedy)
     }
 
-    /// Point that is not found while a parameter goes from one value to the other.
+    /// Returns the error for a point that is not found while a parameter goes from one value to the other.
     pub(crate) fn not_found(what: &str, [from, to]: [f64; 2], remedy: &str) -> Self {
         Self::refused(format!("{what} was not found between {from} and {to}"), "", remedy)
     }

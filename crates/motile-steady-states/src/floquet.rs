@@ -26,7 +26,7 @@ pub struct Multipliers {
 }
 
 impl Multipliers {
-    /// Stability of the cycle, undecided if the largest multiplier has the modulus 1 within its error.
+    /// Returns the stability of the cycle, undecided if the largest multiplier has the modulus 1 within its error.
     #[must_use]
     pub fn stability(&self) -> Stability {
         // The error is that of half a period, of whose multiplier the square is listed.
@@ -34,7 +34,7 @@ impl Multipliers {
         Stability::of_rate(largest - 1.0, 2.0 * largest.sqrt() * self.neutral)
     }
 
-    /// True if all disturbances decay by more than the error of their multipliers.
+    /// Returns true if all disturbances decay by more than the error of their multipliers.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
@@ -42,12 +42,12 @@ impl Multipliers {
 }
 
 impl LimitCycle {
-    /// Floquet multipliers: squares of the eigenvalues of the map that takes a disturbance to its mirror image half a
-    /// period later. The linearised equations are integrated in time by the third-order method Radau IIA, which damps
-    /// fast modes, with trigonometric interpolation of their matrix between the instants.
+    /// Returns the Floquet multipliers: squares of the eigenvalues of the map that takes a disturbance to its mirror
+    /// image half a period later. The linearised equations are integrated in time by the third-order method Radau IIA,
+    /// which damps fast modes, with trigonometric interpolation of their matrix between the instants.
     ///
     /// # Errors
-    /// A flow that cannot be solved for; singular equations; eigenvalues that do not converge.
+    /// Returns an error for a flow that cannot be solved for; singular equations; eigenvalues that do not converge.
     pub fn multipliers(&self) -> Result<Multipliers, SteadyError> {
         let mut own = self.copy(&self.system.model.setup)?;
         let (count, n) = (own.states.len(), own.system.modes.len());
@@ -85,8 +85,8 @@ impl LimitCycle {
     }
 }
 
-/// The solutions of `dy/dt = A(t) y` at t = pi from those at 0, the columns of `flow`, in so many steps of the method
-/// Radau IIA of third order; `None` for a singular step.
+/// Returns the solutions of `dy/dt = A(t) y` at t = pi from those at 0, the columns of `flow`, in so many steps of the
+/// method Radau IIA of third order; `None` for a singular step.
 fn propagated(matrix: impl Fn(f64) -> DMatrix<f64>, mut flow: DMatrix<f64>, steps: usize) -> Option<DMatrix<f64>> {
     let (n, step) = (flow.nrows(), PI / steps as f64);
     for k in 0..steps {

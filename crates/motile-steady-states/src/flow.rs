@@ -56,7 +56,7 @@ impl Flow {
         }
     }
 
-    /// Writes the velocities (length per time) of the linear flow; false where the flow is not to be linear.
+    /// Writes the velocities (length per time) of the linear flow; false if the flow is not to be linear.
     pub(crate) fn approximate(
         &self,
         positions: &[Vec2],
@@ -85,7 +85,7 @@ impl Flow {
         if let Self::Plane { flow, .. } = self { flow.imposed() } else { ImposedFlow::NONE }
     }
 
-    /// Forces of a tension (force) at the nodes.
+    /// Returns the forces of a tension (force) at the nodes.
     pub(crate) fn tension_forces(
         &mut self,
         positions: &[Vec2],
@@ -118,7 +118,7 @@ impl Flow {
         }
     }
 
-    /// Velocity (length per time) of a rigid body; zero if there is none of that number.
+    /// Returns the velocity (length per time) of a rigid body; zero if there is none of that number.
     pub(crate) fn rigid_velocity(&self, interface: usize) -> Vec2 {
         match self {
             Self::Plane { flow, .. } => flow.rigid_motion(interface).map_or(Vec2::ZERO, |motion| motion.velocity),
@@ -126,12 +126,12 @@ impl Flow {
         }
     }
 
-    /// Force dipole of what keeps a disc rigid; none in three dimensions, where there are no discs.
+    /// Returns the force dipole of what keeps a disc rigid; none in three dimensions, if there are no discs.
     pub(crate) fn rigid_dipole(&self, interface: usize) -> Option<[[f64; 2]; 2]> {
         if let Self::Plane { flow, .. } = self { flow.rigid_dipole(interface) } else { None }
     }
 
-    /// Velocities inside the first interface, which there are in the plane alone.
+    /// Returns the velocities inside the first interface, which there are in the plane alone.
     pub(crate) fn velocities_inside(&mut self, points: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
         if let Self::Plane { flow, .. } = self { flow.velocities_inside(0, points, out) } else { Ok(()) }
     }

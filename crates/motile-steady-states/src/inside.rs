@@ -33,7 +33,7 @@ pub(crate) struct Inside {
 }
 
 impl Inside {
-    /// Inside of a droplet of that radius (length) and so many nodes; `None` where nothing is exchanged.
+    /// Returns the inside of a droplet of that radius (length) and so many nodes; `None` if nothing is exchanged.
     pub(crate) fn new(particles: &Particles, radius: f64, nodes: usize) -> Result<Option<Self>, SteadyError> {
         let exchanges = |binding: f64, unbinding: f64| binding > 0.0 || unbinding > 0.0;
         let Some(setup) = particles.exchange.filter(|setup| exchanges(setup.binding, setup.unbinding)) else {
@@ -54,12 +54,12 @@ impl Inside {
         Ok(Some(Self { exchange, area, total, at_rest: total / (perimeter + density(1.0) * area), field }))
     }
 
-    /// Number of particles inside with so many on the interface.
+    /// Returns the number of particles inside with so many on the interface.
     pub(crate) fn number(&self, on: f64) -> f64 {
         self.field.as_ref().map_or(self.total - on, |field| field.number)
     }
 
-    /// Density of particles beside a node (particles per area), with so many on the interface.
+    /// Returns the density of particles inside next to a node (particles per area), with so many on the interface.
     pub(crate) fn density(&self, on: f64, node: usize) -> f64 {
         self.field.as_ref().map_or_else(|| self.number(on) / self.area, |field| field.wall[node])
     }
@@ -178,7 +178,7 @@ impl Field {
         Ok(())
     }
 
-    /// Residual of the equations for each polynomial (1/time).
+    /// Returns the residual of the equations for each polynomial (1/time).
     fn residual(&self, on: &DVector<f64>, lengths: &DVector<f64>) -> DVector<f64> {
         let [b, bx, by] = self.values.each_ref().map(|matrix| matrix * &self.coefficients);
         let flux = |slope: &DVector<f64>, along: fn(&Vec2) -> f64| -> DVector<f64> {
@@ -193,7 +193,7 @@ impl Field {
             + self.on_wall[0].tr_mul(&lost.component_mul(lengths))
     }
 
-    /// Derivatives of the residual by the coefficients.
+    /// Returns the derivatives of the residual by the coefficients.
     fn matrix(&self, lengths: &DVector<f64>) -> DMatrix<f64> {
         let flux = |slopes: &DMatrix<f64>, along: fn(&Vec2) -> f64| {
             let mut flux = self.diffusion * slopes;
@@ -228,7 +228,7 @@ fn polynomials(points: &[Vec2], centre: Vec2, unit: f64, [values, by_x, by_y]: &
     }
 }
 
-/// Legendre polynomials at a place over a unit of length, with their derivatives by the length.
+/// Returns the Legendre polynomials at a place over a unit of length, with their derivatives by the length.
 fn legendre(x: f64, unit: f64) -> [[f64; 2]; DEGREE + 1] {
     let mut all = [[1.0, 0.0]; DEGREE + 1];
     all[1] = [x, 1.0 / unit];

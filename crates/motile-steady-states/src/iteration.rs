@@ -2,7 +2,7 @@
 
 use crate::SteadyError;
 
-/// Iterations before giving up: Newton's method that converges at all needs some six, secants some ten.
+/// Iterations before giving up: Newton's method that converges at all needs about six, secants about ten.
 pub(crate) const MOST_ITERATIONS: usize = 30;
 /// Largest change of a coefficient at once, in units of the radius and the mean density: beyond a third the linearised
 /// equations do not describe a droplet. A change of a sixth they describe well.
@@ -25,7 +25,7 @@ pub(crate) struct Outcome {
     pub(crate) iterations: usize,
     /// Largest rate of change of a coefficient (1/time).
     pub(crate) residual: f64,
-    /// Condition number of the linear equations; not a number where none were solved.
+    /// Condition number of the linear equations; not a number if none were solved.
     pub(crate) condition: f64,
 }
 
@@ -36,15 +36,15 @@ impl Default for Outcome {
 }
 
 impl Outcome {
-    /// Error of an iteration that ended here.
+    /// Returns the error of an iteration that ended here.
     pub(crate) fn failure(&self) -> SteadyError {
         let Self { residual, iterations, .. } = *self;
         SteadyError::NoConvergence { residual, iterations, remedy: REMEDY }
     }
 }
 
-/// Damped step: takes a correction whose largest coefficient is `size` whole if that is small enough, else in part,
-/// and half as much each time that `take` fails, as it does for a droplet that reaches into a wall.
+/// Returns the damped step: takes a correction whose largest coefficient is `size` whole if that is small enough, else
+/// in part, and half as much each time that `take` fails, as it does for a droplet that reaches into a wall.
 pub(crate) fn damped<T>(size: f64, mut take: impl FnMut(f64) -> Result<T, SteadyError>) -> Result<T, SteadyError> {
     let mut part = (LARGEST_CHANGE / size).min(1.0);
     loop {
@@ -55,8 +55,8 @@ pub(crate) fn damped<T>(size: f64, mut take: impl FnMut(f64) -> Result<T, Steady
     }
 }
 
-/// Continuation from a `start` to 1 in steps that are halved where `next` fails: it is given the last result and how
-/// far to go.
+/// Returns the continuation from a `start` to 1 in steps that are halved where `next` fails: it is given the last
+/// result and how far to go.
 pub(crate) fn in_steps<T>(
     (mut last, mut reached): (T, f64),
     mut step: f64,

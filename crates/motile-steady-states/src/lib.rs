@@ -1,8 +1,8 @@
 //! Steady swimmers and drops in imposed flows, their stability and bifurcations, without a run.
 //!
-//! A swimmer's speed takes hundreds of time units to settle and a growth rate of 1e-4 takes thousands to show. Here the
-//! equations of the steady state are solved by Newton's method, and the eigenvalues of their derivative say whether it
-//! is stable:
+//! In a run, a swimmer's speed takes hundreds of time units to settle, and a growth rate of 1e-4 takes thousands to
+//! show. Use this crate to get both at once: it solves the equations of the steady state with Newton's method, and the
+//! eigenvalues of their derivative show whether it is stable:
 //!
 //! ```
 //! use motile::prelude::*;
@@ -24,7 +24,7 @@
 //!
 //! # Equations
 //!
-//! Those of Cowley (chapter 2), for a droplet in a frame that moves with the velocity V:
+//! These are Cowley's equations (chapter 2), for a droplet in a frame that moves with the velocity V:
 //!
 //! ```text
 //! gamma = gamma0 - zeta_dmu c - Pi(c)                            (2.39)
@@ -34,28 +34,29 @@
 //! dc/dt = -d(c V_t)/ds + ... + D d^2c/ds^2                       (2.3)
 //! ```
 //!
-//! The shape is an offset h(a) along the normals of a fixed curve, the concentration a number of particles m(a) per
-//! parameter a. So the equations have no freedom of parametrisation, are smooth, and their eigenvalues are those of the
-//! droplet. Both fields are trigonometric polynomials on the nodes of the description, which crowd where the
-//! concentration is steep; errors fall faster than any power of their number, about a thousandfold from 64 to 128.
+//! The shape is an offset h(a) along the normals of a fixed curve, and the concentration is a number of particles m(a)
+//! per parameter a. The equations therefore have no freedom of parametrisation, are smooth, and their eigenvalues are
+//! the eigenvalues of the droplet. Both fields are trigonometric polynomials on the nodes of the description, which
+//! crowd where the concentration is steep. Errors fall faster than any power of their number, about a thousandfold from
+//! 64 to 128.
 //!
 //! Area and number of particles are conserved and rigid motions of the region change nothing, so the derivative is
-//! singular; bordered by these it is regular, and V comes out with the state. The derivative is taken by central
-//! differences (errors of 1e-9), with one solution of the flow a difference. A state that is its own mirror image is
-//! solved for among such states, and its eigenvalues come sorted by symmetry.
+//! singular. Bordered by these conditions it is regular, and V comes out with the state. The derivative is taken by
+//! central differences (errors of 1e-9), with one solution of the flow per difference. A state that is its own mirror
+//! image is solved for among such states, and its eigenvalues come sorted by symmetry.
 //!
-//! In an imposed flow (`Setup::flow`) a droplet may be without particles: its state is the shape alone, and a drop that
-//! tank-treads is steady as any other. Without a shift, a turn or a mirror image that the flow shares, states are
+//! In an imposed flow (`Setup::flow`), a droplet may have no particles. Its state is then the shape alone, and a drop
+//! that tank-treads is as steady as any other. If the flow does not share a shift, a turn or a mirror image, states are
 //! looked for among all.
 //!
-//! Particles that are exchanged with the inside count with those there: in a well-mixed inside are those that the
-//! interface lacks. A field inside that diffuses and is carried along is the steady one of the same flow, so that
-//! states are exact but their growth rates are not known.
+//! Particles that are exchanged with the inside count with those there: a well-mixed inside holds the particles that
+//! the interface lacks. A field inside that diffuses and is carried along is the steady field of the same flow, so
+//! states are exact, but their growth rates are not known.
 //!
 //! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
-//! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
-//! parameter; [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
-//! of `docs/steady-states.md` are computed with this crate.
+//! points on the way. [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
+//! parameter. [`LimitCycle`] computes the oscillations that begin at a Hopf point of a swimmer in a channel. The tables
+//! of `docs/evidence/results/steady-states.md` are computed with this crate.
 mod azimuthal;
 mod branch;
 mod continuation;

@@ -36,12 +36,12 @@ impl Base {
         Ok(Self { positions: profile.positions.clone(), normals })
     }
 
-    /// Points at offsets along the normals (length).
+    /// Returns the points at offsets along the normals (length).
     pub(crate) fn displaced(&self, offsets: &[f64]) -> impl Iterator<Item = Vec2> {
         self.positions.iter().zip(&self.normals).zip(offsets).map(|((x, n), h)| *x + *h * *n)
     }
 
-    /// Curve turned about the origin by an angle, then shifted.
+    /// Returns the curve turned about the origin by an angle, then shifted.
     pub(crate) fn moved(&self, shift: Vec2, angle: f64) -> Self {
         let turn = Vec2::from_angle(angle);
         Self {
@@ -51,7 +51,7 @@ impl Base {
     }
 }
 
-/// Unit normal to the right of a tangent, outward for a counter-clockwise curve.
+/// Returns the unit normal to the right of a tangent, outward for a counter-clockwise curve.
 fn outward(tangent: Vec2) -> Vec2 {
     -tangent.perp().normalize()
 }
@@ -60,7 +60,7 @@ fn outward(tangent: Vec2) -> Vec2 {
 /// (1/time), counter-clockwise.
 pub(crate) type FrameMotion = [f64; 3];
 
-/// Velocity of a point that moves with a frame (length per time).
+/// Returns the velocity of a point that moves with a frame (length per time).
 fn frame_velocity([ux, uy, turn]: FrameMotion, x: Vec2) -> Vec2 {
     Vec2::new(ux, uy) + turn * x.perp()
 }
@@ -92,8 +92,8 @@ struct Nucleus {
 /// dm/dt = -d(q c - D dc/ds)/da - (y_a (q c - D dc/ds) + m dy/dt)/y
 /// ```
 ///
-/// Where particles are exchanged with the inside, dm/dt gains `(k_on b - k_off c) |x_a|`, b the density inside beside
-/// the interface: uniform, of the particles that the interface lacks, or the field that is steady with the flow and c
+/// If particles are exchanged with the inside, dm/dt gains `(k_on b - k_off c) |x_a|`, b the density inside next to the
+/// interface: uniform, of the particles that the interface lacks, or the field that is steady with the flow and c
 /// ([`Inside`]).
 ///
 /// The centres of rigid discs inside move with the fluid; their coordinates x stand after the offsets and y after the
@@ -130,7 +130,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Model of a description, at an even number of nodes.
+    /// Creates a model of a description, at an even number of nodes.
     pub(crate) fn new(setup: &Setup) -> Result<Self, SteadyError> {
         let refuse = |what: &str, remedy| Err(SteadyError::unsupported(what, remedy));
         setup.check()?;
@@ -240,30 +240,31 @@ impl Model {
         })
     }
 
-    /// True where the flow of the loaded state is round-off.
+    /// Returns true if the flow of the loaded state is round-off.
     pub(crate) fn is_at_rest(&self) -> bool {
         let speed = self.rate * self.radius;
         self.velocities.iter().all(|velocity| velocity.length() < NO_FLOW * speed)
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.positions.len()
     }
 
-    /// Number of rigid discs inside.
+    /// Returns the number of rigid discs inside.
     pub(crate) fn nuclei(&self) -> usize {
         self.nuclei.len()
     }
 
-    /// Weight of a node in an integral over the interface: of the parameter in the plane, of the parameter and the
-    /// azimuth in three dimensions (length).
+    /// Returns the weight of a node in an integral over the interface: of the parameter in the plane, of the parameter
+    /// and the azimuth in three dimensions (length).
     pub(crate) fn weight(&self, node: usize) -> f64 {
         let step = TAU / self.nodes() as f64;
         self.rings.as_ref().map_or(step, |rings| rings.weights[node] * TAU * self.positions[node].y.abs())
     }
 
-    /// Area (length squared) or volume (length cubed) of the droplet at rest, and the number of particles on it.
+    /// Returns the area (length squared) or volume (length cubed) of the droplet at rest, and the number of particles
+    /// on it.
     fn conserved(&self) -> [f64; 2] {
         let radius = self.radius;
         let [size, surface] = match self.rings {
@@ -273,7 +274,8 @@ impl Model {
         [size, surface * self.concentration]
     }
 
-    /// Area or volume and number of particles that the loaded state lacks, over those of the droplet at rest.
+    /// Returns the area or volume and number of particles that the loaded state lacks, over their values for the
+    /// droplet at rest.
     pub(crate) fn lacks(&self) -> [f64; 2] {
         let dimensions = if self.rings.is_some() { 3.0 } else { 2.0 };
         let curve = self.positions.iter().zip(&self.tangents).enumerate();
@@ -285,58 +287,60 @@ impl Model {
         [1.0 - size / size_at_rest, particles]
     }
 
-    /// Unit of rates: D/R^2 with particles (1/time).
+    /// Returns the unit of rates: D/R^2 with particles (1/time).
     pub(crate) fn rate_unit(&self) -> f64 {
         self.rate
     }
 
-    /// True where the number of particles is an equation of its own: that on the interface, or that of all where those
-    /// inside diffuse. In a well-mixed inside are those that the interface lacks.
+    /// Returns true if the number of particles has a separate equation. It is the number on the interface, or of all
+    /// particles if particles inside diffuse. A well-mixed inside holds the particles that the interface lacks.
     pub(crate) fn keeps_number(&self) -> bool {
         self.carries() && self.inside.as_ref().is_none_or(|inside| inside.field.is_some())
     }
 
-    /// True where particles diffuse inside.
+    /// Returns true if particles diffuse inside.
     pub(crate) fn has_field(&self) -> bool {
         self.inside.as_ref().is_some_and(|inside| inside.field.is_some())
     }
 
-    /// Number of particles inside the state of the last rates and the rate at which they bind less that at which they
-    /// unbind (1/time); `None` without an exchange.
+    /// Returns the number of particles inside the state of the last rates and the rate at which they bind less that at
+    /// which they unbind (1/time); `None` without an exchange.
     pub(crate) fn inside(&self) -> Option<(f64, f64)> {
         let (inside, on) = (self.inside.as_ref()?, self.number());
         let gains = (0..self.nodes()).map(|k| self.gain(inside, on, k) * self.weight(k));
         Some((inside.number(on), gains.sum()))
     }
 
-    /// Number of particles inside over that on the interface of the circle at rest, where they diffuse; else zero.
+    /// Returns the number of particles inside over that on the interface of the circle at rest, where they diffuse;
+    /// else zero.
     pub(crate) fn diffusing(&self) -> f64 {
         let field = self.inside.as_ref().and_then(|inside| inside.field.as_ref());
         field.map_or(0.0, |field| field.number / self.conserved()[1])
     }
 
-    /// Number of particles on the loaded interface.
+    /// Returns the number of particles on the loaded interface.
     fn number(&self) -> f64 {
         (0..self.nodes()).map(|k| self.concentrations[k] * self.tangents[k].length() * self.weight(k)).sum()
     }
 
-    /// Rate at which the density m of a node grows by exchange (1/time), with so many particles on the interface.
+    /// Returns the rate at which the density m of a node grows by exchange (1/time), with so many particles on the
+    /// interface.
     fn gain(&self, inside: &Inside, on: f64, node: usize) -> f64 {
         let bound = inside.exchange.binding() * inside.density(on, node);
         (bound - inside.exchange.unbinding() * self.concentrations[node]) * self.tangents[node].length()
     }
 
-    /// True with particles on the interface.
+    /// Returns true with particles on the interface.
     pub(crate) fn carries(&self) -> bool {
         self.concentration > 0.0
     }
 
-    /// Imposed flow, without what the drive of a channel drives.
+    /// Returns the imposed flow, without what the drive of a channel drives.
     pub(crate) fn imposed(&self) -> ImposedFlow {
         self.flow.imposed()
     }
 
-    /// True where the imposed flow is its own mirror image at the x axis.
+    /// Returns true if the imposed flow is its own mirror image at the x axis.
     pub(crate) fn is_mirror_symmetric(&self) -> bool {
         let ImposedFlow { velocity: [_, v], gradient: [[_, uy], [vx, _]], .. } = self.imposed();
         v == 0.0 && uy == 0.0 && vx == 0.0
@@ -350,7 +354,7 @@ impl Model {
         matches!(self.setup.region, Region::Channel { .. })
     }
 
-    /// True for bodies of revolution in three dimensions.
+    /// Returns true for bodies of revolution in three dimensions.
     pub(crate) fn is_axisymmetric(&self) -> bool {
         self.rings.is_some()
     }
@@ -396,20 +400,20 @@ impl Model {
         self.flow.release();
     }
 
-    /// Force dipoles (force times length) of what keeps the discs rigid in the loaded state.
+    /// Returns the force dipoles (force times length) of what keeps the discs rigid in the loaded state.
     pub(crate) fn rigid_dipoles(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
         (1..=self.nuclei()).filter_map(|disc| self.flow.rigid_dipole(disc))
     }
 
-    /// Flow of the loaded state at points (length).
+    /// Returns the flow of the loaded state at points (length).
     pub(crate) fn sample(&mut self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
         let mut samples = vec![FlowSample::default(); points.len()];
         self.flow.sample(points, &mut samples)?;
         Ok(samples)
     }
 
-    /// Derivatives of area or volume and of the number of particles, over those of the droplet at rest, by the offset
-    /// and by the density of each node.
+    /// Returns the derivatives of area or volume and of the number of particles, over their values for the droplet at
+    /// rest, by the offset and by the density of each node.
     pub(crate) fn conserved_gradients(&self, base: &Base) -> [(Vec<f64>, Vec<f64>); 2] {
         let [size, number] = self.conserved();
         let gradients = (0..self.nodes()).map(|k| {
@@ -472,7 +476,7 @@ impl Model {
         }
     }
 
-    /// Velocities of the discs as rates.
+    /// Returns the velocities of the discs as rates.
     fn carry(&mut self, velocity: impl Fn(&Nucleus) -> Vec2) {
         let nodes = self.nodes();
         for (k, nucleus) in self.nuclei.iter().enumerate() {

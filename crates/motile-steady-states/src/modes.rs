@@ -25,7 +25,7 @@ pub(crate) enum Part {
 ///
 /// First come the mirror-symmetric ones: cosines of the offsets from the mean on, cosines of the densities, x of the
 /// discs over the radius; then the sines of both and y of the discs. The unpaired mode of an even number of nodes is
-/// left out. In lists of values at the nodes x follows the offsets and y the densities.
+/// left out. In lists of values at the nodes, x follows the offsets and y the densities.
 #[derive(Debug)]
 pub(crate) struct Modes {
     series: PeriodicSeries,
@@ -39,13 +39,13 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// Layout of so many nodes and discs; a unit of density of zero stands for no particles.
+    /// Returns the layout of so many nodes and discs; a unit of density of zero stands for no particles.
     pub(crate) fn new(nodes: usize, scales: [f64; 2], nuclei: usize) -> Result<Self, SteadyError> {
         let fields = if scales[1] == 0.0 { 1 } else { 2 };
         Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, fields, nuclei })
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.series.len()
     }
@@ -55,12 +55,12 @@ impl Modes {
         self.scales
     }
 
-    /// Number of all coefficients.
+    /// Returns the number of all coefficients.
     pub(crate) fn len(&self) -> usize {
         self.fields * (2 * self.largest + 1) + 2 * self.nuclei
     }
 
-    /// Coefficients of a part.
+    /// Returns the coefficients of a part.
     pub(crate) fn part(&self, part: Part) -> Range<usize> {
         let even = self.even();
         match part {
@@ -70,12 +70,13 @@ impl Modes {
         }
     }
 
-    /// Number of mirror-symmetric coefficients.
+    /// Returns the number of mirror-symmetric coefficients.
     fn even(&self) -> usize {
         self.fields * (self.largest + 1) + self.nuclei
     }
 
-    /// Kind of a coefficient: true for the density (else the offset), true for a sine (else a cosine), wave number.
+    /// Returns the kind of a coefficient: true for the density (else the offset), true for a sine (else a cosine), wave
+    /// number.
     fn kind(&self, index: usize) -> (bool, bool, usize) {
         let sine = index >= self.even();
         let index = if sine { index - self.even() } else { index };
@@ -84,7 +85,8 @@ impl Modes {
         (index >= waves, sine, index % waves + first)
     }
 
-    /// Disc whose centre a coefficient belongs to, and true for y (else x); `None` for Fourier coefficients.
+    /// Returns the disc whose centre a coefficient belongs to, and true for y (else x); `None` for Fourier
+    /// coefficients.
     fn nucleus(&self, index: usize) -> Option<(usize, bool)> {
         let (even, all) = (self.even(), self.len());
         match index {
@@ -94,17 +96,17 @@ impl Modes {
         }
     }
 
-    /// True for a coordinate of a disc.
+    /// Returns true for a coordinate of a disc.
     pub(crate) fn is_of_disc(&self, index: usize) -> bool {
         self.nucleus(index).is_some()
     }
 
-    /// Wave number of a coefficient; 1 for the centre of a disc.
+    /// Returns the wave number of a coefficient; 1 for the centre of a disc.
     pub(crate) fn wave(&self, index: usize) -> usize {
         if self.nucleus(index).is_some() { 1 } else { self.kind(index).2 }
     }
 
-    /// Index of the coefficient of a kind.
+    /// Returns the index of the coefficient of a kind.
     pub(crate) fn index(&self, density: bool, sine: bool, wave: usize) -> usize {
         let field = usize::from(density);
         if sine { self.even() + field * self.largest + wave - 1 } else { field * (self.largest + 1) + wave }
@@ -127,7 +129,7 @@ impl Modes {
         }
     }
 
-    /// Coefficients of offsets and densities at the nodes.
+    /// Returns the coefficients of offsets and densities at the nodes.
     pub(crate) fn analyse(&mut self, offsets: &[f64], density: &[f64]) -> Result<DVector<f64>, SteadyError> {
         let [r, c] = self.scales;
         let nodes = self.nodes();
@@ -155,7 +157,7 @@ impl Modes {
         Ok(state)
     }
 
-    /// Offsets and densities at the nodes.
+    /// Returns the offsets and densities at the nodes.
     pub(crate) fn synthesise(&self, state: &DVector<f64>) -> (Vec<f64>, Vec<f64>) {
         let values = self.nodes() + self.nuclei;
         let (mut offsets, mut density) = (vec![0.0; values], vec![0.0; values]);

@@ -6,16 +6,16 @@ use crate::model::TOLERANCE;
 use crate::modes::Part;
 use crate::system::{Along, Equations, Point, System};
 
-/// Convergence: rates err by TOLERANCE, corrections by that times a condition number of some 1e3, so smaller ones are
-/// round-off.
+/// Convergence: rates have an error of TOLERANCE, and corrections are off by TOLERANCE times a condition number of
+/// about 1e3, so smaller ones are round-off.
 const SMALLEST_CORRECTION: f64 = 3e3 * TOLERANCE;
 /// Largest rate of change (in units of D/R^2) of a state: solutions among mirror-symmetric droplets that are not
 /// steady against the other symmetry have rates of order one, the errors of nodes lie far below.
 const LARGEST_RATE: f64 = 0.1;
 
 impl System {
-    /// Newton's method from a point, for the coefficients of a part of the state; with an equation for a parameter
-    /// also for that, and the system is then the one at the value found. On failure the point is as far as it came.
+    /// Runs Newton's method from a point, for the coefficients of a part of the state. With an equation for a parameter
+    /// also for that, and the system is then the one at the value found. On failure, the point is as far as it came.
     pub(crate) fn newton(
         &mut self,
         point: &mut Point,
@@ -78,8 +78,9 @@ impl System {
         Err(outcome.failure())
     }
 
-    /// Steady to round-off: the rates (1/time) hold second derivatives of concentrations, which err by TOLERANCE times
-    /// the square of the largest wave number, half the number of nodes; area and particles are those of the droplet.
+    /// Steady to round-off: the rates (1/time) hold second derivatives of concentrations, whose error is TOLERANCE
+    /// times the square of the largest wave number, half the number of nodes. Area and particles are the same as for
+    /// the droplet.
     fn is_steady(&self, residual: f64) -> bool {
         let floor = TOLERANCE * (0.5 * self.model.nodes() as f64).powi(2) * self.model.rate_unit();
         residual < floor && self.model.lacks().iter().all(|lack| lack.abs() < SMALLEST_CORRECTION)

@@ -25,7 +25,7 @@ pub enum Parameter {
     ViscosityInside,
     /// Viscosity of the exterior fluid (stress times time) at a fixed viscosity of the droplet.
     ViscosityOutside,
-    /// Viscosity of the droplet over that of the exterior fluid, at a fixed sum of both.
+    /// Viscosity of the droplet over the viscosity of the exterior fluid, at a fixed sum of both.
     ViscosityRatio,
     /// Width of a channel (length).
     Width,
@@ -61,13 +61,14 @@ impl Parameter {
         ("extension", Self::ExtensionRate),
     ];
 
-    /// Name in command lines and files, from [`Parameter::NAMES`].
+    /// Returns the name in command lines and files, from [`Parameter::NAMES`].
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    /// Value in a description; `None` where the description has no such parameter, as the width outside of channels.
+    /// Returns the value in a description; `None` if the description has no such parameter, as the width outside of
+    /// channels.
     #[must_use]
     pub fn get(self, setup: &Setup) -> Option<f64> {
         let droplet = setup.droplets.first()?;
@@ -107,16 +108,16 @@ impl Parameter {
         }
     }
 
-    /// Size of the value in a description, in units of which steps of it are taken: 0.01 at least, for values near
-    /// zero.
+    /// Returns the size of the value in a description, in units of which steps of it are taken: 0.01 at least, for
+    /// values near zero.
     pub(crate) fn scale(self, setup: &Setup) -> f64 {
         self.get(setup).unwrap_or(0.0).abs().max(0.01)
     }
 
-    /// Description with this parameter at another value.
+    /// Returns the description with this parameter at another value.
     ///
     /// # Errors
-    /// A description without the parameter.
+    /// Returns an error for a description without the parameter.
     pub fn with(self, setup: &Setup, value: f64) -> Result<Setup, SteadyError> {
         let missing = || {
             let what = format!("the scene has no parameter {}", self.name());

@@ -23,7 +23,7 @@ const MOST_WAVES: f64 = 12.0;
 const NODES_PER_WAVE: f64 = 7.0;
 /// Amplitude of modes, over the mean, below which there is nothing to resolve, as in the concentration at rest.
 const FLAT: f64 = 1e-3;
-/// Tail of the Fourier series above which the nodes on the way, and those of a branch, are placed anew.
+/// Highest Fourier modes above which the nodes on the way, and the nodes of a branch, are redistributed.
 pub(crate) const RESOLVED: f64 = 5e-4;
 /// Change of the parameter of a place on a curve below which it is found.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
@@ -76,7 +76,7 @@ impl Sampler {
     }
 }
 
-/// Series through real values at the nodes.
+/// Returns the series through real values at the nodes.
 pub(crate) fn analyse<'a>(
     series: &mut PeriodicSeries,
     values: impl ExactSizeIterator<Item = &'a f64>,
@@ -84,7 +84,7 @@ pub(crate) fn analyse<'a>(
     Ok(series.analyse(values.map(|&value| Complex64::new(value, 0.0)))?)
 }
 
-/// Derivative by the parameter of a real function given at the nodes.
+/// Returns the derivative by the parameter of a real function given at the nodes.
 fn derivative(values: &[f64]) -> Result<Vec<f64>, SteadyError> {
     let mut series = PeriodicSeries::new(values.len())?;
     analyse(&mut series, values.iter())?;
@@ -92,7 +92,8 @@ fn derivative(values: &[f64]) -> Result<Vec<f64>, SteadyError> {
     Ok(series.values().iter().map(|z| z.re).collect())
 }
 
-/// Integral over the parameter of a real function given at the nodes: its mean, and the periodic remainder as a series.
+/// Returns the integral over the parameter of a real function given at the nodes: its mean, and the periodic remainder
+/// as a series.
 fn integral(values: &[f64]) -> Result<(f64, PeriodicSeries), SteadyError> {
     let mut series = PeriodicSeries::new(values.len())?;
     analyse(&mut series, values.iter())?;
@@ -101,7 +102,7 @@ fn integral(values: &[f64]) -> Result<(f64, PeriodicSeries), SteadyError> {
     Ok((mean, series))
 }
 
-/// Value and derivative of a trigonometric polynomial at a parameter, from its coefficients.
+/// Returns the value and derivative of a trigonometric polynomial at a parameter, from its coefficients.
 fn evaluated(coefficients: &[Complex64], parameter: f64) -> (Complex64, Complex64) {
     let (len, unit) = (coefficients.len(), Complex64::cis(parameter));
     let (mut value, mut rate, mut power) = (coefficients[0], Complex64::ZERO, unit);
@@ -115,11 +116,12 @@ fn evaluated(coefficients: &[Complex64], parameter: f64) -> (Complex64, Complex6
 }
 
 impl Profile {
-    /// Profile of a droplet from its N markers (length) and the numbers of particles on its N segments, segment k from
-    /// marker k to the next: markers become nodes, and the series of the density has these means over the segments.
+    /// Creates a profile of a droplet from its N markers (length) and the numbers of particles on its N segments,
+    /// segment k from marker k to the next. Markers become nodes, and the series of the density has these means over
+    /// the segments.
     ///
     /// # Errors
-    /// Lists of different length, or longer than a transform takes.
+    /// Returns an error for lists of different length, or longer than a transform takes.
     pub fn from_markers(markers: &[Vec2], numbers: &[f64]) -> Result<Self, SteadyError> {
         let count = markers.len();
         same_length("particle numbers", count, numbers.len())?;
@@ -137,13 +139,14 @@ impl Profile {
         Ok(Self { positions: markers.to_vec(), density, nuclei: Vec::new() })
     }
 
-    /// Profile with rigid discs inside, at these centres (length).
+    /// Returns the profile with rigid discs inside, at these centres (length).
     #[must_use]
     pub fn with_nuclei(self, nuclei: Vec<Vec2>) -> Self {
         Self { nuclei, ..self }
     }
 
-    /// True for particles that are spread evenly to a thousandth, as at rest; branches of swimmers begin farther off.
+    /// Returns true for particles that are spread evenly to a thousandth, as at rest; branches of swimmers begin
+    /// farther off.
     pub(crate) fn is_at_rest(&self) -> bool {
         let [least, most] = self.density.iter().fold([f64::INFINITY, 0.0], |[a, b], m| [m.min(a), m.max(b)]);
         most - least <= 1e-3 * most
@@ -154,19 +157,19 @@ impl Profile {
         self.positions.iter_mut().chain(&mut self.nuclei).for_each(|position| position.x += x);
     }
 
-    /// Droplet with its centroid at x = 0.
+    /// Returns the droplet with its centroid at x = 0.
     pub(crate) fn centred(mut self) -> Result<Self, SteadyError> {
         self.shift(-self.moments()?.centroid.x);
         Ok(self)
     }
 
-    /// Number N of nodes.
+    /// Returns the number N of nodes.
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.positions.len()
     }
 
-    /// Mirror image of the droplet at the x axis, counter-clockwise from the image of the first node.
+    /// Returns the mirror image of the droplet at the x axis, counter-clockwise from the image of the first node.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let n = self.nodes();
@@ -178,8 +181,8 @@ impl Profile {
         }
     }
 
-    /// Mirror-symmetric droplet next to this one: its centroid is shifted to the x axis, its first node to where it
-    /// crosses the axis in front, and it is averaged with its mirror image.
+    /// Returns the mirror-symmetric droplet next to this one: its centroid is shifted to the x axis, its first node to
+    /// where it crosses the axis in front, and it is averaged with its mirror image.
     pub(crate) fn symmetrised(&self) -> Result<Self, SteadyError> {
         let centroid = self.moments()?.centroid;
         let count = self.nodes();
@@ -201,7 +204,7 @@ impl Profile {
         Ok(Self { positions, density, nuclei }.mean_with_image())
     }
 
-    /// Mean of this droplet, whose first node is on the x axis, and its mirror image.
+    /// Returns the mean of this droplet, whose first node is on the x axis, and its mirror image.
     pub(crate) fn mean_with_image(mut self) -> Self {
         let image = self.mirrored();
         self.positions.iter_mut().zip(&image.positions).for_each(|(here, there)| *here = 0.5 * (*here + *there));
@@ -210,10 +213,10 @@ impl Profile {
         self
     }
 
-    /// Arc length from the first node (length) and concentration (particles per length) at the nodes.
+    /// Returns the arc length from the first node (length) and concentration (particles per length) at the nodes.
     ///
     /// # Errors
-    /// More nodes than a transform takes.
+    /// Returns an error for more nodes than a transform takes.
     pub fn concentrations(&self) -> Result<(Vec<f64>, Vec<f64>), SteadyError> {
         let rates: Vec<f64> = self.tangents()?.iter().map(|t| t.length()).collect();
         let (mean, mut periodic) = integral(&rates)?;
@@ -259,7 +262,7 @@ impl Profile {
         Ok(())
     }
 
-    /// Derivative of the positions by the parameter at the nodes (length).
+    /// Returns the derivative of the positions by the parameter at the nodes (length).
     pub(crate) fn tangents(&self) -> Result<Vec<Vec2>, SteadyError> {
         let mut series = PeriodicSeries::new(self.nodes())?;
         series.analyse_vectors(&self.positions)?;
@@ -269,9 +272,9 @@ impl Profile {
         Ok(tangents)
     }
 
-    /// Droplet at another number of nodes, of equal spacing or, where `crowding` is positive, crowding where the
-    /// concentration is steep: with the density of nodes `sqrt(1 + (crowding/c0 dc/ds)^2)` over the arc length,
-    /// smoothed; without particles where the curve is bent, the curvature taking the place of the slope.
+    /// Returns the droplet at another number of nodes, of equal spacing or, where `crowding` is positive, crowding
+    /// where the concentration is steep. The density of nodes is then `sqrt(1 + (crowding/c0 dc/ds)^2)` over the arc
+    /// length, smoothed; without particles where the curve is bent, the curvature taking the place of the slope.
     pub(crate) fn resampled(&self, nodes: usize, crowding: f64) -> Result<Self, SteadyError> {
         let fine = 4 * self.nodes().max(nodes);
         let sampler = Sampler::new(self)?;
@@ -332,8 +335,8 @@ impl Profile {
         Ok(result)
     }
 
-    /// Droplet as offsets along the normals of another curve and density per parameter of that curve; `None` where the
-    /// normals do not cross the droplet one after the other.
+    /// Returns the droplet as offsets along the normals of another curve and density per parameter of that curve;
+    /// `None` if the normals do not cross the droplet one after the other.
     pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<Fields>, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = origins.len();
@@ -389,7 +392,7 @@ pub(crate) struct AreaMoments {
 }
 
 impl AreaMoments {
-    /// Aspect ratio: square root of the second moment along a unit vector over that across it.
+    /// Returns the aspect ratio: square root of the second moment along a unit vector over that across it.
     pub(crate) fn aspect_ratio(&self, along: Vec2) -> f64 {
         let [xx, xy, yy] = self.second;
         let moment = |u: Vec2| u.x * u.x * xx + 2.0 * u.x * u.y * xy + u.y * u.y * yy;
@@ -398,7 +401,7 @@ impl AreaMoments {
 }
 
 impl Profile {
-    /// Moments of the area inside.
+    /// Returns the moments of the area inside.
     pub(crate) fn moments(&self) -> Result<AreaMoments, SteadyError> {
         let fine = self.resample_fine()?;
         let tangents = fine.tangents()?;
@@ -415,7 +418,7 @@ impl Profile {
         Ok(AreaMoments { centroid, second: [xx, xy, yy] })
     }
 
-    /// Series at twice the nodes, for integrals of products of three.
+    /// Returns the series at twice the nodes, for integrals of products of three.
     pub(crate) fn resample_fine(&self) -> Result<Self, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = 2 * self.nodes();
@@ -424,7 +427,7 @@ impl Profile {
         Ok(Self { positions, density, nuclei: self.nuclei.clone() })
     }
 
-    /// Least curvature (1/length) at the nodes.
+    /// Returns the minimum curvature (1/length) at the nodes.
     pub(crate) fn least_curvature(&self) -> Result<f64, SteadyError> {
         let tangents = self.tangents()?;
         let turning = Self { positions: tangents.clone(), density: Vec::new(), nuclei: Vec::new() }.tangents()?;
@@ -432,7 +435,7 @@ impl Profile {
         Ok(curvature.fold(f64::INFINITY, f64::min))
     }
 
-    /// Largest and smallest concentration (particles per length), between the nodes too.
+    /// Returns the largest and smallest concentration (particles per length), between the nodes too.
     pub(crate) fn extrema(&self) -> Result<[f64; 2], SteadyError> {
         let sampler = Sampler::new(self)?;
         let at = |parameter: f64| {
@@ -460,7 +463,8 @@ impl Profile {
         Ok([extremum(1.0), extremum(-1.0)])
     }
 
-    /// Ratio of the last eighth of the Fourier coefficients to the largest, of the shape and of the density.
+    /// Returns the ratio of the last eighth of the Fourier coefficients to the largest, of the shape and of the
+    /// density.
     pub(crate) fn tails(&self) -> Result<[(&'static str, f64); 2], SteadyError> {
         let count = self.nodes();
         let sampler = Sampler::new(self)?;

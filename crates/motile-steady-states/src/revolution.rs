@@ -27,7 +27,7 @@ impl Rings {
         Self { weights: (0..nodes).map(weight).collect() }
     }
 
-    /// Factor of a sum over forces at nodes that makes it an integral over the surface.
+    /// Returns the factor of a sum over forces at nodes that makes it an integral over the surface.
     pub(crate) fn of_forces(&self, node: usize) -> f64 {
         self.weights[node] * self.weights.len() as f64 / PI
     }
@@ -70,7 +70,7 @@ pub(crate) struct VolumeMoments {
 }
 
 impl VolumeMoments {
-    /// Moments from the series at twice the nodes, by Gauss' theorem.
+    /// Creates moments from the series at twice the nodes, by Gauss' theorem.
     pub(crate) fn of(profile: &Profile) -> Result<Self, SteadyError> {
         let fine = profile.resample_fine()?;
         let (tangents, rings) = (fine.tangents()?, Rings::new(fine.nodes()));

@@ -21,7 +21,7 @@ struct Attempt {
     most_nodes: Option<usize>,
     /// Change of the coefficients in a time R^2/D below which Newton's method takes over.
     steady: f64,
-    /// Part of the usual change of the coefficients in a step.
+    /// Fraction of the usual change of the coefficients in a step.
     part: f64,
 }
 
@@ -32,34 +32,34 @@ const ATTEMPTS: [Attempt; 4] = [
     Attempt { most_nodes: Some(FINEST), steady: 0.003, part: 1.0 },
     Attempt { most_nodes: Some(FINEST), steady: 0.003, part: 0.2 },
 ];
-/// Part of the activity at which a state is looked for where there is none in reach at the whole.
+/// Fraction of the activity at which a state is looked for if there is none in reach at the whole.
 const WEAKER: f64 = 0.5;
 /// Largest relative change of the velocity by Newton's method: more is another state than the one settled to.
 const SAME_VELOCITY: f64 = 0.3;
 /// First step in time, in units of R^2/D: an implicit step longer than the time in which a disturbance grows would
 /// reverse that disturbance, and with it the direction of swimming.
 const FIRST_STEP: f64 = 5e-3;
-/// Growth of the rates in a step that is still taken: instabilities on the way grow by some e in a step, and rates of
+/// Growth of the rates in a step that is still taken. Instabilities on the way grow by some e in a step, and rates of
 /// short waves that grow more show a step too long for them.
 const LARGEST_GROWTH: f64 = 3.0;
 /// Speed over D/R of a droplet at rest, far above the error of nodes.
 const AT_REST: f64 = 1e-3;
 /// Speed over D/R of a droplet that may turn round in a long step.
 const SLOW: f64 = 1e-2;
-/// Steps in time before giving up, of the usual length; a droplet that settles takes some thirty.
+/// Steps in time before giving up, of the usual length; a droplet that settles takes about thirty.
 const MOST_STEPS: usize = 80;
 
 impl SteadyState {
-    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow: implicit steps in time from
-    /// the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A start that is
-    /// its own mirror image at the x axis leads to a state that is, too. A start that swims does not lead to a droplet
-    /// at rest that is unstable: this is tried again with shorter steps. Where this fails it is done at half the
-    /// activity, and the activity then raised in steps. Where particles diffuse inside, it starts from the state with a
-    /// well-mixed inside, and where that is not near, from the description.
+    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow. It takes implicit steps in
+    /// time from the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A
+    /// start that is its own mirror image at the x axis leads to a state that is, too. A start that swims does not lead
+    /// to a droplet at rest that is unstable: this is tried again with shorter steps. If this fails, it is done at half
+    /// the activity, and the activity then raised in steps. If particles diffuse inside, it starts from the state with
+    /// a well-mixed inside, and if that is not near, from the description.
     ///
     /// # Errors
-    /// A description of anything but one round droplet (with rigid discs inside, if any) by the method of
-    /// boundary integrals; no convergence; a state that the nodes do not resolve.
+    /// Returns an error for a description of anything but one round droplet (with rigid discs inside, if any) by the
+    /// method of boundary integrals; no convergence; a state that the nodes do not resolve.
     pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
         Self::settled(setup).or_else(|error| {
             let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
@@ -79,7 +79,7 @@ impl SteadyState {
         })
     }
 
-    /// State by steps in time and Newton's method, in a few attempts.
+    /// Creates a state by steps in time and Newton's method, in a few attempts.
     fn settled(setup: &Setup) -> Result<Self, SteadyError> {
         let start = start(setup)?;
         let mirror = is_mirror(&start) && System::new(setup)?.model.is_mirror_symmetric();
@@ -126,8 +126,8 @@ impl SteadyState {
         Err(failure)
     }
 
-    /// True for a droplet at rest, without an imposed flow, that a swimmer cannot have settled to: disturbances of its
-    /// own symmetry grow, as far as they are known.
+    /// Returns true for a droplet at rest, without an imposed flow, that a swimmer cannot have settled to: disturbances
+    /// of its own symmetry grow, as far as they are known.
     fn is_left(&self) -> bool {
         let (Ok(system), speed) = (System::new(self.setup()), self.velocity().length()) else { return false };
         if !system.model.imposed().is_none() || speed > AT_REST * self.diffusion_rate() * system.model.radius {
@@ -139,7 +139,7 @@ impl SteadyState {
     }
 }
 
-/// Error of a search that has ended at a droplet at rest.
+/// Returns the error of a search that has ended at a droplet at rest.
 fn at_rest() -> SteadyError {
     SteadyError::unsupported(
         "the search for a swimmer ended at the droplet at rest, which is unstable, even with short steps",
@@ -171,7 +171,7 @@ impl Settling {
         Ok(Self { system, point, part, rates, step, attempt })
     }
 
-    /// True where the droplet moves by itself.
+    /// Returns true if the droplet moves by itself.
     fn swims(&self) -> bool {
         let model = &self.system.model;
         model.carries() && model.imposed().is_none() && !model.is_at_rest()
@@ -256,19 +256,19 @@ impl Settling {
     }
 }
 
-/// Description at another number of nodes.
+/// Returns the description at another number of nodes.
 fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
     Setup { method: Method::Integral(IntegralMethod { nodes, elements: 4 * nodes }), ..setup.clone() }
 }
 
-/// Description with particles that are well mixed inside, where they diffuse in this one.
+/// Returns the description with particles that are well mixed inside, where they diffuse in this one.
 fn well_mixed(setup: &Setup) -> Option<Setup> {
     let mut setup = setup.clone();
     setup.droplets.first_mut()?.particles.as_mut()?.exchange.as_mut()?.diffusion_inside.take()?;
     Some(setup)
 }
 
-/// Droplet from which a run of a description starts, with its discs.
+/// Returns the droplet from which a run of a description starts, with its discs.
 fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let nodes = System::new(setup)?.model.nodes();
     let fine = with_nodes(setup, nodes.max(2 * COARSE));
@@ -294,7 +294,8 @@ pub(crate) fn check_axis(setup: &Setup, part: Part) -> Result<(), SteadyError> {
     Ok(())
 }
 
-/// True for a droplet that is its own mirror image at the x axis, to the six digits in which squeezed shapes are.
+/// Returns true for a droplet that is its own mirror image at the x axis, to the six digits in which squeezed shapes
+/// are.
 fn is_mirror(profile: &Profile) -> bool {
     let other = profile.mirrored();
     let largest = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));

@@ -20,7 +20,7 @@ pub enum Symmetry {
 }
 
 impl Symmetry {
-    /// Part of the state space that holds such disturbances.
+    /// Returns the part of the state space that holds such disturbances.
     pub(crate) fn part(self) -> Part {
         match self {
             Self::Symmetric => Part::Even,
@@ -29,7 +29,7 @@ impl Symmetry {
         }
     }
 
-    /// Name in files.
+    /// Returns the name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,7 +51,7 @@ pub struct Eigenmode {
 }
 
 impl Eigenmode {
-    /// Number of eigenvalues that this one stands for: two for a conjugate pair.
+    /// Returns the number of eigenvalues that this one stands for: two for a conjugate pair.
     pub(crate) fn multiplicity(&self) -> usize {
         if self.value.im == 0.0 { 1 } else { 2 }
     }
@@ -66,11 +66,12 @@ impl Eigenmode {
 pub struct Spectrum {
     /// Eigenvalues, largest growth rate first, one of each conjugate pair.
     pub modes: Vec<Eigenmode>,
-    /// Error estimate (1/time): the largest growth rate of a rigid motion, zero but for the truncation of the series.
+    /// Error estimate (1/time): the largest growth rate of a rigid motion, which is zero up to the truncation of the
+    /// series.
     pub neutral: f64,
     /// Growth rate (1/time) that counts as zero: round-off, 1e-8 D/R^2.
     pub zero: f64,
-    /// Error estimate of the growth rates (1/time): that of rigid motions, or round-off if that is more.
+    /// Error estimate of the growth rates (1/time): the rate of rigid motions, or round-off if that is more.
     pub error: f64,
 }
 
@@ -79,20 +80,21 @@ pub struct Spectrum {
 pub(crate) const NO_GROWTH: f64 = 1e-8;
 
 impl Spectrum {
-    /// Mode that grows fastest or decays slowest; `None` if there are no modes.
+    /// Returns the mode that grows fastest or decays slowest; `None` if there are no modes.
     #[must_use]
     pub fn leading(&self) -> Option<&Eigenmode> {
         self.modes.first()
     }
 
-    /// Stability of the state, undecided if the largest growth rate is zero within its error. Disturbances that neither
-    /// grow nor decay to round-off, such as shifts of a droplet at rest, have no part in it.
+    /// Returns the stability of the state, undecided if the largest growth rate is zero within its error. Disturbances
+    /// that neither grow nor decay to round-off, such as shifts of a droplet at rest, have no part in it.
     #[must_use]
     pub fn stability(&self) -> Stability {
         self.stability_within(self.error)
     }
 
-    /// Stability of the state if growth rates err by as much as `error` (1/time), at least by round-off.
+    /// Returns the stability of the state if growth rates are off by as much as `error` (1/time), at least by
+    /// round-off.
     #[must_use]
     pub fn stability_within(&self, error: f64) -> Stability {
         let rates = self.modes.iter().filter(|mode| mode.value.norm() > self.zero).map(|mode| mode.value.re);
@@ -100,14 +102,14 @@ impl Spectrum {
         rates.reduce(f64::max).map_or(Stability::Stable, |rate| Stability::of_rate(rate, error))
     }
 
-    /// Number of growing disturbances by their rates alone, conjugate pairs counted twice. [`Spectrum::stability`] is
-    /// the verdict, which compares the rates with their error.
+    /// Returns the number of growing disturbances by their rates alone, conjugate pairs counted twice.
+    /// [`Spectrum::stability`] is the verdict, which compares the rates with their error.
     #[must_use]
     pub fn unstable(&self) -> usize {
         self.modes.iter().filter(|mode| mode.value.re > self.zero).map(Eigenmode::multiplicity).sum()
     }
 
-    /// Eigenvalues of one symmetry (1/time), largest growth rate first.
+    /// Returns the eigenvalues of one symmetry (1/time), largest growth rate first.
     pub fn of(&self, symmetry: Symmetry) -> impl Iterator<Item = Complex64> + '_ {
         self.modes.iter().filter(move |mode| mode.symmetry == symmetry).map(|mode| mode.value)
     }
@@ -134,7 +136,7 @@ pub(crate) struct Reduced {
     neutral: f64,
 }
 
-/// Orthonormal columns that span the orthogonal complement of some vectors, by Householder reflections.
+/// Returns the orthonormal columns that span the orthogonal complement of some vectors, by Householder reflections.
 pub(crate) fn complement(vectors: &[DVector<f64>], n: usize) -> DMatrix<f64> {
     let mut q = DMatrix::identity(n, n);
     for (k, vector) in vectors.iter().enumerate() {
@@ -155,7 +157,7 @@ pub(crate) fn complement(vectors: &[DVector<f64>], n: usize) -> DMatrix<f64> {
 }
 
 impl System {
-    /// Linearised equations about a steady state.
+    /// Returns the linearised equations about a steady state.
     pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
         if self.model.has_field() {
             return Err(SteadyError::unsupported(
@@ -191,7 +193,7 @@ impl System {
         Ok(Reduced { matrix: basis.transpose() * jacobian * &basis, basis, neutral })
     }
 
-    /// Eigenvalues of all disturbances of a state of the given part, by symmetry if it is mirror-symmetric.
+    /// Returns the eigenvalues of all disturbances of a state of the given part, by symmetry if it is mirror-symmetric.
     pub(crate) fn spectrum(&mut self, point: &Point, part: Part) -> Result<Spectrum, SteadyError> {
         let symmetries: &[Symmetry] = match part {
             // Of bodies of revolution only disturbances that leave them so are known.
@@ -213,7 +215,7 @@ impl System {
 }
 
 impl System {
-    /// Coefficients of a mode, all of those of the state.
+    /// Returns the coefficients of a mode, as many as the state has.
     pub(crate) fn mode(&mut self, point: &Point, mode: &Eigenmode) -> Result<DVector<Complex64>, SteadyError> {
         let part = mode.symmetry.part();
         let Reduced { matrix, basis, .. } = self.reduced(point, part)?;
@@ -224,7 +226,7 @@ impl System {
         Ok(whole)
     }
 
-    /// Shape of a mode.
+    /// Returns the shape of a mode.
     pub(crate) fn mode_shape(&mut self, point: &Point, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
         let state = self.mode(point, mode)?;
         let state = &state / largest(&state);
@@ -246,27 +248,27 @@ impl System {
     }
 }
 
-/// Real matrix as a complex one.
+/// Returns the real matrix as a complex one.
 pub(crate) fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
     matrix.map(|value| Complex64::new(value, 0.0))
 }
 
-/// Entry of the largest modulus.
+/// Returns the entry of the largest modulus.
 fn largest(vector: &DVector<Complex64>) -> Complex64 {
     vector.iter().copied().fold(Complex64::ZERO, |a, b| if b.norm() > a.norm() { b } else { a })
 }
 
-/// Iterations of the Schur decomposition: it takes two or three a row, at most a few thousand rows.
+/// Iterations of the Schur decomposition: it takes two or three per row, at most a few thousand rows.
 const MOST_SWEEPS: usize = 100_000;
 
-/// Eigenvalues of a real matrix.
+/// Returns the eigenvalues of a real matrix.
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
     let failed = || SteadyError::singular("the eigenvalues", "Use another number of nodes");
     let schur = nalgebra::Schur::try_new(matrix.clone(), f64::EPSILON, MOST_SWEEPS).ok_or_else(failed)?;
     Ok(schur.complex_eigenvalues().iter().map(|z| Complex64::new(z.re, z.im)).collect())
 }
 
-/// Eigenvalue nearest to `value` and its eigenvector, with the largest entry 1, by inverse iteration.
+/// Returns the eigenvalue nearest to `value` and its eigenvector, with the largest entry 1, by inverse iteration.
 pub(crate) fn eigenvector(
     matrix: &DMatrix<f64>,
     value: Complex64,

@@ -12,8 +12,8 @@ pub enum Stability {
 }
 
 impl Stability {
-    /// Verdict on a largest growth rate with an error (1/time, or both without a dimension). A rate or an error that is
-    /// not a number decides nothing.
+    /// Creates a verdict on a largest growth rate with an error (1/time, or both without a dimension). A rate or an
+    /// error that is not a number decides nothing.
     ///
     /// ```
     /// use motile_steady_states::Stability;
@@ -32,8 +32,8 @@ impl Stability {
         }
     }
 
-    /// Verdict on a whole of which these are the parts: one that is unstable decides, one that is undecided leaves the
-    /// others undecided.
+    /// Creates a verdict on a whole of which these are the parts: one that is unstable decides, one that is undecided
+    /// leaves the others undecided.
     #[must_use]
     pub fn of_parts(parts: impl IntoIterator<Item = Self>) -> Self {
         let worse = |a: Self, b: Self| match (a, b) {
@@ -44,7 +44,7 @@ impl Stability {
         parts.into_iter().fold(Self::Stable, worse)
     }
 
-    /// True or false if it is decided.
+    /// Returns true or false if it is decided.
     #[must_use]
     pub fn decided(self) -> Option<bool> {
         match self {
@@ -54,7 +54,7 @@ impl Stability {
         }
     }
 
-    /// Name in files.
+    /// Returns the name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -23,7 +23,8 @@ use crate::{Profile, SteadyError};
 
 /// Markers for each node in observables, which are of second order in the spacing of markers.
 const REFINEMENT: usize = 16;
-/// Tail of the Fourier series from which on a state is not resolved: measured values would err by a part in a thousand.
+/// Tail of the Fourier series above which a state is not resolved: measured values would be off by one part in a
+/// thousand.
 const LONGEST_TAIL: f64 = 0.01;
 
 /// Steady state of a droplet: shape and concentration are constant in a frame that moves, and may turn, with it.
@@ -31,6 +32,7 @@ const LONGEST_TAIL: f64 = 0.01;
 /// Found by Newton's method. Both are trigonometric polynomials on the nodes of [`motile::setup::IntegralMethod`] (its
 /// cells have no part in this), so errors fall faster than any power of the number of nodes.
 #[derive(Debug, Clone)]
+#[doc(alias("Newton method", "fixed point"))]
 pub struct SteadyState {
     setup: Setup,
     point: Point,
@@ -50,9 +52,9 @@ pub struct SteadyState {
 pub struct Measured {
     /// Speed relative to the imposed flow at the centroid (length per time).
     pub speed: f64,
-    /// Stresslet S_uu along the direction u of motion (force times length), that of the flow far away: the traceless
-    /// part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them (in three
-    /// dimensions force times length too); along x at rest.
+    /// Stresslet S_uu along the direction u of motion (force times length), which the flow far away shows: the
+    /// traceless part of the dipole of all forces on the fluid in and on the droplet, a disc inside among them (in
+    /// three dimensions force times length too); along x at rest.
     pub stresslet: f64,
     /// Aspect ratio: square root of the second moment of the area along the motion over that across it, as in
     /// [`Observables::aspect_ratio_moments`]; along x at rest.
@@ -83,10 +85,10 @@ pub struct Cost {
 }
 
 impl SteadyState {
-    /// State of rest of a description: a circle of uniform concentration, steady wherever it has room.
+    /// Creates the state of rest of a description: a circle of uniform concentration, steady wherever it has room.
     ///
     /// # Errors
-    /// As [`SteadyState::find`].
+    /// Returns the errors of [`SteadyState::find`].
     pub fn uniform(setup: &Setup) -> Result<Self, SteadyError> {
         let model = System::new(setup)?.model;
         if !model.imposed().is_none() {
@@ -102,12 +104,13 @@ impl SteadyState {
         Self::of(&system, point, outcome, Part::Even)
     }
 
-    /// Steady state near a droplet, such as one from a run ([`Profile::from_markers`]) or of a neighbouring state
-    /// ([`SteadyState::profile`]), with its velocity (length per time), by Newton's method. With `mirror` only states
-    /// that are their own mirror image at the x axis are looked for, from the mean of the droplet and its image.
+    /// Finds the steady state near a droplet, such as one from a run ([`Profile::from_markers`]) or of a neighbouring
+    /// state ([`SteadyState::profile`]), with its velocity (length per time), by Newton's method. With `mirror`, it
+    /// looks only for states that are their own mirror image at the x axis, starting from the mean of the droplet and
+    /// its image.
     ///
     /// # Errors
-    /// As [`SteadyState::find`].
+    /// Returns the errors of [`SteadyState::find`].
     pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
         if mirror && !System::new(setup)?.model.is_mirror_symmetric() {
             let what = "the imposed flow has no mirror symmetry";
@@ -122,7 +125,7 @@ impl SteadyState {
         Self::from_profile(setup, profile, [velocity.x, across, 0.0], Part::Full)
     }
 
-    /// Newton's method twice: on nodes that suit the start, then on those that suit the result.
+    /// Runs Newton's method twice: on nodes that suit the start, then on nodes that suit the result.
     pub(crate) fn from_profile(
         setup: &Setup,
         profile: &Profile,
@@ -152,7 +155,8 @@ impl SteadyState {
         Ok((system, point, outcome))
     }
 
-    /// State of a point to which Newton's method has converged; refused where the nodes do not resolve it.
+    /// Creates the state of a point to which Newton's method has converged. It refuses a point that the nodes do not
+    /// resolve.
     pub(crate) fn of(system: &System, point: Point, outcome: Outcome, part: Part) -> Result<Self, SteadyError> {
         let profile = system.profile(&point);
         let tails = profile.tails()?;
@@ -167,7 +171,7 @@ impl SteadyState {
         Ok(Self { setup, point, profile, outcome, mirror: part == Part::Even, tail, velocity, rate })
     }
 
-    /// State of a neighbouring description, over the same nodes unless the droplet changes much.
+    /// Returns the state of a neighbouring description, over the same nodes unless the droplet changes much.
     pub(crate) fn moved_to(&self, setup: &Setup) -> Result<Self, SteadyError> {
         let mut system = System::new(setup)?;
         let mut point = self.point.clone();
@@ -178,7 +182,7 @@ impl SteadyState {
         Self::from_profile(setup, &system.profile(&point), point.frame, self.part())
     }
 
-    /// Part of the state space that the state was found in.
+    /// Returns the part of the state space that the state was found in.
     pub(crate) fn part(&self) -> Part {
         if self.mirror { Part::Even } else { Part::Full }
     }
@@ -191,88 +195,91 @@ impl SteadyState {
         self.outcome
     }
 
-    /// Rate D/R^2 (1/time).
+    /// Returns the rate D/R^2 (1/time).
     pub(crate) fn diffusion_rate(&self) -> f64 {
         self.rate
     }
 
-    /// Description of the scene.
+    /// Returns the description of the scene.
     #[must_use]
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// Shape and density of particles.
+    /// Returns the shape and density of particles.
     #[must_use]
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// Velocity of the droplet's centroid (length per time).
+    /// Returns the velocity of the droplet's centroid (length per time).
     #[must_use]
     pub fn velocity(&self) -> Vec2 {
         self.velocity
     }
 
-    /// Rate at which the droplet turns (1/time), counter-clockwise. In the plane it then swims in a circle, of a radius
-    /// of the speed over this rate.
+    /// Returns the rate at which the droplet turns (1/time), counter-clockwise. In the plane it then swims in a circle,
+    /// of a radius of the speed over this rate.
     #[must_use]
     pub fn turning_rate(&self) -> f64 {
         self.point.frame[2]
     }
 
-    /// True for a state that is its own mirror image at the x axis.
+    /// Returns true for a state that is its own mirror image at the x axis.
     #[must_use]
     pub fn is_mirror_symmetric(&self) -> bool {
         self.mirror
     }
 
-    /// Residual (1/time): the largest rate of change of a Fourier coefficient of shape or density, in units of the
-    /// radius and the mean density.
+    /// Returns the residual (1/time). It is the largest rate of change of a Fourier coefficient of shape or density, in
+    /// units of the radius and the mean density.
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.outcome.residual
     }
 
-    /// Tail of the Fourier series (no dimension): the ratio of the last coefficients to the largest, of shape or
-    /// density, whichever is larger. Measured values err by a tenth of it or less.
+    /// Returns the tail of the Fourier series (no dimension). It is the ratio of the last coefficients to the largest,
+    /// of shape or density, whichever is larger. Measured values are off by a tenth of it or less.
     #[must_use]
     pub fn tail(&self) -> f64 {
         self.tail
     }
 
-    /// Number of Newton iterations.
+    /// Returns the number of Newton iterations.
     #[must_use]
     pub fn iterations(&self) -> usize {
         self.outcome.iterations
     }
 
-    /// Condition number of the last linear equations in the 1-norm, rows being scaled to a largest entry of 1.
+    /// Returns the condition number of the last linear equations in the 1-norm, rows being scaled to a largest entry
+    /// of 1.
     #[must_use]
     pub fn condition(&self) -> f64 {
         self.outcome.condition
     }
 
-    /// Spectrum of the equations linearised about this state: growth rates and frequencies of small disturbances.
+    /// Returns the spectrum of the equations linearised about this state: growth rates and frequencies of small
+    /// disturbances.
     ///
     /// # Errors
-    /// Eigenvalues that do not converge; a flow that cannot be solved for.
+    /// Returns an error if the eigenvalues do not converge or the flow cannot be solved for.
     pub fn spectrum(&self) -> Result<Spectrum, SteadyError> {
         System::new(&self.setup)?.spectrum(&self.point, self.part())
     }
 
-    /// Shape of a mode of [`SteadyState::spectrum`]: displacements and changes of concentration at the nodes.
+    /// Returns the shape of a mode of [`SteadyState::spectrum`]: displacements and changes of concentration at the
+    /// nodes.
     ///
     /// # Errors
-    /// A mode that cannot be found at its eigenvalue; a flow that cannot be solved for.
+    /// Returns an error for a mode that cannot be found at its eigenvalue; a flow that cannot be solved for.
     pub fn mode_shape(&self, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
         System::new(&self.setup)?.mode_shape(&self.point, mode)
     }
 
-    /// Speed, stresslet, shape and concentration, to spectral accuracy.
+    /// Returns the speed, stresslet, shape and concentration, to spectral accuracy.
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// Returns an error for a flow that cannot be solved for.
     pub fn measured(&self) -> Result<Measured, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
@@ -320,8 +327,8 @@ impl SteadyState {
         })
     }
 
-    /// Moments along the axis and along a direction across it of the forces of a body of revolution about its centre,
-    /// with `2 (eta_out - eta_in) INT u n dS`, from which the stresslet is two thirds of their difference.
+    /// Returns the moments along the axis and along a direction across it of the forces of a body of revolution about
+    /// its centre, with `2 (eta_out - eta_in) INT u n dS`, from which the stresslet is two thirds of their difference.
     fn axial_dipoles(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
         let (model, rings) = (&system.model, Rings::new(tangents.len()));
         let contrast = model.viscosities[1] - model.viscosities[0];
@@ -334,8 +341,9 @@ impl SteadyState {
         nodes.fold([0.0; 2], |[along, across], [a, b]| [along + a, across + b])
     }
 
-    /// Components xx and xy of the stresslet about a centre: [`motile::active_interface::observables::ForceMoments`] as
-    /// integrals over the interface, with what keeps the discs inside rigid.
+    /// Returns the components xx and xy of the stresslet about a centre:
+    /// [`motile::active_interface::observables::ForceMoments`] as integrals over the interface, with what keeps the
+    /// discs inside rigid.
     fn force_dipole(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
         let model = &system.model;
         let contrast = model.viscosities[1] - model.viscosities[0];
@@ -353,21 +361,22 @@ impl SteadyState {
         [xx, xy]
     }
 
-    /// Deformation of the droplet, and its motion along its interface: the period of tank-treading in a shear.
+    /// Returns the deformation of the droplet, and its motion along its interface: the period of tank-treading in a
+    /// shear.
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// Returns an error for a flow that cannot be solved for.
     pub fn deformation(&self) -> Result<Deformation, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         Ok(Deformation::of(&self.profile.positions, &system.model.velocities)?)
     }
 
-    /// Particle stress of the droplet with what is inside, symmetric and without trace (force times length), of
-    /// Batchelor's sign as in [`motile::scene::Stress`].
+    /// Returns the particle stress of the droplet with what is inside, symmetric and without trace (force times
+    /// length), of Batchelor's sign as in [`motile::scene::Stress`].
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// Returns an error for a flow that cannot be solved for.
     pub fn particle_stress(&self) -> Result<[[f64; 2]; 2], SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
@@ -375,22 +384,22 @@ impl SteadyState {
         Ok([[-xx, -xy], [-xy, xx]])
     }
 
-    /// Flow at points (length), inside the droplet or outside of it, at any distance from the interface: velocity, its
-    /// gradient and the pressure in the frame of the laboratory, to spectral accuracy. Gradient and pressure jump at
-    /// the interface: take points 1e-5 radii beside it.
+    /// Returns the flow at points (length), inside the droplet or outside of it, at any distance from the interface:
+    /// velocity, its gradient and the pressure in the frame of the laboratory, to spectral accuracy. Gradient and
+    /// pressure jump at the interface: take points 1e-5 radii away from it.
     ///
     /// # Errors
-    /// Points that are not finite; a flow that cannot be solved for.
+    /// Returns an error for points that are not finite; a flow that cannot be solved for.
     pub fn sample(&self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         system.model.sample(points)
     }
 
-    /// Cost of a Newton iteration and a spectrum at this state, by doing each part once more.
+    /// Returns the cost of a Newton iteration and a spectrum at this state, by doing each part once more.
     ///
     /// # Errors
-    /// As [`SteadyState::spectrum`].
+    /// Returns the errors of [`SteadyState::spectrum`].
     pub fn cost(&self) -> Result<Cost, SteadyError> {
         let mut system = System::new(self.setup())?;
         let part = self.part();
@@ -404,11 +413,11 @@ impl SteadyState {
         Ok(Cost { jacobian, factorisation, eigenvalues, unknowns })
     }
 
-    /// Observables of a run (by name: [`Observables::get`]), from 16 markers for each node, of second order in their
-    /// spacing.
+    /// Returns the observables of a run (by name: [`Observables::get`]), from 16 markers for each node, of second order
+    /// in their spacing.
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// Returns an error for a flow that cannot be solved for.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.residual(&self.point)?;

@@ -24,7 +24,7 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// Point after a part of a correction.
+    /// Returns the point after a part of a correction.
     pub(crate) fn corrected(&self, correction: &Correction, part: f64) -> Self {
         let mut next = self.clone();
         next.state += part * &correction.state;
@@ -35,7 +35,7 @@ impl Point {
     }
 }
 
-/// Equation for a parameter besides those of the state: corrections are at right angles to a direction,
+/// Equation for a parameter in addition to the equations of the state: corrections are at right angles to a direction,
 /// `direction . (state, parameter) = 0`.
 #[derive(Debug, Clone)]
 pub(crate) struct Along {
@@ -80,13 +80,13 @@ impl System {
         Ok(Self { model, modes, by_diffusing: DVector::zeros(0) })
     }
 
-    /// System at another value of a parameter.
+    /// Returns the system at another value of a parameter.
     pub(crate) fn moved(&self, parameter: Parameter, by: f64) -> Result<Self, SteadyError> {
         let setup = &self.model.setup;
         Self::new(&parameter.with(setup, parameter.get(setup).unwrap_or(0.0) + by)?)
     }
 
-    /// Profile as a point over itself: offsets zero.
+    /// Returns the profile as a point over itself: offsets zero.
     pub(crate) fn point(&mut self, profile: &Profile, frame: FrameMotion) -> Result<Point, SteadyError> {
         let base = Base::new(profile)?;
         let x = profile.nuclei.iter().map(|centre| centre.x);
@@ -97,12 +97,12 @@ impl System {
         Ok(Point { base, state, frame })
     }
 
-    /// Droplet of a point.
+    /// Returns the droplet of a point.
     pub(crate) fn profile(&self, point: &Point) -> Profile {
         self.profile_over(&point.base, &point.state)
     }
 
-    /// Droplet of a state over a curve.
+    /// Returns the droplet of a state over a curve.
     pub(crate) fn profile_over(&self, base: &Base, state: &DVector<f64>) -> Profile {
         let (offsets, mut density) = self.modes.synthesise(state);
         let positions: Vec<Vec2> = base.displaced(&offsets).collect();
@@ -111,18 +111,18 @@ impl System {
         Profile { positions, density, nuclei }
     }
 
-    /// Ratio of the last Fourier coefficients of a point to the largest, of shape or density.
+    /// Returns the ratio of the last Fourier coefficients of a point to the largest, of shape or density.
     pub(crate) fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
         Ok(self.profile(point).tails()?.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest)))
     }
 
-    /// True where offsets from the base are so large that nodes along its normals serve the droplet badly.
+    /// Returns true if offsets from the base are so large that nodes along its normals serve the droplet badly.
     pub(crate) fn is_far(&self, point: &Point) -> bool {
         let (offsets, _) = self.modes.synthesise(&point.state);
         offsets[..self.modes.nodes()].iter().any(|h| h.abs() > USUAL_CHANGE * self.model.radius)
     }
 
-    /// Droplet of a point as its own base, with nodes placed anew.
+    /// Returns the droplet of a point as its own base, with redistributed nodes.
     pub(crate) fn rebased(&mut self, point: &Point) -> Result<Point, SteadyError> {
         let profile = self.profile(point).resampled(self.model.nodes(), CROWDING)?.centred()?;
         self.point(&profile, point.frame)
@@ -134,20 +134,21 @@ impl System {
         self.model.load(&point.base, &offsets, &density)
     }
 
-    /// Rates of change of all coefficients at a point (1/time).
+    /// Returns the rates of change of all coefficients at a point (1/time).
     pub(crate) fn residual(&mut self, point: &Point) -> Result<DVector<f64>, SteadyError> {
         self.load(point)?;
         let (h, m) = self.model.rates(&point.base, point.frame)?;
         self.modes.analyse(h, m)
     }
 
-    /// Derivatives of the rates of a part of the state by its coefficients (1/time), by central differences.
+    /// Returns the derivatives of the rates of a part of the state by its coefficients (1/time), by central
+    /// differences.
     pub(crate) fn jacobian(&mut self, point: &Point, part: Part) -> Result<DMatrix<f64>, SteadyError> {
         self.differences(point, part, DIFFERENCE, None)
     }
 
-    /// Jacobian by differences from the rates at the point, at half the cost: to six digits, enough on the way to a
-    /// state.
+    /// Returns the Jacobian by differences from the rates at the point, at half the cost: to six digits, enough on the
+    /// way to a state.
     pub(crate) fn rough_jacobian(
         &mut self,
         point: &Point,
@@ -157,8 +158,8 @@ impl System {
         self.differences(point, part, 0.1 * DIFFERENCE, Some(rates))
     }
 
-    /// Jacobian by differences, central or, given the rates at the point, one-sided. Steps fall with the wave number,
-    /// since curvature and slope of a wave grow with it.
+    /// Returns the Jacobian by differences, central or, given the rates at the point, one-sided. Steps fall with the
+    /// wave number, since curvature and slope of a wave grow with it.
     fn differences(
         &mut self,
         point: &Point,
@@ -197,8 +198,8 @@ impl System {
         filled.map(|()| jacobian)
     }
 
-    /// Rigid motions of one part of the state that leave the equations as they are: shifts along the region, across it
-    /// but for channels, and turns in the plane.
+    /// Returns the rigid motions of one part of the state that leave the equations as they are: shifts along the
+    /// region, across it except in channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
         let (plane, channel) = (self.model.in_plane(), self.model.in_channel());
         // An imposed flow has no turns, and a curved profile no shifts across it; the shifts of a linear flow change
@@ -211,8 +212,8 @@ impl System {
         all.into_iter().filter(|(_, odd, there)| *there && fits(*odd)).map(|(motion, ..)| motion).collect()
     }
 
-    /// Rigid motions and the derivatives of the coefficients of the loaded state by them; motions without effect, such
-    /// as turns of a circle, are left out.
+    /// Returns the rigid motions and the derivatives of the coefficients of the loaded state by them; motions without
+    /// effect, such as turns of a circle, are left out.
     pub(crate) fn generators(
         &mut self,
         base: &Base,
@@ -231,8 +232,8 @@ impl System {
         Ok((motions, generators))
     }
 
-    /// Derivatives of area or volume and of the number of particles, over those of the droplet, by the coefficients of
-    /// a part of the loaded state.
+    /// Returns the derivatives of area or volume and of the number of particles, over their values for the droplet, by
+    /// the coefficients of a part of the loaded state.
     pub(crate) fn conserved_gradients(&mut self, base: &Base, part: Part) -> Result<Vec<DVector<f64>>, SteadyError> {
         let range = self.modes.part(part);
         let [radius, density] = self.modes.scales();
@@ -262,15 +263,15 @@ impl System {
         Ok(gradients)
     }
 
-    /// Derivative of the rates by a parameter (1/time over the parameter's unit).
+    /// Returns the derivative of the rates by a parameter (1/time over the parameter's unit).
     fn parameter_derivative(&self, point: &Point, parameter: Parameter) -> Result<DVector<f64>, SteadyError> {
         let step = DIFFERENCE * parameter.scale(&self.model.setup);
         let [above, below] = [step, -step].map(|by| self.moved(parameter, by)?.residual(point));
         Ok((above? - below?) / (2.0 * step))
     }
 
-    /// Derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse inside by a
-    /// motion of the frame.
+    /// Returns the derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse
+    /// inside by a motion of the frame.
     fn frame_derivative(&mut self, point: &Point, motion: FrameMotion) -> Result<(DVector<f64>, f64), SteadyError> {
         let step = DIFFERENCE * self.model.rate_unit();
         let mut side = |amount: f64| {
@@ -282,7 +283,7 @@ impl System {
         Ok(((above - below) / (2.0 * step), (more - less) / (2.0 * step)))
     }
 
-    /// Linear equations for a correction at a point.
+    /// Returns the linear equations for a correction at a point.
     pub(crate) fn equations(
         &mut self,
         point: &Point,
@@ -293,8 +294,8 @@ impl System {
         self.border(point, part, &jacobian, along)
     }
 
-    /// Linear equations for a correction from a Jacobian: bordered by the rigid motions, which fix the frame's
-    /// velocity, by area and number of particles, and by the equation for a parameter. Leaves the point loaded.
+    /// Returns the linear equations for a correction from a Jacobian: bordered by the rigid motions, which fix the
+    /// frame's velocity, by area and number of particles, and by the equation for a parameter. Leaves the point loaded.
     pub(crate) fn border(
         &mut self,
         point: &Point,
@@ -344,7 +345,8 @@ impl System {
         Ok(Equations { lu: matrix.clone().lu(), matrix, part, motions, conserved: conserved.len() })
     }
 
-    /// Correction that takes the rates of the loaded point to zero, and area and particles to those of the droplet.
+    /// Returns the correction that takes the rates of the loaded point to zero, and area and particles to their values
+    /// for the droplet.
     pub(crate) fn correction(&self, equations: &Equations, residual: &DVector<f64>) -> Result<Correction, SteadyError> {
         let range = self.modes.part(equations.part);
         let mut right = DVector::zeros(equations.len());
@@ -357,14 +359,14 @@ impl System {
 }
 
 impl Equations {
-    /// Solution for a right-hand side.
+    /// Returns the solution for a right-hand side.
     pub(crate) fn solve(&self, right: &DVector<f64>) -> Result<DVector<f64>, SteadyError> {
         let singular =
             || SteadyError::singular("a steady state", "Start from another state, for example a neighbouring one");
         self.lu.solve(right).filter(|x| x.iter().all(|value| value.is_finite())).ok_or_else(singular)
     }
 
-    /// Number of equations.
+    /// Returns the number of equations.
     pub(crate) fn len(&self) -> usize {
         self.matrix.nrows()
     }
@@ -385,7 +387,7 @@ impl Equations {
         Correction { state, frame, parameter }
     }
 
-    /// Condition number in the 1-norm, rows being scaled to a largest entry of one; infinite if singular.
+    /// Returns the condition number in the 1-norm, rows being scaled to a largest entry of one; infinite if singular.
     pub(crate) fn condition(&self) -> f64 {
         let mut scaled = self.matrix.clone();
         for mut row in scaled.row_iter_mut() {

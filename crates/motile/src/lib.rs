@@ -1,13 +1,14 @@
 //! Active droplets swimming in two-dimensional Stokes flow.
 //!
-//! A droplet is a closed fluid interface that carries active particles. The particles raise its tension; differences of
-//! tension drive flow along the interface; the flow gathers the particles. Above a threshold of activity the droplet
-//! polarises and swims. motile computes this in unbounded fluid, in periodic boxes, in channels with rigid walls and
-//! between elastic solids, by boundary integrals or by the immersed boundary method on a staggered grid with a
-//! correction that makes velocities on interfaces second-order accurate. The model is that of Natasha Cowley, "Effects
-//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield.
+//! Use motile to simulate swimming cells as active droplets. A droplet is a closed fluid interface that carries active
+//! particles. The particles raise its tension, differences of tension drive flow along the interface, and the flow
+//! gathers the particles. Above a threshold of activity the droplet polarises and swims. motile computes this in
+//! unbounded fluid, in periodic boxes, in channels with rigid walls and between elastic solids, by boundary integrals
+//! or by the immersed boundary method on a staggered grid with a correction that makes velocities on interfaces
+//! second-order accurate. The model comes from Natasha Cowley, "Effects of mechanical properties of the environment on
+//! cell migration", PhD thesis, University of Sheffield.
 //!
-//! A scene is data, a [`Setup`](setup::Setup):
+//! You describe a scene with a [`Setup`](setup::Setup), build it, run it, and measure its bodies:
 //!
 //! ```
 //! use motile::prelude::*;
@@ -45,8 +46,8 @@
 //!
 //! # Units
 //!
-//! The library is free of units: give all quantities in one consistent system. Defaults and examples use R0 = 10 um for
-//! length and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
+//! The library is free of units, so use one consistent system for all quantities. Defaults and examples use R0 = 10 um
+//! for length and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
 //!
 //! # Features
 //!

@@ -1,4 +1,4 @@
-//! Settings for an error that is asked for.
+//! Settings that reach a target error.
 
 use active_interface::ExcludedVolume;
 use motile_base::{Drive, Region};
@@ -14,13 +14,13 @@ pub enum SceneKind {
     Box,
     /// Droplets in a periodic box, more viscous than the exterior fluid by a factor of up to a hundred.
     ViscosityContrast,
-    /// Droplets in a channel with rigid walls, with films of some hundredths of the radius.
+    /// Droplets in a channel with rigid walls, with gaps of a few hundredths of the radius.
     Channel,
 }
 
-/// The largest error at any time between t = 40 and 80, over the scenes of `docs/tables/recommended.csv` of that kind
-/// that [`recommend`] covers, of these settings and of all finer ones of the same kind; on grids and for small errors
-/// with a fifth or more to spare for places and directions that were not tried. From coarse to fine.
+/// Returns the largest error at any time between t = 40 and 80, over the scenes of `docs/tables/recommended.csv` of
+/// that kind that [`recommend`] covers, of these settings and of all finer ones of the same kind; on grids and for
+/// small errors with a fifth or more to spare for places and directions that were not tried. From coarse to fine.
 fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
     // Error, nodes of the shape, cells of the concentration.
     let integrals: &[(f64, usize, usize)] = match scene {
@@ -58,18 +58,18 @@ pub struct Recommendation {
     pub step: StepSize,
 }
 
-/// The cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give the speed
-/// of a steady swimmer with a relative error below `target_error` (no dimension; 0.01 is one per cent) at every time,
-/// in a kind of scene by a method; the grid spacing is that for a radius of one.
+/// Returns the cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give
+/// the speed of a steady swimmer with a relative error below `target_error` (no dimension; 0.01 is 1 %) at every time,
+/// in a kind of scene by a method. The grid spacing is for a radius of one.
 ///
-/// On a grid the speed oscillates while a droplet crosses the cells, by an amount that depends on its direction and on
-/// where its path lies between grid lines; the error is that of the worst that was tried, the mean is often several
-/// times better. Covered is one droplet in units of the defaults at activities down to -4 in a box (A = 2 |activity|),
-/// to -1.5 with a contrast, in a channel to -2, by boundary integrals in one of width two to -4. Outside of that the
-/// settings are a start; a sharper edge of the concentration needs more cells ([`motile_scene::Warnings`] tell). The
-/// study `recommended` measures the data (`docs/tables/recommended.csv`). Steps are those of the default, each with an
-/// estimated error below 1e-4, which change the speed of a steady swimmer by less than 1e-5 (`studies -- time_steps
-/// --study default`).
+/// On a grid, the speed oscillates while a droplet crosses the cells, by an amount that depends on its direction and on
+/// where its path lies between grid lines. The error is the largest that was found, and the mean is often several times
+/// better. Covered is one droplet in units of the defaults at activities down to -4 in a box (A = 2 |activity|), to
+/// -1.5 with a contrast, in a channel to -2, by boundary integrals in one of width two to -4. Outside of this range,
+/// take the settings as a start. A sharper edge of the concentration needs more cells ([`motile_scene::Warnings`]
+/// reports it). The study `recommended` measures the data (`docs/tables/recommended.csv`). Steps are as long as by
+/// default, each with an estimated error below 1e-4, which change the speed of a steady swimmer by less than 1e-5
+/// (`studies -- time_steps --study default`).
 ///
 /// ```
 /// use motile::prelude::*;
@@ -86,13 +86,14 @@ pub struct Recommendation {
 /// ```
 ///
 /// # Errors
-/// A target below the smallest error that was measured, above 5 %, or not a number; a viscosity contrast on a grid,
-/// which is of first order.
+/// Returns an error for a target below the smallest error that was measured, above 5 %, or not a number; a viscosity
+/// contrast on a grid, which is of first order.
 pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Result<Recommendation, SetupError> {
     const LARGEST: f64 = 0.05;
     let entries = measured(scene, method);
     if entries.is_empty() {
-        let remedy = "a viscosity contrast is of first order there: give integral or layers".to_owned();
+        let remedy =
+            "with a viscosity contrast the grid method is only first-order accurate. Use integral or layers".to_owned();
         return Err(SetupError::Value { key: "method".to_owned(), value: method.name().to_owned(), remedy });
     }
     let found = entries.iter().find(|(error, _)| *error <= target_error).filter(|_| target_error <= LARGEST);
@@ -104,11 +105,12 @@ pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Res
 }
 
 impl Setup {
-    /// The largest relative error of the speed of a steady swimmer (no dimension) that was measured with settings that
-    /// are no finer than these, in the kind of scene that this is, as [`recommend`] knows them. `None` for settings
-    /// coarser than all that were measured, for other kernels than the default, and for scenes that differ from those
-    /// that were measured in more than the place and heading of their droplet: another number of droplets, other
-    /// bodies, walls, flows or radii, unbounded fluid, three dimensions, or activities beyond those of [`recommend`].
+    /// Returns the largest relative error of the speed of a steady swimmer (no dimension) that was measured with
+    /// settings that are no finer than these, in the kind of scene that this is, as [`recommend`] knows them. `None`
+    /// for settings coarser than all that were measured, for other kernels than the default, and for scenes that differ
+    /// from the measured ones in more than the place and heading of their droplet. Such scenes have another number of
+    /// droplets, other bodies, walls, flows or radii, unbounded fluid, three dimensions, or activities beyond the range
+    /// of [`recommend`].
     ///
     /// ```
     /// use motile::prelude::*;
@@ -139,7 +141,7 @@ impl Setup {
         finest.map(|(error, _)| error)
     }
 
-    /// The kind of the scenes that were measured, if this is one of them.
+    /// Returns the kind of the scenes that were measured, if this is one of them.
     fn measured_kind(&self) -> Option<SceneKind> {
         let [droplet] = self.droplets.as_slice() else { return None };
         let particles = droplet.particles.as_ref()?;
@@ -193,7 +195,7 @@ const MANY: usize = 4;
 const OF_NODES: [(usize, f64); 4] = [(24, 775.0), (48, 1395.0), (64, 1525.0), (96, 2400.0)];
 const OF_SPACING: [(f64, f64); 3] = [(0.1, 737.0), (0.075, 1008.0), (0.05, 1974.0)];
 
-/// Cost of a method with many droplets, as of the next finer settings that were measured.
+/// Returns the cost of a method with many droplets, as of the next finer settings that were measured.
 fn cost(method: &Method) -> f64 {
     match method {
         Method::Integral(IntegralMethod { nodes, .. }) | Method::Layers(LayersMethod { nodes, .. }) => {
@@ -205,14 +207,14 @@ fn cost(method: &Method) -> f64 {
     }
 }
 
-/// The cheapest method for a scene of so many droplets, with its settings for an error of [`recommend`].
+/// Returns the cheapest method for a scene of so many droplets, with its settings for an error of [`recommend`].
 ///
-/// For up to three droplets these are boundary integrals. From four on, boundary integrals and a grid cost about the
-/// same at the same error, because sums over many nodes are fast: in a box, boundary integrals are cheaper by about a
-/// quarter for errors of 1 % and of 0.25 %, and a grid is cheaper by a few percent for errors of 2.5 %. In a channel, a
-/// grid is cheaper by half for errors of 1 %. With elastic solids these are layers: solids on a grid err by 0.5 to 0.8
-/// % however fine it is. Measured by `studies -- many` on lattices in a box with gaps of 1.6 radii. For narrow films,
-/// use boundary integrals or layers with any number of droplets.
+/// For up to three droplets, these are boundary integrals. For four or more, boundary integrals and a grid cost about
+/// the same at the same error, because sums over many nodes are fast. In a box, boundary integrals are cheaper by about
+/// a quarter for errors of 1 % and of 0.25 %, and a grid is cheaper by a few percent for errors of 2.5 %. In a channel,
+/// a grid is cheaper by half for errors of 1 %. With elastic solids, these are layers: solids on a grid are off by 0.5
+/// to 0.8 % however fine it is. Measured by `studies -- many` on lattices in a box with gaps of 1.6 radii. For narrow
+/// films, use boundary integrals or layers with any number of droplets.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -230,7 +232,7 @@ fn cost(method: &Method) -> f64 {
 /// ```
 ///
 /// # Errors
-/// As [`recommend`], where no method has settings for the error.
+/// Returns the errors of [`recommend`] if no method has settings for the error.
 pub fn cheapest(
     scene: SceneKind,
     droplets: usize,

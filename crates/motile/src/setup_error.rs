@@ -39,7 +39,7 @@ pub enum SetupError {
     /// Value out of its range, or one that does not fit the rest of the description.
     #[error("{key} = {value}: {remedy}")]
     Value {
-        /// Key of the value, with those of the entries that it is in: `droplets[0].tension`.
+        /// Key of the value, with the keys of the entries that it is in: `droplets[0].tension`.
         key: String,
         /// The value.
         value: String,
@@ -69,7 +69,7 @@ pub enum SetupError {
     },
     /// Body that starts inside another one, or where another one is.
     #[error(
-        "{key} overlaps {other} by {} at {}, more than {}: move them apart or make one of them smaller",
+        "{key} overlaps {other} by {} at {}, more than {}. Move them apart or make one of them smaller",
         told_apart([*depth, *allowed])[0], place(*x, *y), told_apart([*depth, *allowed])[1]
     )]
     Overlap {
@@ -87,7 +87,7 @@ pub enum SetupError {
         allowed: f64,
     },
     /// Droplet that starts in touch with another one, or with its own image.
-    #[error("{key} touches {other} at {}: leave a gap between them", place(*x, *y))]
+    #[error("{key} touches {other} at {}. Leave a gap between them", place(*x, *y))]
     Touch {
         /// Key of the entry in the description, with its name if it has one.
         key: String,
@@ -99,7 +99,7 @@ pub enum SetupError {
         y: f64,
     },
     /// Target error that no settings were measured for.
-    #[error("no settings are known for an error of {target:e}: use a target from {smallest:e} to {largest}")]
+    #[error("no settings are known for an error of {target:e}. Use a target from {smallest:e} to {largest}")]
     TargetError {
         /// Relative error asked for (no dimension).
         target: f64,
@@ -116,11 +116,11 @@ pub enum SetupError {
 motile_base::debug_as_explanation!(SetupError);
 
 impl SetupError {
-    /// Scene file that is not TOML or has unknown keys: the line and the problem there.
+    /// Returns the error for scene file that is not TOML or has unknown keys: the line and the problem there.
     #[cfg(feature = "toml")]
     pub(crate) fn file(problem: impl std::fmt::Display) -> Self {
         let what = "the scene file is not valid".to_owned();
-        let told = problem.to_string();
+        let told = WORDS.iter().fold(problem.to_string(), |text, (name, words)| text.replace(name, words));
         // A long line would hide the problem, which stands above and below its copy.
         let is_copy = |line: &str| line.len() > LONGEST_LINE && line.contains(" | ");
         let is_mark = |line: &str| line.trim_start().starts_with('|');
@@ -130,8 +130,8 @@ impl SetupError {
         Self::refused(what, value, "Correct this entry")
     }
 
-    /// Round droplet of a radius that is larger than what walls leave around its centre, and what it would be squeezed
-    /// to (length).
+    /// Returns the error for round droplet of a radius that is larger than what walls leave around its centre, and what
+    /// it would be squeezed to (length).
     pub(crate) fn wider_than_walls(radius: f64, room: f64, half_height: f64, to: Squeezed) -> Self {
         let [radius, room] = told_apart([radius, room]);
         let what = format!("a round droplet of radius {radius} does not fit between the walls");
@@ -145,8 +145,8 @@ impl SetupError {
         Self::refused(what, value, remedy)
     }
 
-    /// Neighbouring interfaces that are periodic along x and give the fluid between them two viscosities: the keys of
-    /// the lower and the upper one, and the viscosities (stress times time).
+    /// Returns the error for neighbouring interfaces that are periodic along x and give the fluid between them two
+    /// viscosities: the keys of the lower and the upper one, and the viscosities (stress times time).
     pub(crate) fn two_viscosities([key, other]: [&str; 2], [lower, upper]: [f64; 2]) -> Self {
         let what = format!(
             "the fluid between {key} and {other}, or the image of one, would have the viscosities {lower} and {upper}"
@@ -155,7 +155,7 @@ impl SetupError {
         Self::refused(what, "", remedy)
     }
 
-    /// Error with the key of the entry that it is about, unless it names it itself.
+    /// Returns the error for error with the key of the entry that it is about, unless it names it itself.
     pub(crate) fn of(self, key: &str) -> Self {
         match self {
             Self::Value { .. } | Self::Entry { .. } => self,
@@ -164,11 +164,24 @@ impl SetupError {
     }
 }
 
+/// Phrases of the reader of TOML, and what they mean to the writer of a scene file.
+#[cfg(feature = "toml")]
+const WORDS: [(&str, &str); 9] = [
+    ("unknown field", "unknown key"),
+    ("missing field", "missing required key"),
+    ("unknown variant", "unknown choice"),
+    ("expected f64", "expected a number"),
+    ("expected usize", "expected a whole number that is not negative"),
+    ("expected u64", "expected a whole number that is not negative"),
+    ("expected a sequence", "expected a list"),
+    ("invalid type: ", ""),
+    ("invalid value: ", ""),
+];
 /// Most characters of a line of an error about a scene file.
 #[cfg(feature = "toml")]
 const LONGEST_LINE: usize = 300;
 
-/// A line without its middle if it is long.
+/// Returns a line without its middle if it is long.
 #[cfg(feature = "toml")]
 fn shortened(line: &str) -> String {
     let count = line.chars().count();

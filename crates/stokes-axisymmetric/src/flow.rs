@@ -53,7 +53,7 @@ struct Sides {
 }
 
 impl Sides {
-    /// Factor of the unknown at its own surface.
+    /// Returns the factor of the unknown at its own surface.
     fn mean(&self) -> f64 {
         self.inside.map_or(0.5, |inside| 0.5 * (inside + self.outside))
     }
@@ -63,7 +63,7 @@ impl Sides {
         if self.contrast() == 0.0 { Wanted::Single } else { Wanted::Both }
     }
 
-    /// Factor of the double layer of the unknown.
+    /// Returns the factor of the double layer of the unknown.
     fn contrast(&self) -> f64 {
         self.inside.map_or(-1.0, |inside| self.outside - inside)
     }
@@ -72,10 +72,10 @@ impl Sides {
 /// Stokes flow in three dimensions of surfaces of revolution about the x axis, without swirl: velocities on interfaces
 /// and rigid bodies from the forces on them.
 ///
-/// A surface is given as in the plane, [`Interface`]: by the closed curve of its meridian and the mirror image of that,
-/// an even number n of points, counter-clockwise, point 0 where x is largest on the axis, point n - k the mirror image
-/// of point k. The force at a point is that on half of its ring (on all of it at the poles): its component along x,
-/// summed over all points, is the force on the surface. Velocities are mirror images too.
+/// A surface is given as in the plane, [`Interface`], by the closed curve of its meridian and the mirror image of that.
+/// It has an even number n of points, counter-clockwise, point 0 where x is largest on the axis, point n - k the mirror
+/// image of point k. The force at a point is that on half of its ring (on all of it at the poles): its component along
+/// x, summed over all points, is the force on the surface. Velocities are mirror images too.
 ///
 /// With the meridian X(t), t from 0 to pi, the force g per t and azimuth, the velocity on an interface solves
 ///
@@ -87,7 +87,7 @@ impl Sides {
 /// the azimuth: complete elliptic integrals. A rigid body is the limit of eta_in to infinity
 /// ([`InterfaceFlow`](stokes_boundary_integrals::InterfaceFlow)). Shapes, forces and velocities are series of sines and
 /// cosines in t with `nodes/2` waves. A target on a surface or close to it is integrated over panels that double away
-/// from it, one far away by weights that are exact for sines; errors fall faster than any power of the number of nodes
+/// from it, one far away by weights that are exact for sines. Errors fall faster than any power of the number of nodes
 /// at any distance from the axis and between surfaces. The equation, of `nodes` unknowns a surface, is solved by
 /// elimination.
 ///
@@ -140,11 +140,13 @@ pub struct AxisymmetricFlow {
 }
 
 impl AxisymmetricFlow {
-    /// The flow in unbounded fluid of this viscosity (stress times time), without surfaces. `settings.nodes` are those
-    /// of the closed curve, an even number; of the others only these count here, since nothing is truncated.
+    /// Creates the flow in unbounded fluid of this viscosity (stress times time), without surfaces. `settings.nodes`
+    /// counts the nodes of the closed curve, an even number; of the others only these count here, since nothing is
+    /// truncated.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, settings out of their range, more than 2048 nodes.
+    /// Returns an error for a viscosity that is not positive and finite, settings out of their range, more than 2048
+    /// nodes.
     pub fn new(viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         positive("the viscosity", viscosity)?;
         settings.check()?;
@@ -181,7 +183,8 @@ impl AxisymmetricFlow {
     /// the matrix of this equation is factorised here, once. The flux through any section is zero.
     ///
     /// # Errors
-    /// Points that are no meridian with its mirror image; fewer than 16 nodes, more than 2048 or than points.
+    /// Returns an error for points that are not a meridian with its mirror image; fewer than 16 nodes, more than 2048
+    /// or than points.
     pub fn with_container(mut self, points: &[Vec2], nodes: usize) -> Result<Self, LayerError> {
         self.contain(points, nodes)?;
         self.tube = None;
@@ -197,24 +200,24 @@ impl AxisymmetricFlow {
         Ok(())
     }
 
-    /// Puts the surfaces into an infinitely long straight tube of this radius (length), whose flux is zero: a closed
-    /// one that moves with them, 5.5 radii longer than they are at both ends, since flows decay like exp(-4.47
-    /// x/radius) along it. Its nodes follow from the film beside the surfaces; it is made anew, and factorised, where
-    /// they come closer.
+    /// Puts the surfaces into an infinitely long straight tube of this radius (length), whose flux is zero. This is a
+    /// closed tube that moves with them, 5.5 radii longer than they are at both ends, since flows decay like exp(-4.47
+    /// x/radius) along it. Its nodes follow from the gap to the surfaces; it is rebuilt and factorised again when they
+    /// come closer.
     ///
     /// # Errors
-    /// A radius that is not positive and finite.
+    /// Returns an error for a radius that is not positive and finite.
     pub fn with_tube(mut self, radius: f64) -> Result<Self, LayerError> {
         self.tube = Some(Tube::new(positive("the radius of a tube", radius)?));
         self.walls = None;
         Ok(self)
     }
 
-    /// The flow in space or in a tube, straight or of another shape.
+    /// Creates the flow in space or in a tube, straight or of another shape.
     ///
     /// # Errors
-    /// A region of the plane; those of [`AxisymmetricFlow::new`], [`AxisymmetricFlow::with_tube`] and
-    /// [`AxisymmetricFlow::with_drive`].
+    /// Returns an error for a region of the plane; the errors of [`AxisymmetricFlow::new`],
+    /// [`AxisymmetricFlow::with_tube`] and [`AxisymmetricFlow::with_drive`].
     pub fn in_region(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         region.check()?;
         let mut flow = Self::new(viscosity, settings)?;
@@ -237,7 +240,7 @@ impl AxisymmetricFlow {
 
     /// Drives fluid through the tube: a flux (volume per time), or a mean pressure gradient (stress per length) over a
     /// length (length) of a straight one, as in a tube with these surfaces in every such length, of whose flow on one
-    /// another only the pressure counts; the mean velocity of a flux Q is `Q/(pi R^2)`.
+    /// another only the pressure counts. The mean velocity of a flux Q is `Q/(pi R^2)`.
     ///
     /// In a straight tube the surfaces are in the flow of Poiseuille, and the flow that they cause has no flux. By the
     /// reciprocal theorem the pressure rises along the tube through forces f on the fluid and velocities u on surfaces
@@ -248,7 +251,8 @@ impl AxisymmetricFlow {
     /// ```
     ///
     /// # Errors
-    /// No tube around the surfaces, a pressure gradient in one that is not straight, numbers that are not finite.
+    /// Returns an error if there is no tube around the surfaces, or for a pressure gradient in one that is not
+    /// straight, numbers that are not finite.
     pub fn with_drive(mut self, drive: Drive, length: f64) -> Result<Self, LayerError> {
         drive.check()?;
         let open = self.tube.is_some() || self.walls.as_ref().is_some_and(|walls| walls.open.is_some());
@@ -263,14 +267,14 @@ impl AxisymmetricFlow {
         Ok(self)
     }
 
-    /// Flux through the tube (volume per time) in the last solution.
+    /// Returns the flux through the tube (volume per time) in the last solution.
     #[must_use]
     pub fn flux(&self) -> f64 {
         self.flux
     }
 
-    /// Mean pressure gradient (stress per length) over the length that the drive of a straight tube is given for;
-    /// `None` where there is no straight tube.
+    /// Returns the mean pressure gradient (stress per length) over the length that the drive of a straight tube is
+    /// given for; `None` if there is no straight tube.
     #[must_use]
     pub fn pressure_gradient(&self) -> Option<f64> {
         let Tube { radius, .. } = self.tube.as_ref()?;
@@ -278,7 +282,7 @@ impl AxisymmetricFlow {
         Some(rise - container::resistance(*radius, self.viscosity) * self.flux)
     }
 
-    /// Viscosity of the exterior fluid (stress times time).
+    /// Returns the viscosity of the exterior fluid (stress times time).
     #[must_use]
     pub fn viscosity(&self) -> f64 {
         self.viscosity
@@ -290,19 +294,20 @@ impl AxisymmetricFlow {
         &self.settings
     }
 
-    /// Number of surfaces.
+    /// Returns the number of surfaces.
     #[must_use]
     pub fn len(&self) -> usize {
         self.surfaces.len()
     }
 
-    /// True without surfaces.
+    /// Returns true without surfaces.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.surfaces.is_empty()
     }
 
-    /// Volume inside a surface (length cubed) and its area (length squared); `None` if there is no such surface.
+    /// Returns the volume inside a surface (length cubed) and its area (length squared); `None` if there is no such
+    /// surface.
     #[must_use]
     pub fn measures(&self, surface: usize) -> Option<[f64; 2]> {
         self.surfaces.get(surface).map(|meridian| meridian.measures(&self.grid))
@@ -311,9 +316,10 @@ impl AxisymmetricFlow {
     /// Takes over surfaces, truncated to the waves that the nodes carry.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one;
-    /// positions or forces that are not finite, an odd number of points or too few, points that are not the mirror
-    /// image of one another or cross the axis, a clockwise curve, a node beyond the container.
+    /// Returns an error for:
+    /// * a viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one,
+    /// * positions or forces that are not finite, an odd number of points or too few, points that are not the mirror
+    ///   image of one another or cross the axis, a clockwise curve, a node beyond the container.
     pub fn load<'a>(&mut self, surfaces: impl Iterator<Item = Interface<'a>>) -> Result<(), LayerError> {
         let mut count = 0;
         self.sides.clear();
@@ -339,7 +345,7 @@ impl AxisymmetricFlow {
         self.fit_walls()
     }
 
-    /// True where the equation needs a matrix.
+    /// Returns true if the equation needs a matrix.
     fn has_contrast(&self) -> bool {
         self.sides.iter().any(|sides| sides.contrast() != 0.0)
     }
@@ -347,7 +353,7 @@ impl AxisymmetricFlow {
     /// Solves for the velocities on the surfaces.
     ///
     /// # Errors
-    /// Equations that are singular to round-off, as where surfaces touch.
+    /// Returns an error for equations that are singular to round-off, as where surfaces touch.
     pub fn solve(&mut self) -> Result<Solution, LayerError> {
         let n = 2 * self.grid.nodes;
         let count = n * self.len();
@@ -485,8 +491,8 @@ impl AxisymmetricFlow {
         }
     }
 
-    /// Velocity (length per time) of a rigid body in the last solution; `None` if there is no rigid body of that
-    /// number.
+    /// Returns the velocity (length per time) of a rigid body in the last solution. It is `None` if there is no rigid
+    /// body of that number.
     #[must_use]
     pub fn rigid_velocity(&self, surface: usize) -> Option<f64> {
         let sides = self.sides.get(surface).filter(|sides| sides.inside.is_none())?;
@@ -498,7 +504,7 @@ impl AxisymmetricFlow {
     /// Writes the velocities (length per time) of the last solution at the points of a surface.
     ///
     /// # Errors
-    /// No such surface, another number of points, velocities that are not finite.
+    /// Returns an error if there is no such surface, or for another number of points, velocities that are not finite.
     pub fn velocities(&self, surface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
         let expected = self.surfaces.get(surface).map_or(0, |meridian| meridian.points);
         same_length("the velocities of a surface", expected, out.len())?;
@@ -516,12 +522,13 @@ impl AxisymmetricFlow {
         finite_vectors("the velocity", surface, out)
     }
 
-    /// Flow at points anywhere (length; y is the distance from the axis, of either sign), at any distance from the
-    /// surfaces, for the last solution: velocity, pressure, and the gradient in the meridian plane. The velocity
-    /// gradient across it is the negative sum of its diagonal. Points on a surface are taken for points outside of it.
+    /// Writes the flow at points anywhere (length; y is the distance from the axis, of either sign), at any distance
+    /// from the surfaces, for the last solution: velocity, pressure, and the gradient in the meridian plane. The
+    /// velocity gradient across it is the negative sum of its diagonal. Points on a surface are taken for points
+    /// outside of it.
     ///
     /// # Errors
-    /// Points that are not finite, slices of different length.
+    /// Returns an error for points that are not finite, slices of different length.
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
@@ -545,7 +552,7 @@ impl AxisymmetricFlow {
         Ok(())
     }
 
-    /// Flow at a point of the upper half plane, with finer nodes of the surfaces and the walls, or none.
+    /// Returns the flow at a point of the upper half plane, with finer nodes of the surfaces and the walls, or none.
     fn flow_at(&mut self, place: Vec2, fine: &mut [Levels]) -> FlowSample {
         let Self { grid, panels, surfaces, sides, solution, walls, viscosity, .. } = &mut *self;
         let viscosity = *viscosity;
@@ -634,8 +641,8 @@ impl AxisymmetricFlow {
     }
 }
 
-/// Adds the layers of a surface at a spot to the right-hand side, and to some columns of two rows of the matrix, those
-/// of the components along and from the axis.
+/// Adds the layers of a surface at a spot to the right-hand side, and to some columns of two rows of the matrix, for
+/// the components along and from the axis.
 fn add_pair(
     (grid, meridian): (&Grid, &Meridian),
     sides: &Sides,

@@ -1,15 +1,18 @@
-//! Axisymmetric Stokes flow in three dimensions by boundary integrals: drops and rigid bodies of revolution about the x
-//! axis, in unbounded fluid, in a tube, or in a closed container.
+//! Computes axisymmetric Stokes flow in three dimensions by boundary integrals, for drops and rigid bodies.
 //!
-//! Use this crate if your problem has an axis and no swirl. You give each surface by the curve of its meridian and the
-//! forces on it, and [`AxisymmetricFlow`] returns velocities, pressures and fluxes. Only the meridian carries nodes, so
-//! a flow in three dimensions costs about as much as a dense matrix with two unknowns per node. [`MeridianCalculus`]
-//! turns a surface tension into forces, [`tube`] makes the outline of a tube that narrows or waves, and
-//! [`Disturbances`] computes the flow of small disturbances that are not axisymmetric.
+//! Use this crate if your problem has an axis (the x axis) and no swirl, in unbounded fluid, in a tube, or in a closed
+//! container. You give each surface as the curve of its meridian with the forces on it. [`AxisymmetricFlow`] returns
+//! velocities, pressures and fluxes. Only the meridian carries nodes, so a flow in three dimensions costs about as much
+//! as a dense matrix with two unknowns per node.
+//!
+//! * [`MeridianCalculus`] turns a surface tension into forces.
+//! * [`tube`] makes the outline of a tube that narrows or waves.
+//! * [`Disturbances`] computes the flow of small disturbances that are not axisymmetric. You can use it to find out
+//!   whether an axisymmetric state is stable.
 //!
 //! # Example
 //!
-//! A force of 6 pi pulls a rigid sphere of radius 1 through fluid of viscosity 1. Stokes' law gives a speed of 1:
+//! A force of 6 pi pulls a rigid sphere of radius 1 through fluid of viscosity 1. By Stokes' law its speed is 1:
 //!
 //! ```
 //! use stokes_axisymmetric::{AxisymmetricFlow, Interface, LayerError, Settings, Vec2};
@@ -31,8 +34,8 @@
 //! # Ok::<(), LayerError>(())
 //! ```
 //!
-//! With the feature `rayon`, off by default, the rows of the matrix are computed on several threads, and the results
-//! are bitwise identical.
+//! With the feature `rayon`, off by default, several threads compute the rows of the matrix, and results are bitwise
+//! identical.
 
 mod flow;
 mod refusal;

@@ -6,13 +6,13 @@ use motile_base::{
 };
 use stokes_boundary_integrals::LayerError;
 
-/// Surfaces with singular equations.
+/// Returns the surfaces with singular equations.
 pub(crate) fn singular_surfaces() -> LayerError {
     let remedy = "Use more nodes, or leave more fluid between the surfaces";
     LayerError::refused("the velocities of the surfaces are not determined", "their equations are singular", remedy)
 }
 
-/// A two-dimensional region.
+/// Returns a two-dimensional region.
 pub(crate) fn in_two_dimensions() -> LayerError {
     let remedy = "Use the region `space` or `tube`, or `InterfaceFlow`";
     LayerError::refused("the region is two-dimensional, but this flow is axisymmetric", "", remedy)
@@ -25,7 +25,7 @@ pub(crate) fn not_one_interface(found: usize) -> LayerError {
     LayerError::refused("disturbances are computed for one axisymmetric interface only", value, remedy)
 }
 
-/// Surfaces that leave too little room in a length of a straight tube whose pressure is prescribed.
+/// Returns the surfaces that leave too little room in a length of a straight tube whose pressure is prescribed.
 pub(crate) fn short_tube(length: f64, least: f64) -> LayerError {
     let what = format!("the tube of length {length}, for which the pressure is prescribed, is too short");
     let value = "the surfaces in it and the next ones are less than a radius apart";
@@ -36,7 +36,7 @@ pub(crate) fn short_tube(length: f64, least: f64) -> LayerError {
     )
 }
 
-/// A meridian that meets the axis between its poles, at this coordinate x.
+/// Returns a meridian that meets the axis between its poles, at this coordinate x.
 pub(crate) fn meets_axis(curve: usize, x: f64) -> LayerError {
     let what = format!("curve {curve} meets the axis between its poles, at x = {}", decimals(4, x));
     let remedy = "Keep the meridian off the axis. If this ended a run, a neck has pinched: the droplet would become \
@@ -44,13 +44,13 @@ pub(crate) fn meets_axis(curve: usize, x: f64) -> LayerError {
     LayerError::refused(what, "", remedy)
 }
 
-/// A curve with an odd number of points.
+/// Returns a curve with an odd number of points.
 pub(crate) fn odd_points(found: usize) -> LayerError {
     let remedy = "Use an even number";
     LayerError::refused("an axisymmetric curve needs an even number of points", format!("it has {found}"), remedy)
 }
 
-/// A curve whose point has no mirror image in the x axis.
+/// Returns the error for a curve whose point has no mirror image in the x axis.
 pub(crate) fn not_axisymmetric(curve: usize, point: usize, Vec2 { x, y }: Vec2) -> LayerError {
     let value = format!("point {point} at {} has no mirror image in the x axis", place(x, y));
     let remedy =

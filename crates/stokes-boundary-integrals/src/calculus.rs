@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use crate::LayerError;
 
-/// Largest number of points that a curve is given by: its transform takes some 50 MB.
+/// Largest number of points that a curve is given by: its transform takes about 50 MB.
 pub const MOST_POINTS: f64 = 1_048_576.0;
 
 /// Places on the curve that the values of [`PeriodicCalculus::tension_forces`] belong to.
@@ -44,26 +44,27 @@ pub struct PeriodicCalculus {
 }
 
 impl PeriodicCalculus {
-    /// A plan for closed curves of `len` points.
+    /// Creates a plan for closed curves of `len` points.
     ///
     /// # Errors
-    /// Fewer than 4 points or more than 1,048,576.
+    /// Returns an error for fewer than 4 points or more than 1,048,576.
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of points", len as f64, 4.0, MOST_POINTS)?;
         let series = PeriodicSeries::new(len)?;
         Ok(Self { curve: series.clone(), forces: series, period: Vec2::ZERO })
     }
 
-    /// A plan for open curves that advance by `period` (length) in a turn of the parameter.
+    /// Returns a plan for open curves that advance by `period` (length) in a turn of the parameter.
     #[must_use]
     pub fn with_period(self, period: Vec2) -> Self {
         Self { period, ..self }
     }
 
-    /// Derivative by alpha of a periodic function at the points (dimension of the values, alpha being an angle).
+    /// Writes the derivative by alpha of a periodic function at the points (dimension of the values, alpha being an
+    /// angle).
     ///
     /// # Errors
-    /// Slices of another length than planned for.
+    /// Returns an error for slices of another length than planned for.
     pub fn derivative(&mut self, values: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
         self.check(values.len(), out.len())?;
         self.curve.analyse_vectors(values)?;
@@ -71,15 +72,15 @@ impl PeriodicCalculus {
         Ok(self.curve.write_vectors(out)?)
     }
 
-    /// Forces on the fluid (force) at the points of an interface with the surface tension gamma (force in 2D):
-    /// `F_k = (2 pi / len) d(gamma tau)/dalpha` at point k, tau the unit tangent. It is the force per length
+    /// Writes the forces on the fluid (force) at the points of an interface with the surface tension gamma (force in
+    /// 2D): `F_k = (2 pi / len) d(gamma tau)/dalpha` at point k, tau the unit tangent. It is the force per length
     /// `d(gamma tau)/ds` times the arc length that belongs to the point; the forces sum up to zero to round-off.
     ///
     /// The difference `gamma_k t_k - gamma_(k-1) t_(k-1)` of the tensions of segments is its counterpart of second
     /// order in the spacing.
     ///
     /// # Errors
-    /// Slices of another length than planned for.
+    /// Returns an error for slices of another length than planned for.
     pub fn tension_forces(
         &mut self,
         positions: &[Vec2],

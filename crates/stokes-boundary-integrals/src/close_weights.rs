@@ -1,12 +1,12 @@
 //! Quadrature weights for points close to a curve, exact to the resolution of the curve at any distance.
 //!
 //! Near a point t the kernels ln|z - t| and 1/(z - t)^k on a curve z(alpha) peak between the nodes. The complex
-//! parameter alpha_0 with z(alpha_0) = t locates the peak: with u = exp(i alpha) and u_0 = exp(i alpha_0),
-//! `f/(z - t)^k = h/(u - u_0)^k` with a smooth h, whose Fourier series is integrated term by term (singularity swap,
-//! af Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor
-//! at each node, in closed form. The logarithm is split, `ln|z - t| = ln|(z - t)/(1 - u_0/u)| + ln|1 - u_0/u|`: the
-//! first part is smooth, and the second a series of which the modes of a density take as many terms as there are of
-//! them ([`CloseWeights::modal`]). An open curve has the kernels of a row of images, `ln|2 sin(k d/2)|` and the sums of
+//! parameter alpha_0 with z(alpha_0) = t locates the peak. With u = exp(i alpha) and u_0 = exp(i alpha_0), `f/(z -
+//! t)^k = h/(u - u_0)^k` with a smooth h, whose Fourier series is integrated term by term (singularity swap, af
+//! Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor at
+//! each node, in closed form. The logarithm is split, `ln|z - t| = ln|(z - t)/(1 - u_0/u)| + ln|1 - u_0/u|`: the first
+//! part is smooth, and the second a series of which the modes of a density take as many terms as there are of them
+//! ([`CloseWeights::modal`]). An open curve has the kernels of a row of images, `ln|2 sin(k d/2)|` and the sums of
 //! 1/d^k, which are periodic in alpha and singular at one alpha_0 as well.
 
 use std::f64::consts::TAU;
@@ -33,7 +33,7 @@ use place::Preimage;
 /// loses its digits. It is a tenth of the distance of fine nodes, so that there is one such node at most.
 const CLOSEST: f64 = 0.3;
 
-/// Distance in spacings beyond which the trapezoidal rule is exact to a tolerance: its error falls like
+/// Returns the distance in spacings beyond which the trapezoidal rule is exact to a tolerance: its error falls like
 /// exp(-2 pi distance/spacing).
 pub(crate) fn reach(tolerance: f64) -> f64 {
     1.0 - tolerance.ln() / TAU
@@ -76,7 +76,7 @@ impl CloseWeights {
         Place::find(curve, point, reach, &mut self.squares)
     }
 
-    /// The kernels at the fine nodes and at the nodes.
+    /// Returns the kernels at the fine nodes and at the nodes.
     pub(crate) fn arrays(&self) -> [&KernelArrays; 2] {
         [&self.fine, &self.nodes]
     }
@@ -107,8 +107,8 @@ impl CloseWeights {
         }
     }
 
-    /// Sum over a density per parameter with these Fourier coefficients of the part of the logarithm that the values at
-    /// fine nodes leave out: `-INT ln|1 - p| f dalpha`.
+    /// Returns the sum over a density per parameter with these Fourier coefficients of the part of the logarithm that
+    /// the values at fine nodes leave out: `-INT ln|1 - p| f dalpha`.
     pub(crate) fn modal(polar: Complex64, density: &[Complex64]) -> Complex64 {
         let (mut power, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());
         if polar == Complex64::default() {
@@ -171,7 +171,7 @@ impl CloseWeights {
     }
 }
 
-/// Factors of the swap for a preimage.
+/// Returns the factors of the swap for a preimage.
 fn pole(preimage: Preimage, terms: usize) -> Pole {
     // Ratio of the two units that is below one, by its value at u = 1.
     let ratio = if preimage.inside { preimage.unit } else { preimage.unit.inv() };
@@ -179,8 +179,8 @@ fn pole(preimage: Preimage, terms: usize) -> Pole {
     Pole { ratio, turned: ratio.powi(terms as i32 + 1), side, terms: terms as f64 }
 }
 
-/// Sums `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed
-/// form loses its digits.
+/// Returns the sums `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p =
+/// 1 the closed form loses its digits.
 fn direct_factors(p: Complex64, terms: usize) -> [Complex64; 3] {
     let mut sums = [Complex64::default(); 3];
     for n in (0..=terms).rev() {
@@ -198,7 +198,7 @@ fn growth(x: Complex64) -> Complex64 {
     2.0 * half.exp() * half.sinh()
 }
 
-/// Position at a node minus the position at a parameter larger by `offset`, without cancellation.
+/// Returns the position at a node minus the position at a parameter larger by `offset`, without cancellation.
 fn difference(curve: &Curve, unit: Complex64, offset: Complex64) -> Complex64 {
     let shape = &curve.shape;
     let len = shape.len();

@@ -143,39 +143,39 @@ impl Curve {
         self.shape.len()
     }
 
-    /// Weight of a node in an integral over the parameter.
+    /// Returns the weight of a node in an integral over the parameter.
     pub(crate) fn weight(&self) -> f64 {
         TAU / self.len() as f64
     }
 
-    /// The nodes or the fine nodes.
+    /// Returns the nodes or the fine nodes.
     pub(crate) fn samples(&self, fine: bool) -> &Samples {
         if fine { &self.fine } else { &self.nodes }
     }
 
-    /// The samples that images in walls are summed over: the nodes, or the fine nodes and where these are too far apart
-    /// for the gap finer ones.
+    /// Returns the samples that images in walls are summed over: the nodes, or the fine nodes and where these are too
+    /// far apart for the gap finer ones.
     pub(crate) fn wall_samples(&self, fine: bool) -> &Samples {
         if fine && self.factor > REFINEMENT { &self.finer } else { self.samples(fine) }
     }
 
-    /// The density of the double layer at the samples of [`Curve::wall_samples`] other than nodes, `fine` being that at
-    /// the fine nodes.
+    /// Returns the density of the double layer at the samples of [`Curve::wall_samples`] other than nodes, `fine` being
+    /// that at the fine nodes.
     pub(crate) fn wall_density<'a>(&'a self, fine: &'a [Complex64]) -> &'a [Complex64] {
         if self.factor > REFINEMENT { &self.finer_density } else { fine }
     }
 
-    /// True for an open curve, which continues periodically.
+    /// Returns true for an open curve, which continues periodically.
     pub(crate) fn is_open(&self) -> bool {
         self.period.re != 0.0
     }
 
-    /// Green's function of the curve with its continuation: that of a row of images for an open one.
+    /// Returns the Green's function of the curve with its continuation: for an open curve, of a row of images.
     pub(crate) fn greens(&self) -> GreensFunction {
         if self.is_open() { GreensFunction::Row { k: TAU / self.period.re.abs() } } else { GreensFunction::Free }
     }
 
-    /// Shortest vector that differs from d by periods of an open curve.
+    /// Returns the shortest vector that differs from d by periods of an open curve.
     #[inline(always)]
     pub(crate) fn wrap(&self, d: Complex64) -> Complex64 {
         if self.is_open() { d - self.period * nearest_integer(d.re / self.period.re) } else { d }
@@ -210,8 +210,10 @@ impl Curve {
     /// Takes over positions and forces (none if they are given later), truncated to the modes that the nodes carry.
     ///
     /// # Errors
-    /// Lists of different length, fewer points than nodes, numbers that are not finite, an advance that is not the
-    /// period of the region, a clockwise curve; they name the curve by the number `curve`.
+    /// Returns an error for:
+    /// * lists of different length, fewer points than nodes, numbers that are not finite, an advance that is not the
+    ///   period of the region, a clockwise curve,
+    /// * they name the curve by the number `curve`.
     pub(crate) fn load(
         &mut self,
         transforms: &mut Transforms,
@@ -268,8 +270,8 @@ impl Curve {
         }
     }
 
-    /// Sums images in walls over so many nodes in place of each node from now on: a number above that of the fine nodes
-    /// takes samples of its own.
+    /// Sums images in walls over so many nodes in place of each node from now on: a number above the number of fine
+    /// nodes takes samples of its own.
     pub(crate) fn refine_for_walls(&mut self, transforms: &mut Transforms, factor: usize) -> Result<(), InputError> {
         self.factor = factor;
         if factor > REFINEMENT {
@@ -314,23 +316,23 @@ impl Curve {
         self.refine(transforms);
     }
 
-    /// Signed area (length squared), positive for a counter-clockwise curve.
+    /// Returns the signed area (length squared), positive for a counter-clockwise curve.
     fn signed_area(&self) -> f64 {
         let terms = self.nodes.position.iter().zip(&self.nodes.tangent);
         0.5 * self.weight() * terms.map(|(z, t)| (z.conj() * t).im).sum::<f64>()
     }
 
-    /// Arc length (length), over one period for an open curve.
+    /// Returns the arc length (length), over one period for an open curve.
     pub(crate) fn perimeter(&self) -> f64 {
         self.weight() * self.nodes.tangent.iter().map(|t| t.norm_sqr().sqrt()).sum::<f64>()
     }
 
-    /// Largest distance between neighbouring nodes along the curve (length).
+    /// Returns the largest distance between neighbouring nodes along the curve (length).
     pub(crate) fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// True for a point, relative to the centre, inside the polygon through the fine nodes of a closed curve.
+    /// Returns true for a point, relative to the centre, inside the polygon through the fine nodes of a closed curve.
     pub(crate) fn polygon_contains(&self, point: Complex64) -> bool {
         let corners = &self.fine.position;
         let sides = corners.iter().zip(corners.iter().cycle().skip(1));
@@ -341,8 +343,8 @@ impl Curve {
         sides.filter(right).count() % 2 == 1
     }
 
-    /// True for a point, relative to the centre and some spacings away from the curve, that lies on its left: its
-    /// winding number by Cauchy's formula.
+    /// Returns true for a point, relative to the centre and some spacings away from the curve, that lies on its left:
+    /// its winding number by Cauchy's formula.
     pub(crate) fn winds_around(&self, point: Complex64) -> bool {
         let greens = self.greens();
         let terms = self.nodes.position.iter().zip(&self.nodes.tangent);
@@ -352,8 +354,8 @@ impl Curve {
     }
 }
 
-/// The integer nearest to a number far below 2^51, without a branch or a call: in the sum with 1.5 2^52 nothing is left
-/// of the digits behind the point.
+/// Returns the integer nearest to a number far below 2^51, without a branch or a call: in the sum with 1.5 2^52 nothing
+/// is left of the digits behind the point.
 #[inline(always)]
 fn nearest_integer(x: f64) -> f64 {
     const SHIFT: f64 = 6_755_399_441_055_744.0;

@@ -5,18 +5,18 @@
 pub(crate) struct StoredLayers {
     /// The first of these curves; all behind it are stored too.
     pub(crate) first: usize,
-    /// True where layers between two stored curves are computed, false where only those between a stored curve and
-    /// another one are.
+    /// True where layers between two stored curves are computed, false if only those between a stored curve and another
+    /// one are.
     pub(crate) mutual: bool,
 }
 
 impl StoredLayers {
-    /// True for a curve whose layer is stored.
+    /// Returns true for a curve whose layer is stored.
     pub(crate) fn has(self, curve: usize) -> bool {
         curve >= self.first
     }
 
-    /// True for two curves between which a layer is computed.
+    /// Returns true for two curves between which a layer is computed.
     pub(crate) fn couples(self, target: usize, source: usize) -> bool {
         self.mutual || target < self.first || source < self.first
     }
@@ -34,28 +34,28 @@ impl<'a> Density<'a> {
     /// No double layer at all.
     pub(crate) const NONE: Self = Self { values: &[], contrasts: &[] };
 
-    /// Nodes of each curve.
+    /// Returns the nodes of each curve.
     pub(crate) fn nodes(&self) -> usize {
         self.values.len() / (2 * self.contrasts.len()).max(1)
     }
 
-    /// Components x and y at the nodes of one curve.
+    /// Returns the components x and y at the nodes of one curve.
     pub(crate) fn of(&self, curve: usize) -> (&'a [f64], &'a [f64]) {
         self.values_of(curve).split_at(self.nodes())
     }
 
-    /// Components at the nodes of one curve, x then y.
+    /// Returns the components at the nodes of one curve, x then y.
     pub(crate) fn values_of(&self, curve: usize) -> &'a [f64] {
         let len = 2 * self.nodes();
         &self.values[len * curve..len * (curve + 1)]
     }
 
-    /// Factor of the velocities of a curve; zero without a double layer.
+    /// Returns the factor of the velocities of a curve; zero without a double layer.
     pub(crate) fn contrast(&self, curve: usize) -> f64 {
         self.contrasts.get(curve).copied().unwrap_or(0.0)
     }
 
-    /// True where no curve has a double layer.
+    /// Returns true if no curve has a double layer.
     pub(crate) fn vanishes(&self) -> bool {
         self.contrasts.iter().all(|contrast| *contrast == 0.0)
     }

@@ -18,7 +18,7 @@ use stored::{StoredStokeslets, StoredStress};
 use sums::{PairSums, double_layer, single_layer};
 
 /// Largest number of pairs of curves, and of pairs of nodes, for which the stress between nodes is stored instead of
-/// computed in each product: as many stresses take 256 MB, and 200 pairs of curves of 64 nodes 25 MB. Beyond, memory is
+/// computed in each product. As many stresses take 256 MB, and 200 pairs of curves of 64 nodes 25 MB. Beyond, memory is
 /// read no faster than the stress is computed.
 const MOST_STORED_PAIRS: usize = 200;
 const MOST_STORED_STRESSES: usize = 1 << 23;
@@ -71,8 +71,8 @@ impl DirectSums {
         self.stresses_stored = false;
     }
 
-    /// Adds the single layers of all pairs, that of a curve on itself by the rule of Kress; stores the Stokeslets of
-    /// pairs with a stored curve.
+    /// Adds the single layers of all pairs, of a curve on itself by the rule of Kress; stores the Stokeslets of pairs
+    /// with a stored curve.
     pub(crate) fn add_forces(&mut self, plans: &[Plan], stored: StoredLayers, out: &mut [Vectors]) {
         let Self { sums, curves, pairs, stokeslets, .. } = self;
         stokeslets.resize_with(pairs.len().max(stokeslets.len()), StoredStokeslets::default);

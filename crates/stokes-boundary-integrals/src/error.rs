@@ -13,7 +13,7 @@ pub enum LayerError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A position, force or velocity on a curve or at a point is not a finite number.
-    #[error("{what} number {point} (curve {curve}) is ({x}, {y}): use finite numbers only")]
+    #[error("{what} number {point} (curve {curve}) is ({x}, {y}). Use finite numbers only")]
     NonFinite {
         /// Name of the quantity.
         what: &'static str,
@@ -27,7 +27,7 @@ pub enum LayerError {
         y: f64,
     },
     /// A curve with too few or too many nodes or points.
-    #[error("{kind} {curve} has {found} {what}: use {least} to {most}")]
+    #[error("{kind} {curve} has {found} {what}. Use a number from {least} to {most}")]
     Count {
         /// Curve or wall.
         kind: &'static str,
@@ -37,20 +37,20 @@ pub enum LayerError {
         what: &'static str,
         /// How many it has.
         found: usize,
-        /// Least number.
+        /// Minimum number.
         least: usize,
         /// Largest number.
         most: usize,
     },
     /// A curve runs clockwise or crosses itself.
-    #[error("curve {curve} runs clockwise or crosses itself: list its points in counter-clockwise order")]
+    #[error("curve {curve} runs clockwise or crosses itself. List its points in counter-clockwise order")]
     Clockwise {
         /// Number of the curve.
         curve: usize,
     },
     /// A node of a curve lies beyond a wall.
     #[error(
-        "node {node} of curve {curve} at ({x:.4}, {y:.4}) is {} beyond the wall, more than {}: move the curve away, \
+        "node {node} of curve {curve} at ({x:.4}, {y:.4}) is {} beyond the wall, more than {}. Move the curve away, \
          use a smaller time step or more nodes",
         told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1]
     )]
@@ -71,7 +71,7 @@ pub enum LayerError {
     /// A film between a wall and a rigid body that the nodes of the body do not resolve.
     #[error(
         "the gap between rigid body {curve} and the wall is {}, below {}: its {nodes} nodes do not resolve the flow in \
-         so narrow a gap. Its speed may be off by 1 %, and by more the narrower the gap. Use {needed} nodes or \
+         so narrow a gap, and the speed may be off by 1 % or more. Use {needed} nodes or \
          more, or keep the body away from the wall",
         told_apart([*gap, *least])[0], told_apart([*gap, *least])[1]
     )]
@@ -89,7 +89,7 @@ pub enum LayerError {
     },
     /// An interface beyond a rigid wall or inside an obstacle.
     #[error(
-        "interface {curve} is beyond rigid wall {wall} at ({x:.4}, {y:.4}): move it away, use a smaller time step or \
+        "interface {curve} is beyond rigid wall {wall} at ({x:.4}, {y:.4}). Move it away, use a smaller time step or \
          more nodes"
     )]
     CrossesWall {
@@ -104,7 +104,7 @@ pub enum LayerError {
     },
     /// An iteration for a viscosity contrast that did not reach its tolerance.
     #[error(
-        "the relative residual is {} after {iterations} iterations, above {}: use more nodes, allow more iterations, \
+        "the relative residual is {} after {iterations} iterations, above {}. Use more nodes, allow more iterations, \
          or use a larger tolerance",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
@@ -124,14 +124,14 @@ pub enum LayerError {
 motile_base::debug_as_explanation!(LayerError);
 
 impl LayerError {
-    /// A flow that cannot be imposed on the region.
+    /// Returns the error for a flow that cannot be imposed on the region.
     #[doc(hidden)]
     #[must_use]
     pub fn no_such_flow(flow: &str, remedy: &str) -> Self {
         Self::refused(format!("{flow} is not possible"), "", remedy)
     }
 
-    /// Rigid walls with a singular matrix, so that the forces on them are not determined.
+    /// Returns the error for rigid walls with a singular matrix, so that the forces on them are not determined.
     #[doc(hidden)]
     #[must_use]
     pub fn singular_walls() -> Self {
@@ -139,19 +139,20 @@ impl LayerError {
         Self::refused("the forces on the rigid walls are not determined", "their equations are singular", remedy)
     }
 
-    /// An axisymmetric region for curves in the plane.
+    /// Returns the error for an axisymmetric region for curves in the plane.
     pub(crate) fn in_three_dimensions() -> Self {
         let remedy = "Use `AxisymmetricFlow`, or a two-dimensional region";
         Self::refused("the region is axisymmetric, but this flow is two-dimensional", "", remedy)
     }
 
-    /// Rigid walls in a region that is no channel.
+    /// Returns the error for rigid walls in a region that is not a channel.
     pub(crate) fn no_channel() -> Self {
         let remedy = "Use a channel that is wider than they are";
         Self::refused("rigid walls and obstacles need a channel around them", "", remedy)
     }
 
-    /// A curve that advances by `advance` in a turn of the parameter, neither by zero nor by the `period` along x.
+    /// Returns the error for a curve that advances by `advance` in a turn of the parameter, neither by zero nor by the
+    /// `period` along x.
     pub(crate) fn period(curve: usize, advance: Vec2, period: f64) -> Self {
         let value =
             format!("from its first point to the next image of it, it advances by ({}, {})", advance.x, advance.y);
@@ -164,7 +165,7 @@ impl LayerError {
         Self::refused(format!("curve {curve} has the wrong period"), value, remedy)
     }
 
-    /// Rigid walls that cross or touch each other near a place, or a wall that crosses itself.
+    /// Returns the error for rigid walls that cross or touch each other near a place, or a wall that crosses itself.
     pub(crate) fn walls_cross(first: usize, second: usize, place: Vec2) -> Self {
         let walls = if first == second {
             format!("wall {first} crosses itself")

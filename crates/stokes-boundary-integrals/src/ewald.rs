@@ -1,11 +1,11 @@
 //! Fast sums of layers over many nodes in the plane, a periodic box or a channel, linear in their number.
 //!
 //! The Green's function is split into a part that ends at a cut-off, summed over the nodes within it ([`near`]), and a
-//! smooth part with a bounded spectrum: its sources are spread to a grid, transformed, multiplied by the spectrum,
+//! smooth part with a bounded spectrum. Its sources are spread to a grid, transformed, multiplied by the spectrum,
 //! transformed back and interpolated (Ewald, Ann. Phys. 369, 253, 1921; Lindbo and Tornberg, J. Comput. Phys. 230,
 //! 8744, 2011). The [`split`] is by a prolate function (Jiang and Greengard, Commun. Pure Appl. Math. 78, 2025), which
-//! needs the fewest waves. Sums over nodes are those of [`crate::direct`] to the tolerance: the quadrature is the same,
-//! the weights of Kress one cyclic product a curve.
+//! needs the fewest waves. Sums over nodes equal the sums of [`crate::direct`] to the tolerance: the quadrature is the
+//! same, the weights of Kress one cyclic product per curve.
 
 mod cells;
 mod cluster;
@@ -50,7 +50,7 @@ const CUTOFF: f64 = 3.0;
 /// nodes change neither grid nor memory.
 const CLASSES: f64 = 2.0;
 
-/// Cut-off in the plane, whose nodes fill a part of the box, over that in a box of as many nodes (measured).
+/// Cut-off in the plane, whose nodes fill only a fraction of the box, over that in a box of as many nodes (measured).
 const IN_PLANE: f64 = 0.6;
 
 /// Fast sums over the nodes of curves in the plane, a box or a channel, with plans and working memory.
@@ -85,11 +85,11 @@ pub(crate) struct Ewald {
 }
 
 impl Ewald {
-    /// Sums to a relative tolerance over the nodes of curves, at `points` (length), or at the nodes where there are no
-    /// points; none in regions of revolution.
+    /// Returns the sums to a relative tolerance over the nodes of curves, at `points` (length), or at the nodes if
+    /// there are no points; none in regions of revolution.
     ///
     /// # Errors
-    /// A grid too large for a transform.
+    /// Returns an error for a grid too large for a transform.
     pub(crate) fn new(
         region: &Region,
         images: &Images,
@@ -128,7 +128,7 @@ impl Ewald {
         Ok(Some(ewald))
     }
 
-    /// Relative tolerance.
+    /// Returns the relative tolerance.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
@@ -137,7 +137,7 @@ impl Ewald {
     /// where they fit.
     ///
     /// # Errors
-    /// A grid too large for a transform.
+    /// Returns an error for a grid too large for a transform.
     pub(crate) fn set(&mut self, images: &Images, curves: &[Curve], points: &[Vec2]) -> Result<(), InputError> {
         let nodes = count(curves, points);
         let around = self.cluster.as_mut().map(|cluster| cluster.set(curves, points)).transpose()?;
@@ -155,7 +155,7 @@ impl Ewald {
         Ok(())
     }
 
-    /// The cut-off for so many nodes (length), at most what keeps each node to one image within it.
+    /// Returns the cut-off for so many nodes (length), at most what keeps each node to one image within it.
     fn cutoff_for(&self, nodes: usize) -> f64 {
         let class = 2f64.powf((CLASSES * (nodes.max(1) as f64).log2()).ceil() / CLASSES);
         let [lx, ly] = self.lattice.lengths;
@@ -189,7 +189,7 @@ impl Ewald {
         shares::each(columns, |share| share.set_symbol(lattice, *cutoff, split, window));
     }
 
-    /// Part of the sums that walls are to correct.
+    /// Returns the part of the sums that walls are to correct.
     pub(crate) fn uncorrected(&self) -> Uncorrected {
         if self.width.is_some() { Uncorrected::Box { reach: self.cutoff } } else { Uncorrected::Row }
     }
@@ -205,7 +205,7 @@ impl Ewald {
         self.cells.sort(&self.lattice, self.cutoff, true, points);
     }
 
-    /// Adds the single layers of some curves at the nodes of all, that of a curve on itself by the rule of Kress.
+    /// Adds the single layers of some curves at the nodes of all, of a curve on itself by the rule of Kress.
     pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, plans: &mut Plans, out: &mut [Vectors]) {
         self.load_forces(curves, from.clone());
         self.carry(2);
@@ -363,8 +363,8 @@ impl Ewald {
     }
 }
 
-/// Number of nodes, or the geometric mean of their number and that of points: near part and grid cost alike for one
-/// product of both numbers.
+/// Returns the number of nodes, or the geometric mean of their number and the number of points: near part and grid cost
+/// alike for one product of both numbers.
 fn count(curves: &[Curve], points: &[Vec2]) -> usize {
     let nodes = curves.iter().map(Curve::len).sum::<usize>();
     if points.is_empty() { nodes } else { (nodes as f64 * points.len() as f64).sqrt().ceil() as usize }
@@ -378,7 +378,7 @@ fn transform(rows: &mut [Rows], columns: &mut [Columns], traces: bool) {
     shares::each(columns, |share| share.gather(rows, traces));
 }
 
-/// The least even number from a given one on without prime factors above 5, which is fast to transform.
+/// Returns the least even number from a given one on without prime factors above 5, which is fast to transform.
 fn smooth(least: usize) -> usize {
     let mut number = least.next_multiple_of(2);
     while !is_product(number, &[2, 3, 5]) {

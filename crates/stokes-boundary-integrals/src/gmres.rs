@@ -15,7 +15,7 @@ const SHORT: usize = 30;
 pub struct Outcome {
     /// Products with the matrix, without the one that gives the residual of the guess.
     pub iterations: usize,
-    /// Norm of the residual over that of the right-hand side.
+    /// Norm of the residual over the norm of the right-hand side.
     pub residual: f64,
 }
 
@@ -33,6 +33,7 @@ pub struct Outcome {
 /// assert!((x[0] - 1.0).abs() < 1e-10 && (x[1] - 3.0).abs() < 1e-10 && outcome.iterations == 2);
 /// ```
 #[derive(Debug, Clone, Default)]
+#[doc(alias("Krylov", "iterative solver"))]
 pub struct Gmres {
     /// Orthonormal vectors, one after the other.
     basis: Vec<f64>,
@@ -47,8 +48,8 @@ pub struct Gmres {
 }
 
 impl Gmres {
-    /// A solver in which the directions of one solution precondition the next, for matrices that change little in
-    /// between.
+    /// Creates a solver in which the directions of one solution precondition the next, for matrices that change little
+    /// in between.
     #[must_use]
     pub fn recycling() -> Self {
         Self { recycled: Some(Recycled::default()), ..Self::default() }
@@ -61,7 +62,7 @@ impl Gmres {
         }
     }
 
-    /// Recycled directions for a checkpoint, vector after vector; none unless they have the length `len`.
+    /// Returns the recycled directions for a checkpoint, vector after vector; none unless they have the length `len`.
     #[must_use]
     pub fn save(&self, len: usize) -> Vec<f64> {
         self.recycled.as_ref().filter(|recycled| recycled.len == len).map_or_else(Vec::new, Recycled::save)
@@ -75,12 +76,12 @@ impl Gmres {
         }
     }
 
-    /// Solves `A x = b`, x holding a guess on entry, until the norm of the residual is below `tolerance` times that of
-    /// b or `most` products have been made.
+    /// Solves `A x = b`, x holding a guess on entry, until the norm of the residual is below `tolerance` times the norm
+    /// of b or `most` products have been made.
     ///
-    /// `product(x, out, accuracy)` writes A x with an error of up to `accuracy` times the norm of x: the smaller the
-    /// residual already is, the less a new direction contributes to the solution and the less exact its product need be
-    /// (Simoncini and Szyld, SIAM J. Sci. Comput. 25, 454, 2003).
+    /// `product(x, out, accuracy)` writes A x with an error of up to `accuracy` times the norm of x. As the residual
+    /// becomes smaller, a new direction contributes less to the solution and its product may be less exact (Simoncini
+    /// and Szyld, SIAM J. Sci. Comput. 25, 454, 2003).
     pub fn solve(
         &mut self,
         mut product: impl FnMut(&[f64], &mut [f64], f64),
@@ -195,8 +196,8 @@ impl Gmres {
 const MOST: usize = 16;
 /// Directions of a solution up to which the recycled ones stay: they have served, and renewing them costs more.
 const FEW: usize = 3;
-/// Least part of an older image that is independent of newer ones for its direction to stay: below, its direction is
-/// mostly the newer ones' with the errors of an older matrix.
+/// Minimum fraction of an older image that is independent of newer ones for its direction to stay: below, its direction
+/// is mostly the newer ones' with the errors of an older matrix.
 const OLD: f64 = 0.1;
 /// Least independent part among images of the same solution, whose matrix is the same: round-off over this part stays
 /// below the usual tolerances.
@@ -228,7 +229,7 @@ struct Pairs {
 }
 
 impl Recycled {
-    /// Prepares for vectors of that length; those of another length are dropped.
+    /// Prepares for vectors of that length; vectors of another length are dropped.
     fn fit(&mut self, len: usize) {
         if self.len != len {
             self.len = len;
@@ -244,7 +245,7 @@ impl Recycled {
         self.now.size = 0;
     }
 
-    /// All differences, then all images.
+    /// Returns all differences, then all images.
     fn save(&self) -> Vec<f64> {
         let kept = self.now.size * self.len;
         [&self.now.differences[..kept], &self.now.images[..kept]].concat()

@@ -21,7 +21,8 @@ pub(crate) struct Images {
 }
 
 impl Images {
-    /// The periodic images of a region, of a box after a shear strain (no dimension), put back by whole periods.
+    /// Creates the periodic images of a region, of a box after a shear strain (no dimension), put back by whole
+    /// periods.
     pub(crate) fn of(region: &Region, strain: f64) -> Self {
         let lengths = region.periods();
         let tilt = if let [Some(lx), Some(ly)] = lengths {
@@ -33,18 +34,18 @@ impl Images {
         Self { periods: Periods { lengths, tilt } }
     }
 
-    /// Displacement along x of the images above (length).
+    /// Returns the displacement along x of the images above (length).
     pub(crate) fn tilt(&self) -> f64 {
         self.periods.tilt
     }
 
-    /// Area of a box (length squared), infinite otherwise.
+    /// Returns the area of a box (length squared), infinite otherwise.
     pub(crate) fn area(&self) -> f64 {
         let [x, y] = self.periods.lengths;
         x.zip(y).map_or(f64::INFINITY, |(x, y)| x * y)
     }
 
-    /// A vector that differs from d by periods, of at most half a period along y and half a period along x.
+    /// Returns a vector that differs from d by periods, of at most half a period along y and half a period along x.
     pub(crate) fn wrap(&self, d: Complex64) -> Complex64 {
         let [x, y] = self.periods.lengths;
         let count = |value: f64, period: Option<f64>| period.map_or(0.0, |p| (value / p).round());
@@ -53,8 +54,8 @@ impl Images {
         Complex64::new(along - x.map_or(0.0, |p| p * count(along, x)), d.im - y.map_or(0.0, |p| p * rows))
     }
 
-    /// Zero, and the vectors to the neighbouring images (length); without those along x for an open curve, which has
-    /// its own.
+    /// Returns the zero, and the vectors to the neighbouring images (length); without those along x for an open curve,
+    /// which has its own.
     pub(crate) fn shifts(&self, open: bool) -> impl Iterator<Item = Complex64> + use<> {
         let steps = |period: Option<f64>| {
             let p = period.unwrap_or(0.0);

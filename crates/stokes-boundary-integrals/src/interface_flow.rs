@@ -36,7 +36,7 @@ pub const MOST_CONTRAST: f64 = 1e8;
 pub struct Solution {
     /// Iterations; none where all viscosities are equal.
     pub iterations: usize,
-    /// Norm of the residual over that of the right-hand side.
+    /// Norm of the residual over the norm of the right-hand side.
     pub residual: f64,
     /// Mean pressure gradient along a channel (stress per length).
     pub pressure_gradient: f64,
@@ -60,12 +60,12 @@ pub struct WarmStart {
 /// (eta_in + eta_out)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_out)/(4 pi) INT v(y) T(x, y) n ds
 /// ```
 ///
-/// with the Green's function G of the region and its stress T; n points outward, and eta_out is the viscosity of the
-/// fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is integrated
-/// by the rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the
-/// parameter, so that errors fall faster than any power of the number of nodes. Where viscosities differ the equation
-/// is solved by GMRES. Nodes close to another interface get a quadrature of their own, so that films are as thin as
-/// their flow is resolved by the nodes, whatever the kernel.
+/// with the Green's function G of the region and its stress T. Here n points outward, and eta_out is the viscosity of
+/// the fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is
+/// integrated by the rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of
+/// the parameter. Errors fall faster than any power of the number of nodes. If viscosities differ, the equation is
+/// solved by GMRES. Nodes close to another interface get a separate quadrature, so that films are as thin as their flow
+/// is resolved by the nodes, whatever the kernel.
 ///
 /// A rigid body is the limit of eta_in to infinity, in which `v = U + Om x (x - x_c) + w/eta_in` with a density w. The
 /// first two terms are the rigid motion P w/eta_out, P the mean rigid motion of a density:
@@ -80,8 +80,9 @@ pub struct WarmStart {
 ///
 /// Call [`InterfaceFlow::load`], [`InterfaceFlow::solve`], then [`InterfaceFlow::velocities`] for the velocities on the
 /// interfaces and [`InterfaceFlow::sample`] for the flow anywhere. While the numbers of interfaces and points stay the
-/// same nothing is allocated.
+/// same, nothing is allocated.
 #[derive(Debug, Clone)]
+#[doc(alias("Ewald", "double layer", "viscosity ratio", "drop", "boundary element method"))]
 pub struct InterfaceFlow {
     region: Region,
     viscosity: f64,
@@ -98,11 +99,11 @@ pub struct InterfaceFlow {
 }
 
 impl InterfaceFlow {
-    /// The flow in a region whose exterior fluid has this viscosity (stress times time), without interfaces.
+    /// Creates the flow in a region whose exterior fluid has this viscosity (stress times time), without interfaces.
     ///
     /// # Errors
-    /// A viscosity or a length that is not positive and finite, periods of which one is more than 20 times the other,
-    /// settings out of their range.
+    /// Returns an error for a viscosity or a length that is not positive and finite, periods of which one is more than
+    /// 20 times the other, settings out of their range.
     pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         positive("the viscosity", viscosity)?;
         settings.check()?;
@@ -116,9 +117,10 @@ impl InterfaceFlow {
         Ok(Self { region, viscosity, settings, layers, equation, velocities, motion, walls: None, sampler, inside })
     }
 
-    /// Adds rigid walls and obstacles at rest to a channel, in place of those that there were: open walls with the
-    /// fluid on their left, which are the sides of a channel of another shape, and closed ones, counter-clockwise, with
-    /// the fluid around them. They are a single layer whose forces f cancel the velocity on them,
+    /// Adds rigid walls and obstacles at rest to a channel, in place of those that there were. These are open walls
+    /// with the fluid on their left, which are the sides of a channel of another shape, and closed ones,
+    /// counter-clockwise, with the fluid around them. They are a single layer whose forces f cancel the velocity on
+    /// them,
     ///
     /// ```text
     /// 1/(4 pi eta) [INT G f ds over walls  +  layers of the interfaces]  +  forced flow  =  0    on walls
@@ -129,8 +131,8 @@ impl InterfaceFlow {
     /// that between the walls, without the flow that a pressure gradient drives behind them.
     ///
     /// # Errors
-    /// Another region than a channel; what [`crate::SingleLayer::load`] refuses; more than 3000 nodes; walls that cross
-    /// or touch.
+    /// Returns an error for another region than a channel; what [`crate::SingleLayer::load`] refuses; more than 3000
+    /// nodes; walls that cross or touch.
     pub fn with_walls<'a>(
         mut self,
         walls: impl Iterator<Item = LayerCurve<'a>> + Clone + Send,
@@ -145,13 +147,13 @@ impl InterfaceFlow {
         Ok(self)
     }
 
-    /// Imposes a flow in place of the one that there was: in the plane any one, in a channel that of walls that slide
-    /// ([`ImposedFlow::couette`]), a prescribed flux then being that of all, in a box a shear, after a strain (no
-    /// dimension) by which the images above are displaced along x. The strain counts modulo whole periods.
+    /// Imposes a flow in place of the one that there was: in the plane any one, in a channel the flow of sliding walls
+    /// ([`ImposedFlow::couette`]), a prescribed flux then being the flux of all flows, in a box a shear, after a strain
+    /// (no dimension) by which the images above are displaced along x. The strain counts modulo whole periods.
     ///
     /// # Errors
-    /// Numbers that are not finite or a flow that does not keep areas; [`LayerError::Refused`] for a flow that the
-    /// region does not have.
+    /// Returns an error for numbers that are not finite or a flow that does not keep areas; [`LayerError::Refused`] for
+    /// a flow that the region does not have.
     pub fn impose(&mut self, flow: ImposedFlow, strain: f64) -> Result<(), LayerError> {
         flow.check()?;
         finite("the strain of the images", strain)?;
@@ -184,26 +186,26 @@ impl InterfaceFlow {
         Ok(())
     }
 
-    /// Strain by which the images of a box are displaced (no dimension).
+    /// Returns the strain by which the images of a box are displaced (no dimension).
     #[must_use]
     pub fn strain(&self) -> f64 {
         self.layers.strain
     }
 
-    /// Periods of the region, and the displacement of images that are sheared.
+    /// Returns the periods of the region, and the displacement of images that are sheared.
     #[must_use]
     pub fn periods(&self) -> Periods {
         self.layers.images.periods
     }
 
-    /// The imposed flow, without what the drive of a channel drives.
+    /// Returns the imposed flow, without what the drive of a channel drives.
     #[must_use]
     pub fn imposed(&self) -> ImposedFlow {
         self.layers.imposed
     }
 
-    /// Forces of the rigid walls on the fluid (force), wall by wall, from the last solution; those by which a pressure
-    /// gradient pushes behind open walls are part of them.
+    /// Returns the forces of the rigid walls on the fluid (force), wall by wall, from the last solution; those by which
+    /// a pressure gradient pushes behind open walls are part of them.
     pub fn wall_forces(&self) -> impl Iterator<Item = Vec2> {
         let layers = &self.layers;
         let first = layers.stored.first;
@@ -217,37 +219,38 @@ impl InterfaceFlow {
         })
     }
 
-    /// Region of the flow.
+    /// Returns the region of the flow.
     #[must_use]
     pub fn region(&self) -> &Region {
         &self.region
     }
 
-    /// Viscosity of the exterior fluid (stress times time).
+    /// Returns the viscosity of the exterior fluid (stress times time).
     #[must_use]
     pub fn viscosity(&self) -> f64 {
         self.viscosity
     }
 
-    /// Resolution and accuracy.
+    /// Returns the resolution and accuracy.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Number of interfaces.
+    /// Returns the number of interfaces.
     #[must_use]
     pub fn len(&self) -> usize {
         self.layers.stored.first
     }
 
-    /// True if there are no interfaces.
+    /// Returns true if there are no interfaces.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Arc length of an interface (length), over one period of an open one; `None` if there is no such interface.
+    /// Returns the arc length of an interface (length), over one period of an open one. It is `None` if there is no
+    /// such interface.
     #[must_use]
     pub fn perimeter(&self, interface: usize) -> Option<f64> {
         self.layers.curves[..self.len()].get(interface).map(Curve::perimeter)
@@ -256,11 +259,13 @@ impl InterfaceFlow {
     /// Takes over interfaces, truncated to the modes that the nodes carry.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one,
-    /// where round-off shows; positions or forces that are not finite, too few or too many points, a clockwise curve, a
-    /// node beyond a wall, a rigid body so close to a straight wall that its nodes do not resolve the film (an error of
-    /// 1 % in its speed); beside open interfaces a sheared box, or between fluids of different viscosity a prescribed
-    /// flux.
+    /// Returns an error for:
+    /// * a viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one,
+    ///   where round-off shows,
+    /// * positions or forces that are not finite, too few or too many points, a clockwise curve, a node beyond a wall,
+    ///   a rigid body so close to a straight wall that its nodes do not resolve the film (an error of 1 % in its
+    ///   speed),
+    /// * with open interfaces a sheared box, or between fluids of different viscosity a prescribed flux.
     pub fn load<'a>(
         &mut self,
         interfaces: impl Iterator<Item = Interface<'a>> + Clone + Send,
@@ -306,8 +311,8 @@ impl InterfaceFlow {
         )
     }
 
-    /// Viscosities below the lowest and above the highest open interface, at the walls of a channel (stress times
-    /// time).
+    /// Returns the viscosities below the lowest and above the highest open interface, at the walls of a channel (stress
+    /// times time).
     fn viscosities_at_walls<'a>(
         &self,
         interfaces: impl Iterator<Item = Interface<'a>>,
@@ -354,7 +359,8 @@ impl InterfaceFlow {
         }
     }
 
-    /// Adds the response of the walls to the double layer of the velocities to that of [`InterfaceFlow::respond`].
+    /// Adds the response of the walls to the double layer of the velocities to the response of
+    /// [`InterfaceFlow::respond`].
     fn settle_walls(&mut self) {
         let Self { layers, walls: Some(walls), equation, velocities, settings, .. } = self else { return };
         if equation.has_contrast() {
@@ -368,7 +374,7 @@ impl InterfaceFlow {
     /// Solves for the velocities on the interfaces.
     ///
     /// # Errors
-    /// No convergence.
+    /// Returns an error if there is no convergence.
     pub fn solve(&mut self) -> Result<Solution, LayerError> {
         if self.is_empty() {
             self.velocities.clear();
@@ -409,7 +415,7 @@ impl InterfaceFlow {
     /// forces together have in fluid of the exterior viscosity everywhere.
     ///
     /// # Errors
-    /// No convergence, slices of another length, rigid walls that are curves.
+    /// Returns an error if there is no convergence, or for slices of another length, or rigid walls that are curves.
     pub fn solve_in(&mut self, flow: &[f64], velocities: &mut [f64]) -> Result<Solution, LayerError> {
         let len = 2 * self.settings.nodes;
         same_length("the flow", len * self.len(), flow.len())?;
@@ -438,7 +444,7 @@ impl InterfaceFlow {
         Ok(outcome)
     }
 
-    /// Range of the values of an interface among the velocities at all nodes.
+    /// Returns the range of the values of an interface among the velocities at all nodes.
     fn values(&self, interface: usize) -> std::ops::Range<usize> {
         let len = 2 * self.settings.nodes;
         len * interface..len * (interface + 1)
@@ -459,7 +465,8 @@ impl InterfaceFlow {
     /// the nodes carry.
     ///
     /// # Errors
-    /// No such interface or no solution for it, another number of points, velocities that are not finite.
+    /// Returns an error if there is no such interface or no solution for it, or for another number of points,
+    /// velocities that are not finite.
     pub fn velocities(&mut self, interface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
         self.check_points(interface, out.len())?;
         self.check_solved()?;
@@ -478,7 +485,7 @@ impl InterfaceFlow {
     /// Writes the velocities of [`InterfaceFlow::velocities`] at the points of all interfaces, one after the other.
     ///
     /// # Errors
-    /// Those of [`InterfaceFlow::velocities`]; no solution for the present interfaces.
+    /// Returns the errors of [`InterfaceFlow::velocities`]; no solution for the present interfaces.
     pub fn all_velocities(&mut self, out: &mut [Vec2]) -> Result<(), LayerError> {
         let count = self.len();
         let points = |curves: &[Curve]| curves.iter().map(|curve| curve.points).sum::<usize>();
@@ -512,7 +519,8 @@ impl InterfaceFlow {
         results.into_iter().collect()
     }
 
-    /// Motion of a rigid body in the last solution; `None` if there is no rigid body of that number or no solution.
+    /// Returns the motion of a rigid body in the last solution. It is `None` if there is no rigid body of that number
+    /// or no solution.
     #[must_use]
     pub fn rigid_motion(&self, interface: usize) -> Option<RigidMotion> {
         let curve = self.layers.curves.get(interface)?;
@@ -520,9 +528,9 @@ impl InterfaceFlow {
         Some(RigidMotion::of(curve, self.velocities.get(self.values(interface))?))
     }
 
-    /// Force dipole (force times length) of the double layer of a rigid body in the last solution,
-    /// `D_ij = -INT (w_i n_j + w_j n_i) ds` with the density w: what holds it rigid adds this to the dipole of the
-    /// forces on its surface. `None` if there is no rigid body of that number or no solution.
+    /// Returns the force dipole (force times length) of the double layer of a rigid body in the last solution, `D_ij =
+    /// -INT (w_i n_j + w_j n_i) ds` with the density w. What holds it rigid adds this to the dipole of the forces on
+    /// its surface. `None` if there is no rigid body of that number or no solution.
     #[must_use]
     pub fn rigid_dipole(&self, interface: usize) -> Option<[[f64; 2]; 2]> {
         let curve = self.layers.curves.get(interface)?;
@@ -541,7 +549,7 @@ impl InterfaceFlow {
     /// body do not determine the flow around it, which follows from a solution alone.
     ///
     /// # Errors
-    /// No such interface, another number of points, velocities that are not finite.
+    /// Returns an error if there is no such interface, or for another number of points, velocities that are not finite.
     pub fn set_velocities(&mut self, interface: usize, values: &[Vec2]) -> Result<(), LayerError> {
         self.check_points(interface, values.len())?;
         finite_vectors("the velocity", interface, values)?;
@@ -550,10 +558,12 @@ impl InterfaceFlow {
         Ok(self.layers.plan(interface).transforms.at_nodes(values, &mut self.velocities[range])?)
     }
 
-    /// Flow at points anywhere, at any distance from the interfaces, for the velocities that were solved for or set.
+    /// Writes the flow at points anywhere, at any distance from the interfaces, for the velocities that were solved for
+    /// or set.
     ///
     /// # Errors
-    /// Points that are not finite, slices of different length, no solution, an interface beyond a rigid wall.
+    /// Returns an error for points that are not finite, slices of different length, no solution, an interface beyond a
+    /// rigid wall.
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
@@ -582,12 +592,14 @@ impl InterfaceFlow {
         Ok(())
     }
 
-    /// Velocities (length per time) at points inside an interface that encloses no others, for the velocities on it
-    /// that were solved for or set; they are all that is needed, whatever lies outside. Spectrally accurate up to the
-    /// interface, and far cheaper than [`InterfaceFlow::sample`], which also gives pressure and gradient, anywhere.
+    /// Writes the velocities (length per time) at points inside an interface that encloses no others, for the
+    /// velocities on it that were solved for or set; they are all that is needed, whatever lies outside. Spectrally
+    /// accurate up to the interface, and far cheaper than [`InterfaceFlow::sample`], which also gives pressure and
+    /// gradient, anywhere.
     ///
     /// # Errors
-    /// Points that are not finite, slices of different length, no such interface, no solution, no convergence.
+    /// Returns an error for points that are not finite, slices of different length, no such interface, no solution, no
+    /// convergence.
     pub fn velocities_inside(&mut self, interface: usize, points: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
@@ -611,7 +623,7 @@ impl InterfaceFlow {
         Ok(())
     }
 
-    /// State that the next solution depends on besides the interfaces.
+    /// Returns the state that the next solution depends on besides the interfaces.
     #[must_use]
     pub fn warm_start(&self) -> WarmStart {
         let velocities = self.equation.solution.clone();

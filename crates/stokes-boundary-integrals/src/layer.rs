@@ -46,7 +46,7 @@ const MANY_IN_PLANE: [usize; 2] = [4000, 10_000];
 const MANY_OF_ONE: usize = 1000;
 /// Tolerance below which fast sums show round-off: sums are then those over pairs, for any number of nodes.
 const ROUND_OFF: f64 = 1e-12;
-/// Least part of a circle around all curves in the plane that they fill where fast sums cost less (measured).
+/// Minimum fraction of a circle around all curves in the plane that they fill where fast sums cost less (measured).
 const FILLED: f64 = 0.005;
 
 /// Layers on curves in a region. Flows are 4 pi times velocity times viscosity (force per length in 2D).
@@ -59,22 +59,22 @@ pub(crate) struct Layers {
     pub(crate) greens: GreensFunction,
     pub(crate) plans: Plans,
     pub(crate) curves: Vec<Curve>,
-    /// The first node of each curve among those of all, and their number.
+    /// The first node of each curve among the nodes of all, and their number.
     pub(crate) starts: Vec<usize>,
     pub(crate) stored: StoredLayers,
     /// Number of curves at the end that stay when others are loaded.
     fixed: usize,
     direct: DirectSums,
     multipoles: Multipoles,
-    /// Tolerance of the sums over many nodes over that of all else, at most 1: where a small part of what they sum is
-    /// to be right to the tolerance.
+    /// Tolerance of the sums over many nodes over the tolerance of all else, at most 1: where a small part of what they
+    /// sum is to be right to the tolerance.
     pub(crate) sharpness: f64,
     /// Sums over many nodes, while they are used.
     pub(crate) fast: Option<Box<Ewald>>,
     pub(crate) walls: Option<Walls>,
     /// The imposed flow, without what the drive of a channel drives.
     pub(crate) imposed: ImposedFlow,
-    /// Viscosities at the lower and upper wall of a channel over that of the exterior fluid.
+    /// Viscosities at the lower and upper wall of a channel over the viscosity of the exterior fluid.
     pub(crate) at_walls: [f64; 2],
     close: CloseCorrection,
     /// Flow of the last layer at the nodes.
@@ -87,8 +87,8 @@ impl Layers {
     /// Layers without curves.
     ///
     /// # Errors
-    /// Lengths of the region that are not positive and finite, periods of which one is more than 20 times the other, a
-    /// forcing that is not finite, a tolerance outside of 1e-15 to 1e-3.
+    /// Returns an error for lengths of the region that are not positive and finite, periods of which one is more than
+    /// 20 times the other, a forcing that is not finite, a tolerance outside of 1e-15 to 1e-3.
     pub(crate) fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, InputError> {
         check(&region)?;
         within("the tolerance", tolerance, 1e-15, 1e-3)?;
@@ -138,11 +138,11 @@ impl Layers {
     }
 
     /// Takes over curves with their forces (none if these are given later), in place of all that are not fixed. The
-    /// layers of the fixed curves are stored, or those of all curves if `all_stored`.
+    /// layers of the fixed curves are stored, or the layers of all curves if `all_stored`.
     ///
     /// # Errors
-    /// Numbers that are not finite, too few or too many points, a clockwise curve, an advance that is not the period of
-    /// the region, a node beyond a wall.
+    /// Returns an error for numbers that are not finite, too few or too many points, a clockwise curve, an advance that
+    /// is not the period of the region, a node beyond a wall.
     pub(crate) fn load<'a>(
         &mut self,
         curves: &(impl Iterator<Item = (LayerCurve<'a>, &'a [Vec2])> + Clone + Send),
@@ -225,22 +225,22 @@ impl Layers {
         Ok(())
     }
 
-    /// Tolerance of the sums over many nodes.
+    /// Returns the tolerance of the sums over many nodes.
     pub(crate) fn sharp_tolerance(&self) -> f64 {
         self.sharpness * self.multipoles.tolerance()
     }
 
-    /// True where the nodes are so many that all are summed together.
+    /// Returns true if the nodes are so many that all are summed together.
     pub(crate) fn sums_fast(&self) -> bool {
         self.fast.is_some()
     }
 
-    /// Entries of a curve in vectors over all nodes, x then y, curve after curve.
+    /// Returns the entries of a curve in vectors over all nodes, x then y, curve after curve.
     pub(crate) fn entries(&self, curve: usize) -> Range<usize> {
         2 * self.starts[curve]..2 * self.starts[curve + 1]
     }
 
-    /// Plan of a curve.
+    /// Returns the plan of a curve.
     pub(crate) fn plan(&mut self, curve: usize) -> &mut Plan {
         &mut self.plans[self.curves[curve].plan]
     }
@@ -347,7 +347,7 @@ impl Layers {
         });
     }
 
-    /// Adds the single layers of the stored curves but for the sums over pairs of nodes.
+    /// Adds the single layers of the stored curves except for the sums over pairs of nodes.
     fn add_indirect(&mut self) {
         let Self { multipoles, walls, close, curves, plans, flow, stored, .. } = self;
         multipoles.add_forces(curves, stored.first..curves.len(), flow);
@@ -410,8 +410,8 @@ impl Layers {
         close.add_dipoles(curves, plans, density, flow);
     }
 
-    /// The imposed flow over the viscosity of the exterior fluid times that of the fluid that drives it: beside a wall
-    /// that slides, the one there.
+    /// Returns the imposed flow over the viscosity of the exterior fluid times the viscosity of the fluid that drives
+    /// it: next to a sliding wall, the viscosity there.
     fn forcing(&self) -> ImposedFlow {
         match &self.walls {
             Some(walls) if self.at_walls != [1.0; 2] => walls.sliding(&self.imposed, self.at_walls),
@@ -419,8 +419,8 @@ impl Layers {
         }
     }
 
-    /// The imposed flow together with what the drive of a channel drives in fluid of that viscosity, of the exterior
-    /// fluid, in units of velocity there.
+    /// Returns the imposed flow together with what the drive of a channel drives in fluid of that viscosity, of the
+    /// exterior fluid, in units of velocity there.
     pub(crate) fn forced_flow(&self, viscosity: f64) -> ImposedFlow {
         let forcing = self.forcing();
         self.walls.as_ref().map_or(forcing, |walls| forcing + walls.driven_flow(&forcing, viscosity))
@@ -433,23 +433,23 @@ impl Layers {
         }
     }
 
-    /// A node on the wrong side of a stored curve, if the last single layer has come across one.
+    /// Returns a node on the wrong side of a stored curve, if the last single layer has come across one.
     pub(crate) fn crossing(&self) -> Option<Crossing> {
         self.close.crossing()
     }
 
-    /// First moment M of the forces on some curves (force times area): at zero mean pressure gradient they drive the
-    /// flux M/(2 l eta) through a channel of period l.
+    /// Returns the first moment M of the forces on some curves (force times area): at zero mean pressure gradient they
+    /// drive the flux M/(2 l eta) through a channel of period l.
     pub(crate) fn force_moment(&self, from: Range<usize>) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.force_moment(&self.curves[from]))
     }
 
-    /// First moment of a double layer, which drives the flux M/(2 l eta) like that of forces.
+    /// Returns the first moment of a double layer, which drives the flux M/(2 l eta) like the moment of forces.
     pub(crate) fn dipole_moment(&self, density: Density<'_>) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.dipole_moment(&self.curves, density))
     }
 
-    /// Mean pressure gradient along a channel (stress per length), zero elsewhere.
+    /// Returns the mean pressure gradient along a channel (stress per length), zero elsewhere.
     pub(crate) fn pressure_gradient(&self, density: Density<'_>, viscosity: f64) -> f64 {
         self.walls
             .as_ref()
@@ -470,9 +470,9 @@ impl Layers {
         }
     }
 
-    /// Mean of the double layer in a box, 4 pi/area times the sum of X v.n, which its flow is reduced by, so that the
-    /// mean of the velocity is zero. The x component of an interface that is periodic along x depends on where its
-    /// period begins: there the mean of viscosity times velocity is.
+    /// Returns the mean of the double layer in a box, 4 pi/area times the sum of X v.n, which its flow is reduced by,
+    /// so that the mean of the velocity is zero. The x component of an interface that is periodic along x depends on
+    /// where its period begins: there the mean of viscosity times velocity is.
     pub(crate) fn mean_flow(&self, density: Density<'_>) -> Option<Complex64> {
         let Region::Box { lengths: [lx, ly] } = self.region else { return None };
         let mut sum = Complex64::default();

@@ -1,10 +1,14 @@
-//! Layer potentials of two-dimensional Stokes flow, spectrally accurate at any distance from the curves, in the plane,
-//! in periodic boxes and in channels.
+//! Computes Stokes flow in two dimensions from forces on curves, by boundary integrals and without a grid.
+//!
+//! Use this crate if forces act on closed or periodic curves, such as the interfaces of drops, and you want velocities
+//! with many correct digits. You give each curve as points with the forces on them. [`InterfaceFlow`] returns the
+//! velocity on the curves, and the velocity, its gradient and the pressure at any other point, however close to a
+//! curve. The fluid fills the plane, a periodic box or a channel, and may have another viscosity inside each curve.
 //!
 //! # Example
 //!
-//! An ellipse of fluid ten times as viscous as the fluid around it, with a surface tension of 1, relaxes to a circle.
-//! This computes the velocity of its tip, and the flow at its centre and close to the tip:
+//! An ellipse of fluid is ten times as viscous as the fluid around it, and has a surface tension of 1. It relaxes to a
+//! circle. This program computes the velocity of its tip, and the flow at its centre and close to the tip:
 //!
 //! ```
 //! use motile_base::{FlowSample, Region, Vec2};
@@ -35,39 +39,42 @@
 //!
 //! # Method
 //!
-//! With the Green's function G of a region, `lap G - grad p = -4 pi delta`, and its stress T, forces F per length on
-//! curves and velocities v on them have the flows (Pozrikidis, Boundary Integral and Singularity Methods, 1992)
+//! G is the Green's function of a region, with `lap G - grad p = -4 pi delta`, and T its stress. Forces F per length on
+//! curves, and velocities v on them, have these flows (Pozrikidis, Boundary Integral and Singularity Methods, 1992):
 //!
 //! ```text
 //! single layer  1/(4 pi eta) INT G(x, y) F(y) ds(y)        double layer  1/(4 pi) INT v(y) T(x, y) n(y) ds(y)
 //! ```
 //!
-//! With fluid of another viscosity inside the curves the two together give an integral equation for v
-//! ([`InterfaceFlow`]).
+//! If all fluids have one viscosity, the velocity is a single layer. If the fluid inside a curve has another viscosity,
+//! the two layers together give an integral equation for v, which [`InterfaceFlow`] solves.
 //!
-//! * Curves are truncated Fourier series on equally spaced values of their parameter. Open curves, which continue
-//!   periodically along x, are a straight line more, and have the Green's function of a row of images.
-//! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
-//!   12.3), the rest by the trapezoidal rule.
-//! * Curves that are close to each other are summed node by node, in a channel with a row of images in closed form. The
-//!   flow of curves farther away and of the images of a box is smooth: its Taylor series, computed from values on a
-//!   circle, is summed by moments. Walls are a Fourier series along the channel, analytic across it.
-//! * From 250 nodes on in a box or channel, 4,000 in the plane, and more where viscosities differ, closed curves are
-//!   summed by a split Green's function: its near part over nodes, its smooth part by a grid and Fourier transforms
-//!   (Ewald). These are the same sums to the tolerance, in
-//!   time and memory that grow like the number of nodes, and with the feature `rayon` on several threads, to the same
-//!   bits.
-//! * A viscosity contrast needs the double layer and GMRES; its iterations depend neither on the nodes nor,
-//!   beyond a ratio of about ten, on the ratio.
-//! * At points and nodes close to a curve the quadrature uses the preimage of the point under the complex
-//!   parametrisation.
+//! * **Curves** are truncated Fourier series at equally spaced values of their parameter. Open curves continue
+//!   periodically along x. They are a straight line plus a periodic curve, and have the Green's function of a row of
+//!   images.
+//! * **On a curve**, the logarithm of the single layer is integrated with the weights of Kress (Linear Integral
+//!   Equations, 2014, section 12.3), and the rest with the trapezoidal rule. Errors fall faster than any power of the
+//!   number of nodes.
+//! * **Close to a curve**, the quadrature uses the preimage of the point under the complex parametrisation.
+//! * **Far away**, the flow of a curve and the flow of the images of a box are smooth. Their Taylor series is computed
+//!   from values on a circle, and summed with moments. The walls of a channel carry Fourier series along it.
+//! * **Different viscosities** need the double layer and GMRES. The number of iterations depends neither on the number
+//!   of nodes nor, above a ratio of about ten, on the ratio.
 //!
-//! The crate `stokes-axisymmetric` computes axisymmetric flows in three dimensions.
+//! # Cost
 //!
-//! [`SingleLayer`] is the single layer as an operator, for forces that follow from the velocities. Without the fast
-//! sums the cost of a solution grows with the square of the number of nodes of a curve and of its close neighbours, and
-//! each pair of curves farther apart costs some microseconds: in the plane, among open curves and beside curved walls
-//! the method suits some tens of curves.
+//! Without fast sums, the cost of a solution grows with the square of the number of nodes of a curve and its close
+//! neighbours. Each pair of curves that are farther apart costs a few microseconds. So in the plane, with open curves
+//! and next to curved walls, you can compute tens of curves.
+//!
+//! Above 250 nodes in a box or channel, and above 4,000 in the plane, the crate uses fast sums for closed curves
+//! (Ewald). If viscosities differ, these numbers are larger. The near part of the Green's function is summed over
+//! nodes, its smooth part by a grid and Fourier transforms. Results equal the plain sums to the tolerance. Time and
+//! memory grow like the number of nodes. With the feature `rayon` several threads work, and results are bitwise
+//! identical.
+//!
+//! If forces follow from velocities, use [`SingleLayer`], the single layer as an operator. The crate
+//! `stokes-axisymmetric` computes axisymmetric flows in three dimensions.
 
 mod calculus;
 mod close_weights;

@@ -31,7 +31,7 @@ pub(crate) use series::{Extent, LARGEST_RATIO, MOST_DEGREES, Series, SeriesFinde
 /// nothing.
 const LEAST_DEGREE: usize = 4;
 /// Safety factor of an accuracy that is asked for: the ratio to the power of the degree leaves out the derivative of a
-/// dipole, a factor of the degree, and the sum of all further terms, together some hundred.
+/// dipole, a factor of the degree, and the sum of all further terms, together about a hundred.
 const MARGIN: f64 = 1e-3;
 
 /// A source and a target with the series between them.
@@ -56,7 +56,7 @@ pub(crate) struct Multipoles {
     links: Vec<Link>,
     /// Number of links in use; the others keep their memory.
     used: usize,
-    /// Numbers of the links in use, those of each target together, and where those of each target begin.
+    /// Numbers of the links in use, the links of each target together, and where the links of each target begin.
     by_target: Vec<usize>,
     starts: Vec<usize>,
     /// Unit of length of all series (length), the largest radius of a curve.
@@ -98,7 +98,7 @@ impl Multipoles {
         Ok(multipoles)
     }
 
-    /// Relative accuracy of everything that is truncated.
+    /// Returns the relative accuracy of everything that is truncated.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
@@ -144,7 +144,7 @@ impl Multipoles {
         self.sort_by_target(curves.len());
     }
 
-    /// Lists the links by their targets, those of a target in the order in which they were found.
+    /// Lists the links by their targets, the links of a target in the order in which they were found.
     fn sort_by_target(&mut self, curves: usize) {
         let Self { links, used, by_target, starts, .. } = self;
         starts.clear();
@@ -164,8 +164,8 @@ impl Multipoles {
         }
     }
 
-    /// A pair with all images summed node by node: for open curves, which no series reaches around, and in the plane or
-    /// a channel for stored curves and those that are close.
+    /// Returns a pair with all images summed node by node: for open curves, which no series reaches around, and in the
+    /// plane or a channel for stored curves and those that are close.
     fn whole_pair(&self, curves: &[Curve], [target, source]: [usize; 2]) -> CurvePair {
         let own = target == source;
         let swap = curves[target].len() > curves[source].len();
@@ -240,7 +240,7 @@ impl Multipoles {
         }
     }
 
-    /// Number of a link that was not in use.
+    /// Returns the number of a link that was not in use.
     fn next(&mut self, target: usize, source: usize) -> usize {
         if self.used == self.links.len() {
             self.links.push(Link { target, source, series: Series::new() });

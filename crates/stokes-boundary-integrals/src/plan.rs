@@ -18,7 +18,7 @@ pub(crate) struct Plans {
 }
 
 impl Plans {
-    /// Number of the plan for so many nodes, which is made at their first use.
+    /// Returns the number of the plan for so many nodes, which is made at their first use.
     pub(crate) fn find(&mut self, nodes: usize) -> Result<usize, InputError> {
         Plan::find(&mut self.own, nodes)
     }
@@ -34,7 +34,7 @@ impl Plans {
         }
     }
 
-    /// The plans of each piece.
+    /// Returns the plans of each piece.
     pub(crate) fn pieces(&mut self) -> impl Iterator<Item = &mut [Plan]> {
         std::iter::once(&mut self.own).chain(&mut self.copies).map(Vec::as_mut_slice)
     }
@@ -69,7 +69,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Number of the plan for so many nodes, which is made at their first use.
+    /// Returns the number of the plan for so many nodes, which is made at their first use.
     pub(crate) fn find(plans: &mut Vec<Self>, nodes: usize) -> Result<usize, InputError> {
         if let Some(known) = plans.iter().position(|plan| plan.nodes == nodes) {
             return Ok(known);
@@ -83,7 +83,7 @@ impl Plan {
         Ok(plans.len() - 1)
     }
 
-    /// Flow at the nodes of the forces on a curve by the weights of Kress alone.
+    /// Returns the flow at the nodes of the forces on a curve by the weights of Kress alone.
     pub(crate) fn kress_flow(&mut self, curve: &Curve) -> &[Complex64] {
         let Self { transforms, kress_modes, product, .. } = self;
         let weight = curve.weight();
@@ -94,9 +94,9 @@ impl Plan {
     }
 }
 
-/// Weights of the quadrature of Kress (Linear Integral Equations, 2014, section 12.3) by shift:
-/// `1/2 ln(4 sin^2(pi d/n)) + K_d n/(2 pi)` with `K_d = (1/n) sum over m != 0 of (pi/|m|) exp(2 pi i m d/n)`; at d = 0
-/// the second term alone.
+/// Returns the weights of the quadrature of Kress (Linear Integral Equations, 2014, section 12.3) by shift: `1/2 ln(4
+/// sin^2(pi d/n)) + K_d n/(2 pi)` with `K_d = (1/n) sum over m != 0 of (pi/|m|) exp(2 pi i m d/n)`; at d = 0 the second
+/// term alone.
 fn kress_weights(nodes: usize) -> Vec<f64> {
     let n = nodes as f64;
     let weight = |d: usize| {

@@ -18,7 +18,8 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// The rigid motion nearest to velocities at the nodes of a curve, x then y, in the mean over its arc length.
+    /// Creates the rigid motion nearest to velocities at the nodes of a curve, x then y, in the mean over its arc
+    /// length.
     pub(crate) fn of(curve: &Curve, values: &[f64]) -> Self {
         let (x, y) = values.split_at(curve.len());
         let nodes = || curve.nodes.tangent.iter().map(|tangent| tangent.norm()).zip(&curve.nodes.position);
@@ -44,7 +45,7 @@ impl RigidMotion {
         }
     }
 
-    /// Velocity (length per time) of the body at `place` (length).
+    /// Returns the velocity (length per time) of the body at `place` (length).
     #[must_use]
     pub fn at(&self, place: Vec2) -> Vec2 {
         self.velocity + self.spin * (place - self.centre).perp()

@@ -20,18 +20,19 @@ use crate::{
     transforms::REFINEMENT,
 };
 
-/// Part of a radius by which two positions of the same node may differ by round-off.
+/// Fraction of a radius by which two positions of the same node may differ by round-off.
 const SAME_NODE: f64 = 1e-10;
 
 /// Pairs of nodes and points from which on fast sums cost less than sums over pairs (measured).
 const MANY_PAIRS: f64 = 2.5e5;
-/// Nodes from which on they do so in the plane, and distance of points from the middle of nodes over that of nodes up
-/// to which they do (measured).
+/// Nodes from which on they do so in the plane, and distance of points from the middle of nodes over the distance of
+/// nodes up to which they do (measured).
 const MANY_NODES: usize = 300;
 const FARTHEST: f64 = 3.0;
-/// Tolerance of fast sums over that of velocities: gradients err by more, the smaller the cut-off the more.
+/// Tolerance of fast sums over the tolerance of velocities: gradients are less accurate, and lose more accuracy if the
+/// cut-off is smaller.
 const SHARPER: f64 = 0.1;
-/// Part of the least distance at which points are close below which nodes are left out of fast sums.
+/// Fraction of the minimum distance at which points are close below which nodes are left out of fast sums.
 const LEFT_OUT: f64 = 0.5;
 
 /// Evaluation of layers at points, with its working memory.
@@ -78,12 +79,12 @@ impl Sampler {
         Self { reach: reach(tolerance), close, mean, home: Vec2::ZERO, sums, fast, tree, near, farthest: 0.0 }
     }
 
-    /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a curve,
-    /// beside one that is open, or outside of all, has the viscosity `viscosity(place)`; the curves that have a motion
-    /// are rigid bodies.
+    /// Writes the flow at points, the single layer less the double layer and the forced flow. Fluid inside a closed
+    /// curve, next to an open one, or outside of all, has the viscosity `viscosity(place)`; the curves that have a
+    /// motion are rigid bodies.
     ///
     /// # Errors
-    /// A grid of fast sums too large for a transform.
+    /// Returns an error for a grid of fast sums too large for a transform.
     pub(crate) fn sample(
         &mut self,
         layers: &mut Layers,
@@ -137,8 +138,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// Sums over the nodes at all points at once where nodes times points are many; the part of the sums that walls are
-    /// to correct, and the tolerance of these over that of velocities.
+    /// Returns the sums over the nodes at all points at once where nodes times points are many; the part of the sums
+    /// that walls are to correct, and their tolerance over the tolerance of velocities.
     fn sum_nodes(
         &mut self,
         layers: &mut Layers,
@@ -168,7 +169,7 @@ impl Sampler {
         Ok((sums.uncorrected(), sharper))
     }
 
-    /// Flow at the point of that number, and its place among the curves with a density.
+    /// Returns the flow at the point of that number, and its place among the curves with a density.
     fn flow_at(&mut self, layers: &mut Layers, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Place) {
         let mut flow = Flow::default();
         let mut inside = Place::Exterior;
@@ -343,7 +344,7 @@ impl Sampler {
     }
 }
 
-/// True where fast sums at points cost less than sums over pairs; the curves that have a density are closed then.
+/// Returns true if fast sums at points cost less than sums over pairs. The curves that have a density are closed then.
 pub(crate) fn pays(layers: &Layers, points: &[Vec2]) -> bool {
     let Layers { greens, curves, stored, .. } = layers;
     let given = if stored.mutual { curves.len() } else { stored.first };

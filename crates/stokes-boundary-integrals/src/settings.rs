@@ -58,8 +58,7 @@ pub enum Symmetry {
     /// velocities are spectrally accurate at every node.
     ToResolution,
     /// Symmetric to round-off: corrections are computed at the nodes of the curve whose nodes are closer together, and
-    /// the other curve gets the transpose; of two with the same spacing each gets the mean of both, so that the mirror
-    /// image of a flow is that of its mirror image. Accurate for integrals over smooth fields at the nodes, such as
-    /// power.
+    /// the other curve gets the transpose; of two with the same spacing each gets the mean of both, so that a mirrored
+    /// state has the mirrored flow. Accurate for integrals over smooth fields at the nodes, such as power.
     ToRoundOff,
 }

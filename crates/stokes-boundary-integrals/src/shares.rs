@@ -25,7 +25,8 @@ pub fn each<T>(shares: &mut [T], work: impl Fn(&mut T)) {
 /// Fewest entries of a piece: fewer take less time than to hand them over.
 const FEWEST: usize = 256;
 
-/// Length of the pieces of so many entries, at most [`MOST`] of them, which are the same for any number of threads.
+/// Returns the length of the pieces of so many entries, at most [`MOST`] of them, which are the same for any number of
+/// threads.
 pub(crate) fn length(entries: usize) -> usize {
     entries.div_ceil(MOST).max(FEWEST)
 }
@@ -33,7 +34,7 @@ pub(crate) fn length(entries: usize) -> usize {
 /// Entries from which on pieces are handed over.
 const MANY: usize = 1000;
 
-/// Number of the curves in a piece, of so many with so many nodes in all: of few nodes all are one piece.
+/// Returns the number of the curves in a piece, of so many with so many nodes in all: of few nodes all are one piece.
 pub(crate) fn curves(curves: usize, nodes: usize) -> usize {
     if nodes < MANY { curves.max(1) } else { curves.div_ceil(MOST).max(1) }
 }

@@ -16,10 +16,10 @@ const MOST_PAIRS: f64 = 6.7e7;
 /// (force) at the nodes to viscosity times velocity there (force per length in 2D).
 ///
 /// Curves may have different numbers of nodes, be closed or open, and come as close to each other as their nodes
-/// resolve the film between them; the [crate's page](crate) has the method. [`SingleLayer::load`] computes the matrix,
+/// resolve the film between them. The [crate's page](crate) has the method. [`SingleLayer::load`] computes the matrix,
 /// [`SingleLayer::apply`] a product with it, and [`SingleLayer::sample`] the flow of the forces of the last product
 /// anywhere. Vectors have x then y of all nodes of the first curve, then of the second, and so on. While the numbers of
-/// curves and nodes stay the same nothing is allocated.
+/// curves and nodes stay the same, nothing is allocated.
 ///
 /// In a box, whose mean velocity is zero, forces that do not add up to zero are balanced by a uniform pressure
 /// gradient.
@@ -48,18 +48,19 @@ const MOST_PAIRS: f64 = 6.7e7;
 /// # }
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("Stokeslet", "Oseen tensor", "Green function", "boundary integral"))]
 pub struct SingleLayer {
     layers: Layers,
     sampler: Sampler,
 }
 
 impl SingleLayer {
-    /// The single layer of a region, with images, modes of walls and quadrature for close nodes to a relative
+    /// Creates the single layer of a region, with images, modes of walls and quadrature for close nodes to a relative
     /// `tolerance`.
     ///
     /// # Errors
-    /// Lengths of the region that are not positive and finite, periods of which one is more than 20 times the other, a
-    /// tolerance outside of 1e-15 to 1e-3.
+    /// Returns an error for lengths of the region that are not positive and finite, periods of which one is more than
+    /// 20 times the other, a tolerance outside of 1e-15 to 1e-3.
     pub fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, LayerError> {
         if region.is_axisymmetric() {
             return Err(LayerError::in_three_dimensions());
@@ -70,9 +71,10 @@ impl SingleLayer {
     /// Takes over curves, truncated to the modes that their nodes carry, and computes the layer between all nodes.
     ///
     /// # Errors
-    /// Fewer than 16 or more than 4096 nodes of a curve, more than some 8000 in all; positions that are not finite, too
-    /// few or too many points, a clockwise closed curve, an open one whose advance is not the period along x, a node
-    /// beyond a wall.
+    /// Returns an error for:
+    /// * fewer than 16 or more than 4096 nodes of a curve, more than about 8000 in all,
+    /// * positions that are not finite, too few or too many points, a clockwise closed curve, an open one whose advance
+    ///   is not the period along x, a node beyond a wall.
     pub fn load<'a>(&mut self, curves: impl Iterator<Item = LayerCurve<'a>> + Clone + Send) -> Result<(), LayerError> {
         let mut total = 0.0;
         for (number, curve) in curves.clone().enumerate() {
@@ -85,23 +87,23 @@ impl SingleLayer {
         Ok(())
     }
 
-    /// Entries of a curve in vectors over all nodes, x of its nodes then y; none if there is no such curve.
+    /// Returns the entries of a curve in vectors over all nodes, x of its nodes then y; none if there is no such curve.
     #[must_use]
     pub fn entries(&self, curve: usize) -> std::ops::Range<usize> {
         if curve < self.layers.curves.len() { self.layers.entries(curve) } else { 0..0 }
     }
 
-    /// Number of entries of vectors over all nodes, twice the number of nodes.
+    /// Returns the number of entries of vectors over all nodes, twice the number of nodes.
     #[must_use]
     pub fn entry_count(&self) -> usize {
         2 * self.layers.starts[self.layers.curves.len()]
     }
 
-    /// Viscosity times velocity (force per length in 2D) at all nodes for forces (force) there: the force per length
-    /// times the arc length that belongs to the node. All fluid has the same viscosity.
+    /// Writes the viscosity times velocity (force per length in 2D) at all nodes for forces (force) there: the force
+    /// per length times the arc length that belongs to the node. All fluid has the same viscosity.
     ///
     /// # Errors
-    /// Slices of another length than there are entries, forces that are not finite.
+    /// Returns an error for slices of another length than there are entries, or forces that are not finite.
     pub fn apply(&mut self, forces: &[f64], out: &mut [f64]) -> Result<(), LayerError> {
         same_length("the forces", self.entry_count(), forces.len())?;
         same_length("out", self.entry_count(), out.len())?;
@@ -114,10 +116,12 @@ impl SingleLayer {
         Ok(())
     }
 
-    /// Flow at points anywhere in fluid of the given viscosity (stress times time), for the forces of the last product.
+    /// Writes the flow at points anywhere in fluid of the given viscosity (stress times time), for the forces of the
+    /// last product.
     ///
     /// # Errors
-    /// Points that are not finite, slices of different length, a viscosity that is not positive and finite.
+    /// Returns an error for points that are not finite, slices of different length, a viscosity that is not positive
+    /// and finite.
     pub fn sample(&mut self, viscosity: f64, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
@@ -127,11 +131,11 @@ impl SingleLayer {
         Ok(())
     }
 
-    /// Normals to the right of a curve, outward for a closed one, times the arc length that belongs to the node
-    /// (length), laid out like forces: the forces of a unit pressure on the left of the curve, which move nothing.
+    /// Writes the normals to the right of a curve, outward for a closed one, times the arc length that belongs to the
+    /// node (length), laid out like forces: the forces of a unit pressure on the left of the curve, which move nothing.
     ///
     /// # Errors
-    /// No such curve, a slice of another length than twice its number of nodes.
+    /// Returns an error if there is no such curve, or for a slice of another length than twice its number of nodes.
     pub fn normals(&self, curve: usize, out: &mut [f64]) -> Result<(), LayerError> {
         same_length("out", self.entries(curve).len(), out.len())?;
         let Some(curve) = self.layers.curves.get(curve) else { return Ok(()) };

@@ -61,7 +61,7 @@ impl Transforms {
         })
     }
 
-    /// The transform of the values at so many nodes in place of each node, made at the first use of a number.
+    /// Returns the transform of the values at so many nodes in place of each node, made at the first use of a number.
     pub(crate) fn finer(&mut self, factor: usize) -> Result<&mut Transform, InputError> {
         let len = factor.saturating_mul(self.nodes.len());
         let known = self.finer.iter().position(|plan| plan.len() == len);
@@ -72,7 +72,7 @@ impl Transforms {
         Ok(&mut self.finer[index])
     }
 
-    /// The transform of `len` values at points with a buffer of that length, made at the first use of a length.
+    /// Returns the transform of `len` values at points with a buffer of that length, made at the first use of a length.
     fn points(&mut self, len: usize) -> Result<(&mut Transform, &mut [Complex64]), InputError> {
         let known = self.points.iter().position(|plan| plan.len() == len);
         if known.is_none() {
@@ -101,7 +101,7 @@ impl Transforms {
         Ok(())
     }
 
-    /// Values at nodes, x then y, from values at points.
+    /// Returns the values at nodes, x then y, from values at points.
     pub(crate) fn at_nodes(&mut self, values: &[Vec2], out: &mut [f64]) -> Result<(), InputError> {
         let mut spectrum = std::mem::take(&mut self.spectrum);
         self.analyse(values, Complex64::default(), &mut spectrum)?;
@@ -124,7 +124,7 @@ impl Transforms {
         &self.spectrum
     }
 
-    /// Values at points from values at nodes, x then y.
+    /// Returns the values at points from values at nodes, x then y.
     pub(crate) fn at_points(&mut self, values: &[f64], out: &mut [Vec2]) -> Result<(), InputError> {
         self.coefficients(values);
         let spectrum = std::mem::take(&mut self.spectrum);
@@ -138,13 +138,13 @@ impl Transforms {
         Ok(())
     }
 
-    /// Values at fine nodes from values at nodes, x then y.
+    /// Returns the values at fine nodes from values at nodes, x then y.
     pub(crate) fn at_fine(&mut self, values: &[f64], out: &mut [Complex64]) {
         copy_band(self.coefficients(values), out, largest_wave(values.len() / 2));
         self.fine.inverse(out);
     }
 
-    /// Values at so many nodes in place of each node, from values at nodes, x then y.
+    /// Returns the values at so many nodes in place of each node, from values at nodes, x then y.
     pub(crate) fn at_finer(&mut self, factor: usize, values: &[f64], out: &mut [Complex64]) -> Result<(), InputError> {
         copy_band(self.coefficients(values), out, largest_wave(values.len() / 2));
         self.finer(factor)?.inverse(out);

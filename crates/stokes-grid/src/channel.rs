@@ -18,7 +18,7 @@ use modes::ChannelModes;
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
 /// with the differences of the staggered grid and the ghost velocity `u[-1] = 2 U - u[0]` behind a wall of velocity U,
-/// which is the same as `psi[-1] = psi[1] - 2 h U`. The solution is that of the whole discrete system of momentum and
+/// which is the same as `psi[-1] = psi[1] - 2 h U`. The solution satisfies the whole discrete system of momentum and
 /// continuity to round-off; nothing is iterated.
 ///
 /// For each wave number of x there are two tridiagonal systems for the Dirichlet problems `lap w = curl f / eta`,
@@ -35,6 +35,7 @@ use modes::ChannelModes;
 /// **Sizes.** Any numbers of cells work. Only `nx` is transformed: even values without prime factors other than 2, 3,
 /// 5, 7 and 11 are fast.
 #[derive(Debug, Clone)]
+#[doc(alias("no-slip", "no-slip walls", "channel flow", "Poiseuille"))]
 pub struct ChannelStokes {
     grid: Grid,
     viscosity: f64,
@@ -52,11 +53,11 @@ pub struct ChannelStokes {
 }
 
 impl ChannelStokes {
-    /// A solver for a channel and a viscosity eta (stress times time), with walls at rest and no mean pressure
+    /// Creates a solver for a channel and a viscosity eta (stress times time), with walls at rest and no mean pressure
     /// gradient.
     ///
     /// # Errors
-    /// A periodic grid, or a viscosity that is not positive and finite.
+    /// Returns an error for a periodic grid, or a viscosity that is not positive and finite.
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         positive("viscosity", viscosity)?;
         if !grid.has_walls() {
@@ -84,7 +85,7 @@ impl ChannelStokes {
     /// Prescribes the mean pressure gradient or the flux of the solutions to come.
     ///
     /// # Errors
-    /// A value that is not finite.
+    /// Returns an error for a value that is not finite.
     pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
         drive.check()?;
         self.drive = drive;
@@ -94,7 +95,7 @@ impl ChannelStokes {
     /// Prescribes the velocities of the walls in the solutions to come.
     ///
     /// # Errors
-    /// Walls of a channel with another number of cells.
+    /// Returns an error for walls of a channel with another number of cells.
     pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
         walls.check(&self.grid)?;
         for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {

@@ -14,7 +14,7 @@ pub enum StokesError {
     Input(#[from] InputError),
     /// An iteration that did not reach its tolerance.
     #[error(
-        "the relative residual is {} after {iterations} iterations, above {}: allow more iterations, use a larger \
+        "the relative residual is {} after {iterations} iterations, above {}. Allow more iterations, use a larger \
          tolerance, or use viscosities that differ less",
         told_apart([*residual, *tolerance])[0], told_apart([*residual, *tolerance])[1]
     )]
@@ -36,48 +36,49 @@ pub enum StokesError {
 motile_base::debug_as_explanation!(StokesError);
 
 impl StokesError {
-    /// Error of a `result` that is not finite: the first number given that is not, or an overflow.
+    /// Returns the error for error of a `result` that is not finite: the first number given that is not, or an
+    /// overflow.
     pub(crate) fn not_finite(result: &'static str, given: &[(&'static str, &[f64])]) -> Self {
         let found = given.iter().find_map(|&(name, values)| values.iter().find_map(|&value| finite(name, value).err()));
         found.map_or_else(|| Self::overflow(result), Self::Input)
     }
 
-    /// A result beyond the range of double precision.
+    /// Returns the error for a result beyond the range of double precision.
     pub(crate) fn overflow(name: &str) -> Self {
         let what = format!("{name} is beyond the range of double precision");
         Self::refused(what, String::new(), "Scale the forces down")
     }
 
-    /// A grid with fewer cells than `minimum` in one direction.
+    /// Returns the error for a grid with fewer cells than `minimum` in one direction.
     pub(crate) fn grid_too_small(nx: usize, ny: usize, minimum: usize) -> Self {
         let remedy = format!("Use at least {minimum} cells in each direction");
         Self::refused("the grid is too small", format!("{nx} x {ny} cells"), remedy)
     }
 
-    /// A grid of more than `maximum` cells, whose fields do not fit into memory.
+    /// Returns the error for a grid of more than `maximum` cells, whose fields do not fit into memory.
     pub(crate) fn grid_too_large(nx: usize, ny: usize, maximum: usize) -> Self {
         let remedy = format!("Use at most {maximum} cells in all");
         Self::refused("the grid is too large for the memory", format!("{nx} x {ny} cells"), remedy)
     }
 
-    /// The field `name`, which was made for another grid than that of the solver.
+    /// Returns the error for the field `name`, which was made for another grid than the grid of the solver.
     #[doc(hidden)]
     #[must_use]
     pub fn grid_mismatch(name: &str) -> Self {
         Self::refused(format!("{name} belongs to another grid"), String::new(), "Make both from the same grid")
     }
 
-    /// A periodic box where walls are needed.
+    /// Returns the error for a periodic box where walls are needed.
     pub(crate) fn needs_channel() -> Self {
         Self::refused("this needs a channel", "the grid is a periodic box", "Build the grid with Grid::channel")
     }
 
-    /// A channel where a periodic box is needed.
+    /// Returns the error for a channel where a periodic box is needed.
     pub(crate) fn needs_box() -> Self {
         Self::refused("this needs a periodic box", "the grid is a channel", "Build the grid with Grid::periodic")
     }
 
-    /// Lagged walls where a solution must not depend on the solutions before it.
+    /// Returns the error for lagged walls where a solution must not depend on the solutions before it.
     pub(crate) fn lagged_walls() -> Self {
         let what = "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs \
                     solutions that do not depend on each other";

@@ -14,34 +14,34 @@ macro_rules! scalar_field {
         }
 
         impl $name {
-            /// A field of zeros.
+            /// Creates a field of zeros.
             #[must_use]
             pub fn zeros(grid: Grid) -> Self {
                 Self { grid, values: vec![0.0; grid.nx() * grid.$rows()] }
             }
 
-            /// A field of these values, row after row.
+            /// Creates a field of these values, row after row.
             ///
             /// # Errors
-            /// The wrong number of values.
+            /// Returns an error for the wrong number of values.
             pub fn from_values(grid: Grid, values: Vec<f64>) -> Result<Self, StokesError> {
                 same_length($what, grid.nx() * grid.$rows(), values.len())?;
                 Ok(Self { grid, values })
             }
 
-            /// Grid of the field.
+            /// Returns the grid of the field.
             #[must_use]
             pub fn grid(&self) -> &Grid {
                 &self.grid
             }
 
-            /// Values, row after row (x contiguous).
+            /// Returns the values, row after row (x contiguous).
             #[must_use]
             pub fn values(&self) -> &[f64] {
                 &self.values
             }
 
-            /// Values for writing, row after row.
+            /// Returns the values for writing, row after row.
             pub fn values_mut(&mut self) -> &mut [f64] {
                 &mut self.values
             }
@@ -72,7 +72,7 @@ pub struct StaggeredField {
 }
 
 impl StaggeredField {
-    /// A field of zeros.
+    /// Creates a field of zeros.
     #[must_use]
     pub fn zeros(grid: Grid) -> Self {
         let (x, y) = (vec![0.0; grid.nx() * grid.centre_rows()], vec![0.0; grid.nx() * grid.node_rows()]);
@@ -93,10 +93,10 @@ impl StaggeredField {
         field
     }
 
-    /// A field of these components, each row after row.
+    /// Creates a field of these components, each row after row.
     ///
     /// # Errors
-    /// The wrong number of values in a component.
+    /// Returns an error for the wrong number of values in a component.
     pub fn from_components(grid: Grid, x: Vec<f64>, y: Vec<f64>) -> Result<Self, StokesError> {
         let (nx, ny) = (grid.nx() * grid.centre_rows(), grid.nx() * grid.node_rows());
         same_length("an x component", nx, x.len())?;
@@ -104,7 +104,7 @@ impl StaggeredField {
         Ok(Self { grid, x, y })
     }
 
-    /// Grid of the field.
+    /// Returns the grid of the field.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid

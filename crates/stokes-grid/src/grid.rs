@@ -18,6 +18,7 @@ use crate::StokesError;
 ///
 /// Every row has `nx` entries, contiguous in memory; entry (i, j) is number `j * nx + i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("MAC grid", "staggered grid", "marker and cell"))]
 pub struct Grid {
     nx: usize,
     ny: usize,
@@ -27,26 +28,26 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Least number of cells in each direction: with one cell a periodic difference is zero.
+    /// Minimum number of cells in each direction: with one cell a periodic difference is zero.
     pub const MINIMUM_CELLS: usize = 2;
 
-    /// Largest number of cells in all: the velocities take 1 GB, and a scene has some ten such fields.
+    /// Largest number of cells in all: the velocities take 1 GB, and a scene has about ten such fields.
     pub const MAXIMUM_CELLS: usize = 1 << 26;
 
-    /// A doubly periodic box of `nx` x `ny` cells of width `h` (length), centred on the origin of coordinates.
+    /// Creates a doubly periodic box of `nx` x `ny` cells of width `h` (length), centred on the origin of coordinates.
     ///
     /// # Errors
-    /// Fewer than [`Grid::MINIMUM_CELLS`] cells in a direction, more than [`Grid::MAXIMUM_CELLS`] in all, a width that
-    /// is not positive and finite, or extents that are not finite.
+    /// Returns an error for fewer than [`Grid::MINIMUM_CELLS`] cells in a direction, more than [`Grid::MAXIMUM_CELLS`]
+    /// in all, a width that is not positive and finite, or extents that are not finite.
     pub fn periodic(nx: usize, ny: usize, h: f64) -> Result<Self, StokesError> {
         Self::new(nx, ny, h, false)
     }
 
-    /// A channel of `nx` x `ny` cells of width `h` (length), periodic in x with walls at the first and last row of
-    /// nodes, centred on the origin of coordinates (walls at y = -ny h/2 and y = ny h/2).
+    /// Creates a channel of `nx` x `ny` cells of width `h` (length), periodic in x with walls at the first and last row
+    /// of nodes, centred on the origin of coordinates (walls at y = -ny h/2 and y = ny h/2).
     ///
     /// # Errors
-    /// As [`Grid::periodic`].
+    /// Returns the errors of [`Grid::periodic`].
     pub fn channel(nx: usize, ny: usize, h: f64) -> Result<Self, StokesError> {
         Self::new(nx, ny, h, true)
     }
@@ -78,34 +79,34 @@ impl Grid {
         }
     }
 
-    /// A copy of the grid with its lower left corner at `origin` (length).
+    /// Returns a copy of the grid with its lower left corner at `origin` (length).
     ///
     /// # Errors
-    /// A coordinate that is not finite.
+    /// Returns an error for a coordinate that is not finite.
     pub fn with_origin(mut self, origin: [f64; 2]) -> Result<Self, StokesError> {
         self.origin = [finite("grid origin", origin[0])?, finite("grid origin", origin[1])?];
         Ok(self)
     }
 
-    /// Cells in x.
+    /// Returns the cells in x.
     #[must_use]
     pub fn nx(&self) -> usize {
         self.nx
     }
 
-    /// Cells in y.
+    /// Returns the cells in y.
     #[must_use]
     pub fn ny(&self) -> usize {
         self.ny
     }
 
-    /// Cell width h (length).
+    /// Returns the cell width h (length).
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.h
     }
 
-    /// Lower left corner (length).
+    /// Returns the lower left corner (length).
     #[must_use]
     pub fn origin(&self) -> [f64; 2] {
         self.origin
@@ -117,19 +118,19 @@ impl Grid {
         [self.nx as f64 * self.h, self.ny as f64 * self.h]
     }
 
-    /// True if y is bounded by no-slip walls, false if it is periodic.
+    /// Returns true if y is bounded by no-slip walls, false if it is periodic.
     #[must_use]
     pub fn has_walls(&self) -> bool {
         self.walls
     }
 
-    /// Rows of x velocities and of centres: `ny`.
+    /// Returns the rows of x velocities and of centres: `ny`.
     #[must_use]
     pub fn centre_rows(&self) -> usize {
         self.ny
     }
 
-    /// Rows of y velocities and of nodes: `ny`, or `ny + 1` with walls.
+    /// Returns the rows of y velocities and of nodes: `ny`, or `ny + 1` with walls.
     #[must_use]
     pub fn node_rows(&self) -> usize {
         self.ny + usize::from(self.walls)

@@ -6,10 +6,10 @@ use motile_base::{internal::sum, same_length};
 
 use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion, stencil};
 
-/// Divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
+/// Writes the divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
 ///
 /// # Errors
-/// Fields of different grids.
+/// Returns an error for fields of different grids.
 pub fn divergence(velocity: &StaggeredField, out: &mut CentreField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
     grid.check([("the divergence", out.grid())])?;
@@ -26,10 +26,10 @@ pub(crate) fn divergence_unchecked(velocity: &StaggeredField, out: &mut CentreFi
     }
 }
 
-/// Normal strain rates `D_xx = du/dx` and `D_yy = dv/dy` (1/time) at the centres.
+/// Writes the normal strain rates `D_xx = du/dx` and `D_yy = dv/dy` (1/time) at the centres.
 ///
 /// # Errors
-/// Fields of different grids.
+/// Returns an error for fields of different grids.
 pub fn normal_strain_rates(
     velocity: &StaggeredField,
     xx: &mut CentreField,
@@ -44,11 +44,11 @@ pub fn normal_strain_rates(
     Ok(())
 }
 
-/// Shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it has the value that balances
-/// momentum ([`wall_shear_stress`]); `walls` are those of the solver, at rest in a periodic box.
+/// Writes the shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it has the value that
+/// balances momentum ([`wall_shear_stress`]); `walls` are the walls of the solver, at rest in a periodic box.
 ///
 /// # Errors
-/// Fields of different grids, or walls that do not belong to them.
+/// Returns an error for fields of different grids, or walls that do not belong to them.
 pub fn shear_strain_rate(
     velocity: &StaggeredField,
     walls: &WallMotion,
@@ -57,11 +57,11 @@ pub fn shear_strain_rate(
     cross_differences(velocity, walls, out, |u_slope, v_slope| 0.5 * (u_slope + v_slope))
 }
 
-/// Vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are
-/// those of the solver, at rest in a periodic box.
+/// Writes the vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction;
+/// `walls` are the walls of the solver, at rest in a periodic box.
 ///
 /// # Errors
-/// Fields of different grids, or walls that do not belong to them.
+/// Returns an error for fields of different grids, or walls that do not belong to them.
 pub fn vorticity(velocity: &StaggeredField, walls: &WallMotion, out: &mut NodeField) -> Result<(), StokesError> {
     cross_differences(velocity, walls, out, |u_slope, v_slope| v_slope - u_slope)
 }
@@ -83,14 +83,14 @@ fn cross_differences(
     Ok(())
 }
 
-/// Streamfunction psi (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence,
-/// by summation; accurate to a few units of round-off times the number of cells in a row.
+/// Writes the streamfunction psi (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without
+/// divergence, by summation; accurate to a few units of round-off times the number of cells in a row.
 ///
-/// In a channel psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which
+/// In a channel, psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which
 /// has no periodic streamfunction, is left out, and psi has mean zero.
 ///
 /// # Errors
-/// Fields of different grids.
+/// Returns an error for fields of different grids.
 pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
     grid.check([("the streamfunction", out.grid())])?;
@@ -121,20 +121,21 @@ pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<
     Ok(())
 }
 
-/// Flux along x (area per time): the integral of u over y, averaged over x.
+/// Returns the flux along x (area per time): the integral of u over y, averaged over x.
 #[must_use]
 pub fn flux(velocity: &StaggeredField) -> f64 {
     sum(velocity.x()) * velocity.grid().spacing() / velocity.grid().nx() as f64
 }
 
-/// Shear stress `eta du/dy` at a wall (force per length in 2D) at the columns of nodes; `out` has `nx` values.
+/// Writes the shear stress `eta du/dy` at a wall (force per length in 2D) at the columns of nodes; `out` has `nx`
+/// values.
 ///
 /// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, of second order, which balances momentum
 /// with the forces in the fluid exactly: the force per length of the wall on the fluid is this at the top, minus this
 /// at the bottom.
 ///
 /// # Errors
-/// A periodic grid, walls of another grid, or an `out` of the wrong length.
+/// Returns an error for a periodic grid, walls of another grid, or an `out` of the wrong length.
 pub fn wall_shear_stress(
     velocity: &StaggeredField,
     viscosity: f64,

@@ -1,10 +1,10 @@
-//! Stokes flow on staggered grids: the velocity of a viscous fluid without inertia for given forces, exactly free of
-//! divergence.
+//! Stokes flow on staggered grids: velocities of a viscous fluid for given forces.
 //!
-//! The equations are `eta lap(v) - grad p + f = 0`, `div v = 0` in two dimensions, with a viscosity eta and a force
-//! density f (force per volume). The fluid fills a box that is periodic in both directions or a channel that is
-//! periodic in x and has no-slip walls in y, at rest or sliding, as its [`Grid`] is made. Fields on a grid are a
-//! [`StaggeredField`] (velocities, forces), a [`CentreField`] or a [`NodeField`].
+//! You choose a grid and a viscosity, fill a field with forces, and a solver returns the velocity, which is exactly
+//! free of divergence. The equations are `eta lap(v) - grad p + f = 0`, `div v = 0` in two dimensions, with a viscosity
+//! eta and a force density f (force per volume). The fluid fills a box that is periodic in both directions or a channel
+//! that is periodic in x and has no-slip walls in y, at rest or sliding, as its [`Grid`] is made. Fields on a grid are
+//! a [`StaggeredField`] (velocities, forces), a [`CentreField`] or a [`NodeField`].
 //!
 //! | solver | region | method | real transforms of a field |
 //! |---|---|---|---|
@@ -12,19 +12,19 @@
 //! | [`ChannelStokes`] | channel | streamfunction | 1 + 1 along x, tridiagonal sweeps along y |
 //! | [`ProjectionStokes`] | box | projection | 3 + 3 in two dimensions |
 //! | [`ProjectionStokes`] | channel | projection | 2 + 2 along x, 6 sine and cosine transforms (DST, DCT) along y |
-//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of these | a solve an iteration |
+//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients with one of these | one solve per iteration |
 //!
 //! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
 //! the marker-and-cell grid) to round-off. They share the trait [`StokesSolver`]: a solver is made once for a grid and
 //! run many times without allocating.
 //!
-//! The streamfunction solvers are the fastest. [`ProjectionStokes`] is the projection solver of Cowley's thesis; its
-//! page compares errors and costs. The sine and cosine transforms behind it, [`SineTransform`], [`NodeSineTransform`]
-//! and [`CosineTransform`], can be used on their own.
+//! If in doubt, use a streamfunction solver, because these are the fastest. [`ProjectionStokes`] is the projection
+//! solver of Cowley's thesis, and its page compares errors and costs. The sine and cosine transforms behind it,
+//! [`SineTransform`], [`NodeSineTransform`] and [`CosineTransform`], can be used on their own.
 //!
-//! A solve gives the velocity alone. The pressure ([`StokesSolver::pressure`]), [`streamfunction`], [`vorticity`],
-//! [`normal_strain_rates`], [`shear_strain_rate`], [`divergence`], [`flux`] and [`wall_shear_stress`] are computed on
-//! request.
+//! A solve returns the velocity alone, because that is all that moving bodies need. The pressure
+//! ([`StokesSolver::pressure`]), [`streamfunction`], [`vorticity`], [`normal_strain_rates`], [`shear_strain_rate`],
+//! [`divergence`], [`flux`] and [`wall_shear_stress`] are computed on request.
 //!
 //! **Mean values.** In a box the velocity has mean zero unless [`PeriodicStokes::set_mean_velocity`] prescribes another
 //! one, and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`]
@@ -34,7 +34,7 @@
 //!
 //! # Example
 //!
-//! A force whose flow is known, in a periodic box, and the order of the error:
+//! This example applies a force whose flow is known in a periodic box, and prints the order of the error:
 //!
 //! ```
 //! use std::f64::consts::TAU;
@@ -70,7 +70,7 @@
 //! # Speed and sizes
 //!
 //! Any numbers of cells work, odd and prime ones included. Those without prime factors other than 2, 3, 5, 7 and 11 are
-//! fast, and an even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a
+//! fast, and an even `nx` is a third faster than an odd one. Other prime factors take two to nine times as long. In a
 //! channel this concerns `nx` alone, except for [`ProjectionStokes`].
 //!
 //! With the feature `rayon`, off by default, [`PeriodicStokes`] and [`ProjectionStokes`] use the threads of the current
@@ -80,7 +80,7 @@
 //! 1.1 pairs for [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for
 //! [`ChannelStokes`]. [`ProjectionStokes`] takes 2.2 to 3.1 pairs in a box, and 9 to 13 passes along x in a channel.
 //!
-//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channel;

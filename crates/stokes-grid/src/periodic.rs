@@ -12,7 +12,7 @@ use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, StokesSolv
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
 /// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. The discrete
-/// solution is that of Cowley's projection (2.21)-(2.30), [`crate::ProjectionStokes`], by one forward and one inverse
+/// solution equals Cowley's projection (2.21)-(2.30), [`crate::ProjectionStokes`], by one forward and one inverse
 /// transform of a real field in place of three and three.
 ///
 /// **Mean force and mean velocity.** The velocity has exactly the mean that [`PeriodicStokes::set_mean_velocity`]
@@ -22,6 +22,7 @@ use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, StokesSolv
 /// **Sizes.** Any numbers of cells work; those without prime factors other than 2, 3, 5, 7 and 11, and even `nx`, are
 /// fast.
 #[derive(Debug, Clone)]
+#[doc(alias("streamfunction", "periodic box", "FFT"))]
 pub struct PeriodicStokes {
     grid: Grid,
     viscosity: f64,
@@ -37,10 +38,10 @@ pub struct PeriodicStokes {
 }
 
 impl PeriodicStokes {
-    /// A solver for a periodic grid and a viscosity eta (stress times time).
+    /// Creates a solver for a periodic grid and a viscosity eta (stress times time).
     ///
     /// # Errors
-    /// A grid with walls, or a viscosity that is not positive and finite.
+    /// Returns an error for a grid with walls, or a viscosity that is not positive and finite.
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         positive("viscosity", viscosity)?;
         if grid.has_walls() {
@@ -67,7 +68,7 @@ impl PeriodicStokes {
     /// Prescribes the mean velocity (length per time) of the solutions to come, a uniform flow that is added to them.
     ///
     /// # Errors
-    /// A component that is not finite.
+    /// Returns an error for a component that is not finite.
     pub fn set_mean_velocity(&mut self, mean: [f64; 2]) -> Result<(), StokesError> {
         self.mean_velocity = [finite("mean velocity", mean[0])?, finite("mean velocity", mean[1])?];
         Ok(())
@@ -133,7 +134,7 @@ impl PeriodicStokes {
         }
     }
 
-    /// Prescribed mean velocity (length per time).
+    /// Returns the prescribed mean velocity (length per time).
     #[must_use]
     pub fn mean_velocity(&self) -> [f64; 2] {
         self.mean_velocity

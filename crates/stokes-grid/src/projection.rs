@@ -36,7 +36,7 @@ use periodic::PeriodicProjection;
 ///
 /// Errors and costs, measured side by side. Errors are the largest ones of the x velocity against exact smooth flows
 /// (`a_box_is_solved_to_second_order` and the tests around it). Costs in a box are in pairs of a forward and an inverse
-/// real transform of the field. In a channel they are in pairs of transforms along x alone (`cargo bench --bench
+/// real transform of the field. In a channel, they are in pairs of transforms along x alone (`cargo bench --bench
 /// solvers`).
 ///
 /// | region, cells | solver | error | transforms forward, inverse, across | cost |
@@ -49,8 +49,8 @@ use periodic::PeriodicProjection;
 /// | channel, 160 x 160 (cost: 240 x 100) | projection, exact walls | 1.83e-4 | 2, 2, 6 | 12.6 |
 /// | channel, 24 x 8, 100 steps | projection, lagged walls | 3.3e-5 of lag | 2, 2, 6 | 12.6 |
 ///
-/// A lag of the walls adds an error that is proportional to the time step: 3.3e-5, 1.7e-5 and 8.4e-6 of the largest
-/// velocity in 100, 200 and 400 steps over a force that changes within the time 1.
+/// A lag of the walls adds an error that is proportional to the time step. It is 3.3e-5, 1.7e-5 and 8.4e-6 of the
+/// largest velocity in 100, 200 and 400 steps over a force that changes within the time 1.
 ///
 /// # Walls of a channel
 ///
@@ -61,8 +61,8 @@ use periodic::PeriodicProjection;
 /// **Lagged walls remember.** With [`WallTreatment::Lagged`] a solution depends on the one before, so the order of
 /// solutions matters. The first solution is exact, because there is none before it. A clone remembers what the original
 /// does. With several solutions per time step, such as the stages of an integrator, each lags behind the stage before
-/// it. To resume a run with the same bits, save [`StokesSolver::memory`]. To compute the same flow again without a step
-/// forward, call [`StokesSolver::rewind`]. What is computed on request ([`StokesSolver::pressure`],
+/// it. To resume a run bitwise, save [`StokesSolver::memory`]. To compute the same flow again without a step forward,
+/// call [`StokesSolver::rewind`]. What is computed on request ([`StokesSolver::pressure`],
 /// [`ProjectionStokes::potential`], [`ProjectionStokes::intermediate_velocity`]) uses the wall values of the last
 /// solution and changes nothing.
 ///
@@ -70,7 +70,7 @@ use periodic::PeriodicProjection;
 ///
 /// The velocity has exactly the mean that [`ProjectionStokes::set_mean_velocity`] prescribes, zero by default. A
 /// uniform pressure gradient balances a mean force. With the feature `rayon`, boxes of 800,000 cells or more use the
-/// threads of the current pool, and the number of threads does not change a bit of the result.
+/// threads of the current pool, and the number of threads does not change the result in any bit.
 ///
 /// # Sizes
 ///
@@ -103,6 +103,7 @@ use periodic::PeriodicProjection;
 /// # Ok::<(), stokes_grid::StokesError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("projection method", "pressure projection", "Poisson solver"))]
 pub struct ProjectionStokes {
     grid: Grid,
     viscosity: f64,
@@ -291,7 +292,7 @@ impl ProjectionStokes {
         }
     }
 
-    /// Forces along y except for those on walls, which are ignored.
+    /// Returns the forces along y except for those on walls, which are ignored.
     fn forces_along_y<'a>(&self, force: &'a StaggeredField) -> &'a [f64] {
         let nx = self.grid.nx();
         if self.grid.has_walls() { &force.y()[nx..nx * self.grid.ny()] } else { force.y() }

@@ -19,7 +19,7 @@ struct Lattice<'a> {
 }
 
 impl<'a> Lattice<'a> {
-    /// The components of a velocity.
+    /// Returns the components of a velocity.
     fn of_velocity(velocity: &'a StaggeredField, walls: &'a WallMotion) -> [Self; 2] {
         let lattice = |values, shift, walls| Lattice { values, grid: velocity.grid(), shift, parity: -1.0, walls };
         [lattice(velocity.x(), [0.0, 0.5], walls), lattice(velocity.y(), [0.5, 0.0], &AT_REST)]
@@ -42,7 +42,7 @@ impl<'a> Lattice<'a> {
         self.parity * at(mirrored) + 2.0 * self.walls.at(wall, column as usize)
     }
 
-    /// The entry below and to the left of a point, and how far beyond it the point is, in cells.
+    /// Returns the entry below and to the left of a point, and how far beyond it the point is, in cells.
     fn cell(&self, point: Vec2) -> ([i64; 2], [f64; 2]) {
         let (h, origin) = (self.grid.spacing(), self.grid.origin());
         let place = [0, 1].map(|k| (point[k] - origin[k]) / h - self.shift[k]);
@@ -55,7 +55,7 @@ impl<'a> Lattice<'a> {
         ([near(first[0], self.grid.nx()), near(first[1], rows)], [place[0] - first[0], place[1] - first[1]])
     }
 
-    /// Value and gradient at a point by bilinear interpolation.
+    /// Returns the value and gradient at a point by bilinear interpolation.
     fn bilinear(&self, point: Vec2) -> (f64, [f64; 2]) {
         let ([i, j], [s, t]) = self.cell(point);
         let [a, b, c, d] = [self.value(i, j), self.value(i + 1, j), self.value(i, j + 1), self.value(i + 1, j + 1)];

@@ -28,20 +28,21 @@ pub struct Work {
 /// `eta lap(v) - grad p + f = 0`, `div v = 0`.
 ///
 /// A solver is made once for a grid, owns its working memory, and allocates nothing per call.
+#[doc(alias("Stokes equations", "Stokes flow", "creeping flow", "low Reynolds number"))]
 pub trait StokesSolver: std::fmt::Debug + Send {
-    /// Grid of the forces and velocities.
+    /// Returns the grid of the forces and velocities.
     fn grid(&self) -> &Grid;
 
-    /// Dynamic viscosity eta (stress times time).
+    /// Returns the dynamic viscosity eta (stress times time).
     fn viscosity(&self) -> f64;
 
-    /// Velocities of the walls of a channel; at rest in a periodic box.
+    /// Returns the velocities of the walls of a channel; at rest in a periodic box.
     fn walls(&self) -> &WallMotion {
         static AT_REST: WallMotion = WallMotion::AT_REST;
         &AT_REST
     }
 
-    /// Prescribed mean pressure gradient or flux of a channel; no mean pressure gradient in a periodic box.
+    /// Returns the prescribed mean pressure gradient or flux of a channel; no mean pressure gradient in a periodic box.
     fn drive(&self) -> Drive {
         Drive::default()
     }
@@ -49,8 +50,8 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// Computes the velocity (length per time) for a force density (force per volume); its discrete divergence is zero.
     ///
     /// # Errors
-    /// Fields of another grid, a force that is not finite (the velocity is then left as it was), a result beyond the
-    /// range of double precision; for iterative solvers, no convergence.
+    /// Returns an error for fields of another grid, a force that is not finite (the velocity is then left as it was), a
+    /// result beyond the range of double precision; for iterative solvers, no convergence.
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
 
     /// Computes the periodic part of the pressure (force per length in 2D), with mean zero, from a force density and
@@ -58,7 +59,8 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// [`SolveReport::mean_pressure_gradient`].
     ///
     /// # Errors
-    /// Fields of another grid, a force or velocity that is not finite, a result beyond the range of double precision.
+    /// Returns an error for fields of another grid, a force or velocity that is not finite, a result beyond the range
+    /// of double precision.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -66,11 +68,11 @@ pub trait StokesSolver: std::fmt::Debug + Send {
         pressure: &mut CentreField,
     ) -> Result<(), StokesError>;
 
-    /// Work done since the solver was made.
+    /// Returns the work done since the solver was made.
     fn work(&self) -> Work;
 
-    /// True if a solution depends on the solutions before it, as with [`crate::WallTreatment::Lagged`]; by default
-    /// false.
+    /// Returns true if a solution depends on the solutions before it, as with [`crate::WallTreatment::Lagged`]; by
+    /// default false.
     fn has_memory(&self) -> bool {
         false
     }
@@ -78,7 +80,7 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// Returns the numbers by which the next solution depends on those before it. They are empty for a solver without
     /// memory, and before the first solution.
     ///
-    /// To resume a run with the same bits, save them and hand them to [`StokesSolver::set_memory`].
+    /// To resume a run bitwise, save them and pass them to [`StokesSolver::set_memory`].
     fn memory(&self) -> &[f64] {
         &[]
     }

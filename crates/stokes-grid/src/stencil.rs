@@ -13,7 +13,7 @@ pub(crate) fn divergence(field: &StaggeredField, j: usize, out: &mut [f64]) {
     out[last] = (u[0] - u[last]) + (v_above[last] - v[last]);
 }
 
-/// Rows of x components and of y components below and above row `j` of centres.
+/// Returns the rows of x components and of y components below and above row `j` of centres.
 fn around_centres(field: &StaggeredField, j: usize) -> (&[f64], &[f64], &[f64]) {
     let nx = field.grid().nx();
     let above = if j + 1 == field.grid().node_rows() { 0 } else { j + 1 };
@@ -83,12 +83,12 @@ pub(crate) fn across(out: &mut [f64], psi: &[f64], mean: f64) {
     out[last] = mean - (psi[0] - psi[last]);
 }
 
-/// Number of the column to the right in a periodic row.
+/// Returns the number of the column to the right in a periodic row.
 pub(crate) fn right(i: usize, nx: usize) -> usize {
     if i + 1 == nx { 0 } else { i + 1 }
 }
 
-/// Number of the column to the left in a periodic row.
+/// Returns the number of the column to the left in a periodic row.
 pub(crate) fn left(i: usize, nx: usize) -> usize {
     if i == 0 { nx - 1 } else { i - 1 }
 }

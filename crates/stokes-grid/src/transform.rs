@@ -21,10 +21,10 @@ pub(crate) use symbol::second_difference;
 /// and entries with m > nx / 2 follow from `F[nx - m, ny - n] = conj(F[m, n])`. Neither direction is normalised:
 /// forward and inverse transform together multiply by `nx ny`.
 ///
-/// Rows are transformed one by one; columns are gathered a few at a time into a buffer that stays in the cache, so
-/// that no pass walks through memory with a large stride and nothing is transposed as a whole.
+/// Rows are transformed one by one. Columns are gathered a few at a time into a buffer that stays in the cache, so that
+/// no pass walks through memory with a large stride and nothing is transposed as a whole.
 ///
-/// Any sizes work. Those whose only prime factors are 2, 3, 5, 7 and 11 are fast; an odd `nx` takes about a third
+/// Any sizes work. Those whose only prime factors are 2, 3, 5, 7 and 11 are fast. An odd `nx` takes about a third
 /// longer, and other prime factors take two to nine times as long (measured from 235 to 1009).
 #[derive(Debug, Clone)]
 pub struct RealFft2 {
@@ -36,10 +36,10 @@ pub struct RealFft2 {
 }
 
 impl RealFft2 {
-    /// A plan for arrays of `nx` x `ny` values.
+    /// Creates a plan for arrays of `nx` x `ny` values.
     ///
     /// # Errors
-    /// A size of zero, or more than [`crate::Grid::MAXIMUM_CELLS`] values.
+    /// Returns an error for a size of zero, or more than [`crate::Grid::MAXIMUM_CELLS`] values.
     pub fn new(nx: usize, ny: usize) -> Result<Self, StokesError> {
         if nx == 0 || ny == 0 {
             return Err(StokesError::grid_too_small(nx, ny, 1));
@@ -50,7 +50,7 @@ impl RealFft2 {
         Ok(Self { nx, ny, rows, columns, spectrum })
     }
 
-    /// Numbers of values along x and y.
+    /// Returns the numbers of values along x and y.
     pub(crate) fn size(&self) -> [usize; 2] {
         [self.nx, self.ny]
     }
@@ -82,7 +82,7 @@ impl RealFft2 {
     /// while it is in the cache.
     ///
     /// # Errors
-    /// A symbol made for another size.
+    /// Returns an error for a symbol made for another size.
     pub fn filter(
         &mut self,
         symbol: &Symbol,
@@ -111,7 +111,7 @@ impl RowTransform {
         Ok(Self { plan: RealTransform::new(nx)?, row: vec![0.0; nx] })
     }
 
-    /// Number of complex numbers in a transformed row.
+    /// Returns the number of complex numbers in a transformed row.
     pub(crate) fn width(&self) -> usize {
         self.plan.spectrum_len()
     }

@@ -12,8 +12,8 @@ const TOLERANCE: f64 = 1e-6;
 /// Iterations after which a solution fails at first: conjugate gradients take `sqrt(ratio)/2 ln(2/tolerance)`, so that
 /// as many are enough for a ratio of viscosities of 7e4.
 const MOST_ITERATIONS: usize = 2000;
-/// Starts of the conjugate gradients in one solve: a second one ends the drift by round-off, a third one that of the
-/// second.
+/// Starts of the conjugate gradients in one solve: a second one ends the drift by round-off, a third one the drift of
+/// the second.
 const MOST_STARTS: usize = 3;
 /// Ratio of the true residual to the goal, squared, that is taken for round-off: 10 % of the residual.
 const DRIFT: f64 = 1.21;
@@ -26,9 +26,9 @@ const DRIFT: f64 = 1.21;
 ///
 /// The method is conjugate gradients among the velocities without divergence, preconditioned by S: each iteration costs
 /// one solve of S and one viscous force. The number of iterations grows like the square root of the ratio of the
-/// largest to the smallest viscosity and depends neither on the grid nor on the viscosity of S; for a uniform viscosity
-/// one is enough, and none where it is that of S. Normal stresses take the viscosity at the centres, shear stresses
-/// that at the nodes.
+/// largest to the smallest viscosity and depends neither on the grid nor on the viscosity of S. For a uniform viscosity
+/// one is enough, and none if it is the viscosity of S. Normal stresses use the viscosity at the centres, and shear
+/// stresses the viscosity at the nodes.
 ///
 /// **Start.** Each solution starts from the linear extrapolation of the two before, which halves the iterations where
 /// the viscosity and the forces move slowly.
@@ -37,7 +37,7 @@ const DRIFT: f64 = 1.21;
 /// [`TwoPhaseStokes::tolerance`] times that of the forces. [`SolveReport::residual`] is the true residual, recomputed
 /// from the solution.
 ///
-/// [`StokesSolver::viscosity`] is that of S, by convention that of the exterior fluid.
+/// [`StokesSolver::viscosity`] is the viscosity of S, by convention the viscosity of the exterior fluid.
 ///
 /// ```
 /// use stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes};
@@ -55,10 +55,11 @@ const DRIFT: f64 = 1.21;
 /// # Ok::<(), stokes_grid::StokesError>(())
 /// ```
 #[derive(Debug, Clone)]
+#[doc(alias("viscosity ratio", "viscosity contrast", "two-phase flow", "variable viscosity"))]
 pub struct TwoPhaseStokes<S> {
     solver: S,
     force: ViscousForce,
-    /// True if the viscosity is that of the solver everywhere.
+    /// True if the viscosity equals the viscosity of the solver everywhere.
     uniform: bool,
     tolerance: f64,
     most: usize,
@@ -80,10 +81,11 @@ pub struct TwoPhaseStokes<S> {
 }
 
 impl<S: StokesSolver> TwoPhaseStokes<S> {
-    /// A solver with the viscosity of `solver` everywhere at first, a tolerance of 1e-6 and at most 2000 iterations.
+    /// Creates a solver with the viscosity of `solver` everywhere at first, a tolerance of 1e-6 and at most 2000
+    /// iterations.
     ///
     /// # Errors
-    /// Those of `solver`.
+    /// Returns the errors of `solver`.
     pub fn new(mut solver: S) -> Result<Self, StokesError> {
         let grid = *solver.grid();
         let eta = solver.viscosity();
@@ -118,7 +120,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the tolerance of the relative residual.
     ///
     /// # Errors
-    /// A tolerance that is not positive and finite.
+    /// Returns an error for a tolerance that is not positive and finite.
     pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StokesError> {
         self.tolerance = positive("the tolerance", tolerance)?;
         Ok(self)
@@ -132,7 +134,8 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self
     }
 
-    /// Last solutions, the latest first, from which the next iteration starts: none at first, two after two solves.
+    /// Returns the last solutions, the latest first, from which the next iteration starts: none at first, two after two
+    /// solves.
     pub fn solutions(&self) -> impl Iterator<Item = &StaggeredField> {
         self.previous.iter().take(self.known)
     }
@@ -141,7 +144,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// ignored.
     ///
     /// # Errors
-    /// Fields on another grid.
+    /// Returns an error for fields on another grid.
     pub fn set_solutions<'a>(
         &mut self,
         solutions: impl IntoIterator<Item = &'a StaggeredField>,
@@ -155,25 +158,25 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         Ok(())
     }
 
-    /// Tolerance of the relative residual.
+    /// Returns the tolerance of the relative residual.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Solver of one viscosity.
+    /// Returns the solver of one viscosity.
     #[must_use]
     pub fn solver(&self) -> &S {
         &self.solver
     }
 
-    /// Viscosity (stress times time) at the centres and at the nodes.
+    /// Returns the viscosity (stress times time) at the centres and at the nodes.
     #[must_use]
     pub fn viscosity_fields(&self) -> (&CentreField, &NodeField) {
         self.force.viscosity()
     }
 
-    /// Relative residuals of the last solve, at its start and after each iteration.
+    /// Returns the relative residuals of the last solve, at its start and after each iteration.
     #[must_use]
     pub fn history(&self) -> &[f64] {
         &self.history
@@ -182,7 +185,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the viscosity (stress times time) to a function of x and y (length).
     ///
     /// # Errors
-    /// As [`TwoPhaseStokes::set_viscosity_fields`].
+    /// Returns the errors of [`TwoPhaseStokes::set_viscosity_fields`].
     pub fn set_viscosity(&mut self, viscosity: impl Fn(f64, f64) -> f64) -> Result<(), StokesError> {
         let grid = *self.solver.grid();
         let (nx, h, [x0, y0]) = (grid.nx(), grid.spacing(), grid.origin());
@@ -197,8 +200,10 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Sets the viscosity (stress times time) at the centres and at the nodes.
     ///
     /// # Errors
-    /// Fields of another grid, a value that is not positive and finite, or viscosities that differ from that of a
-    /// solver with lagged walls ([`StokesError::Refused`]); the viscosity is then left as it was.
+    /// Returns an error for:
+    /// * fields of another grid, a value that is not positive and finite, or viscosities that differ from the viscosity
+    ///   of a solver with lagged walls ([`StokesError::Refused`]),
+    /// * the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
         self.solver.grid().check(fields)?;
@@ -332,7 +337,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     }
 
     /// Computes the pressure of the solver of one viscosity for the force that is left by the viscous stress. With one
-    /// viscosity it is that of the solver, whose memory, if it has any, must not advance.
+    /// viscosity it is the solution of the solver, whose memory, if it has any, must not advance.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -381,7 +386,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     }
 }
 
-/// Scalar product of two fields.
+/// Returns the scalar product of two fields.
 fn dot(a: &StaggeredField, b: &StaggeredField) -> f64 {
     motile_base::internal::dot(a.x(), b.x()) + motile_base::internal::dot(a.y(), b.y())
 }

@@ -33,19 +33,19 @@ impl WallMotion {
     /// Walls at rest.
     pub const AT_REST: Self = Self { bottom: Vec::new(), top: Vec::new() };
 
-    /// Walls that slide with uniform velocities (length per time).
+    /// Creates walls that slide with uniform velocities (length per time).
     ///
     /// # Errors
-    /// A periodic grid, or a velocity that is not finite.
+    /// Returns an error for a periodic grid, or a velocity that is not finite.
     pub fn uniform(grid: &Grid, bottom: f64, top: f64) -> Result<Self, StokesError> {
         Self::from_fn(grid, |_| bottom, |_| top)
     }
 
-    /// Walls whose velocities (length per time) are functions of x (length, from the grid's origin of coordinates),
-    /// taken at the columns of nodes.
+    /// Returns the walls whose velocities (length per time) are functions of x (length, from the grid's origin of
+    /// coordinates), taken at the columns of nodes.
     ///
     /// # Errors
-    /// A periodic grid, or a velocity that is not finite.
+    /// Returns an error for a periodic grid, or a velocity that is not finite.
     pub fn from_fn(grid: &Grid, bottom: impl Fn(f64) -> f64, top: impl Fn(f64) -> f64) -> Result<Self, StokesError> {
         if !grid.has_walls() {
             return Err(StokesError::needs_channel());
@@ -58,7 +58,7 @@ impl WallMotion {
         Ok(Self { bottom, top })
     }
 
-    /// Velocities of a wall (length per time) at the columns of nodes; empty for walls at rest.
+    /// Returns the velocities of a wall (length per time) at the columns of nodes; empty for walls at rest.
     #[must_use]
     pub fn velocities(&self, wall: Wall) -> &[f64] {
         match wall {
@@ -67,13 +67,13 @@ impl WallMotion {
         }
     }
 
-    /// Velocity of a wall (length per time) at column `i` of nodes.
+    /// Returns the velocity of a wall (length per time) at column `i` of nodes.
     #[must_use]
     pub fn at(&self, wall: Wall, i: usize) -> f64 {
         self.velocities(wall).get(i).copied().unwrap_or(0.0)
     }
 
-    /// Mean velocity of a wall over x (length per time).
+    /// Returns the mean velocity of a wall over x (length per time).
     #[must_use]
     pub fn mean(&self, wall: Wall) -> f64 {
         let velocities = self.velocities(wall);
@@ -89,7 +89,7 @@ impl WallMotion {
     /// Returns the velocity along x (length per time) at a point (length) that varies linearly between the walls of a
     /// channel, and linearly between the columns of nodes.
     ///
-    /// Between walls that slide uniformly this is Couette flow. The velocity of the fluid minus it vanishes on both
+    /// Between walls that slide uniformly, this is Couette flow. The velocity of the fluid minus it vanishes on both
     /// walls, so that it can be interpolated there.
     #[must_use]
     pub fn between(&self, grid: &Grid, point: Vec2) -> f64 {

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use motile::active_interface::observables::VelocityFrame;
+use motile::active_interface::theory::SquirmerFlow;
 use motile::base::{FlowSample, Region, Vec2};
 use motile::scene::SceneError;
 use motile::scene::checkpoint::Checkpoint;
@@ -15,11 +17,13 @@ use serde_json::Value;
 use toml::Table;
 
 mod bisection;
+mod frames;
 
 use super::Making;
 use super::expression::Row;
 use crate::tables;
 use bisection::Bisection;
+use frames::Frames;
 use motile_cli::sweep::{Plan, RunPool, State, Trial};
 
 /// Where on a swimmer's axis the flow is looked at: distances from the interface (length), each that times the last.
@@ -32,6 +36,8 @@ const FIELD: f64 = 6.0;
 const FIELD_CELLS: usize = 120;
 const LINES_APART: f64 = 0.5;
 const POINT_OF_LINE: usize = 3;
+/// Points of a circle.
+const CIRCLE: usize = 96;
 /// How far from a droplet's ends in a channel the pressure is looked at, over the channel's width or the droplet's.
 const BESIDE: f64 = 0.1;
 /// Largest step along a branch that leads to a state, the norm as of [`Continuation`].
@@ -66,6 +72,17 @@ pub(super) struct Source {
     /// Of each point of the plan the boundary between two outcomes.
     #[serde(default)]
     bisect: Option<Bisection>,
+    /// Shapes at some times of each run rather than its usual results.
+    #[serde(default)]
+    frames: Option<Frames>,
+    /// Flow of squirmers with these B2 (and B1 = 1) in the frame of the laboratory.
+    #[serde(default)]
+    squirmers: Vec<f64>,
+    /// Data whose plan this is, with changes.
+    #[serde(default)]
+    of: Option<String>,
+    #[serde(default)]
+    change: Table,
     /// A scheme that the plan's scene starts from.
     #[serde(default)]
     preset: Option<Preset>,
@@ -181,10 +198,16 @@ impl Source {
     pub(super) fn read(name: &str) -> Result<Self> {
         let path = super::directory().join("data").join(format!("{name}.toml"));
         let read = || -> Result<Self> { Ok(toml::from_str(&std::fs::read_to_string(&path)?)?) };
-        let source = read().with_context(|| path.display().to_string())?;
+        let mut source = read().with_context(|| path.display().to_string())?;
         let kinds = [source.plan.is_some(), source.table.is_some(), !source.numbers.is_empty()];
-        let one = kinds.into_iter().filter(|given| *given).count() == 1;
-        ensure!(one, "{}: give a plan, a table or numbers", path.display());
+        let others = [source.of.is_some(), !source.squirmers.is_empty()];
+        let one = kinds.into_iter().chain(others).filter(|given| *given).count() == 1;
+        ensure!(one, "{}: give a plan, a table, numbers, squirmers or other data", path.display());
+        if let Some(other) = &source.of {
+            let mut plan = Self::read(other)?.plan.with_context(|| format!("data {other} have no plan"))?;
+            merge(&mut plan, &source.change);
+            source.plan = Some(plan);
+        }
         Ok(source)
     }
 
@@ -227,6 +250,9 @@ impl Source {
         let rows = match &self.table {
             Some(table) => of_table(table)?,
             None if self.plan.is_some() => return Ok(None),
+            None if !self.squirmers.is_empty() => {
+                self.squirmers.iter().map(|b2| squirmer(*b2)).collect::<Result<Vec<_>>>()?
+            }
             None => {
                 let count = self.numbers.values().map(Vec::len).max().unwrap_or(0);
                 let row = |k: usize| -> Row {
@@ -283,7 +309,11 @@ impl Source {
             summary.put("seconds", started.elapsed().as_secs_f64(), "");
             Ok(summary)
         };
-        let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
+        let make = |trial: &Trial| match &self.frames {
+            Some(frames) => trial.keep(|trial| frames.summary(trial)),
+            None if self.steady => trial.keep(steady),
+            None => trial.run(),
+        };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
         // What was stopped has not failed, and a figure without it would be another one.
         let stopped = |failure: &&anyhow::Error| matches!(failure.downcast_ref(), Some(SceneError::Stopped { .. }));
@@ -300,7 +330,7 @@ impl Source {
             let mut row = Row::new();
             flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
             flatten("", &Value::Object(summary.values().clone()), &mut row);
-            if !self.steady {
+            if !self.steady && self.frames.is_none() {
                 let found = means(&track(trial, "x")?, trial.setup.region.lengths()[0]);
                 row.extend(["mean_speed", "late_speed"].map(str::to_owned).into_iter().zip(found));
                 let heights = track(trial, "y")?.into_iter().map(|(_, y)| y);
@@ -408,10 +438,16 @@ fn stagnation(state: &SteadyState) -> Result<[Option<f64>; 2]> {
 
 /// Streamlines around a swimmer, from its centroid, to a thousandth of its radius (length).
 fn streamlines(state: &SteadyState) -> Result<[Vec<Vec<f64>>; 2]> {
-    let centre = state.measured()?.centroid;
+    lines_around(state.measured()?.centroid, |points| {
+        Ok(state.sample(points)?.into_iter().map(|sample| sample.velocity).collect())
+    })
+}
+
+/// Streamlines around a centre, from there, of the velocities that `flow` gives, to a thousandth of a radius (length).
+fn lines_around(centre: Vec2, flow: impl FnOnce(&[Vec2]) -> Result<Vec<Vec2>>) -> Result<[Vec<Vec<f64>>; 2]> {
     let corner = centre - Vec2::splat(0.5 * FIELD);
     let raster = Raster::new(corner.into(), [FIELD; 2], [FIELD_CELLS; 2], [false; 2])?;
-    let velocities = state.sample(&raster.points())?.into_iter().map(|sample| sample.velocity).collect();
+    let velocities = flow(&raster.points())?;
     let lines = motile_output::streamlines(&Samples::new(raster, velocities)?, LINES_APART, centre)?;
     let every = |line: &[Vec2]| -> Vec<Vec2> {
         let last = line.last().copied();
@@ -420,6 +456,23 @@ fn streamlines(state: &SteadyState) -> Result<[Vec<Vec<f64>>; 2]> {
     let lines: Vec<Vec<Vec2>> = lines.iter().map(|line| every(line)).collect();
     let component = |of: fn(&Vec2) -> f64| lines.iter().map(|line| line.iter().map(of).collect()).collect();
     Ok([component(|x| x.x), component(|x| x.y)])
+}
+
+/// Streamlines of a squirmer of radius 1 with B1 = 1, and its outline.
+fn squirmer(b2: f64) -> Result<Row> {
+    let flow = SquirmerFlow::new(1.0, 1.0, b2)?;
+    let velocity = |x: &Vec2| flow.velocity(*x, VelocityFrame::Laboratory);
+    let lines = lines_around(Vec2::ZERO, |points| Ok(points.iter().map(velocity).collect()))?;
+    let mut row = Row::from([("b2".to_owned(), b2)]);
+    for (name, list) in ["streamlines_x", "streamlines_y"].into_iter().zip(lines) {
+        flatten(name, &serde_json::to_value(list)?, &mut row);
+    }
+    let angles = (0..CIRCLE).map(|k| std::f64::consts::TAU * k as f64 / CIRCLE as f64);
+    for (k, angle) in angles.enumerate() {
+        row.insert(format!("outline_x_{k}"), angle.cos());
+        row.insert(format!("outline_y_{k}"), angle.sin());
+    }
+    Ok(row)
 }
 
 /// All that is known of a steady swimmer.

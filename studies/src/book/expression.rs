@@ -1,4 +1,6 @@
 //! Expressions of named numbers, such as `speed * (inside + outside)`.
+//!
+//! They are parsed here and not by `exmex` 0.20, which takes `-x ^ 2` for `(-x) ^ 2` and does not read `1.5e-1`.
 
 use std::collections::BTreeMap;
 

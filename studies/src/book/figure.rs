@@ -25,8 +25,8 @@ pub(super) enum Verdict {
     Discretisation,
     #[serde(rename = "refuted")]
     Refuted,
-    #[serde(rename = "cannot tell")]
-    CannotTell,
+    #[serde(rename = "undecided")]
+    Undecided,
     /// The figure shows something that could not be otherwise.
     #[serde(rename = "no claim")]
     NoClaim,
@@ -39,14 +39,14 @@ impl Verdict {
             Self::ConfirmedInPart => "confirmed in part",
             Self::Discretisation => "discretisation",
             Self::Refuted => "refuted",
-            Self::CannotTell => "cannot tell",
+            Self::Undecided => "undecided",
             Self::NoClaim => "no claim",
         }
     }
 
     /// True if it says something of the statement, so that a number has to be able to speak against it.
     pub(super) fn decides(self) -> bool {
-        !matches!(self, Self::CannotTell | Self::NoClaim)
+        !matches!(self, Self::Undecided | Self::NoClaim)
     }
 }
 
@@ -58,6 +58,13 @@ pub(super) struct Figure {
     #[serde(skip)]
     pub(super) number: String,
     pub(super) title: String,
+    /// The statement and what was found, each in a few words, for tables; marks in the finding stand for numbers.
+    #[serde(default)]
+    pub(super) claim: String,
+    #[serde(default)]
+    pub(super) finding: String,
+    /// Its axes in words, where those of its panels are too long.
+    axes: Option<String>,
     /// Statement of the thesis, in its words or close to them; of a question of the second part the one to be tested.
     pub(super) says: String,
     /// Of a figure of the thesis; that of a question of the second part follows from its numbers.
@@ -207,18 +214,32 @@ impl Checked {
 pub(super) struct Judged {
     pub(super) name: String,
     pub(super) text: Option<String>,
-    within: Option<[f64; 2]>,
-    opposite: Option<f64>,
+    pub(super) within: Option<[f64; 2]>,
+    pub(super) opposite: Option<f64>,
     /// True if the verdict can stand.
     pub(super) stands: bool,
 }
 
+/// One of the numbers that a check found.
+#[derive(Debug, Default)]
+pub(super) struct Single {
+    pub(super) group: Option<String>,
+    pub(super) value: String,
+    /// What is said beside it, such as its error.
+    pub(super) beside: String,
+}
+
 impl Judged {
-    /// The range that the verdict rests on, in words.
-    pub(super) fn range(&self) -> String {
-        let Some([low, high]) = self.within else { return String::new() };
-        let opposite = self.opposite.map(|value| format!(", the contrary {}", shown(value))).unwrap_or_default();
-        format!(" [stands in {} to {}{opposite}]", shown(low), shown(high))
+    /// The numbers that were found, each of its group.
+    pub(super) fn results(&self) -> Vec<Single> {
+        let single = |part: &str| {
+            let (value, beside) = part.split_once(" (").unwrap_or((part, ""));
+            let (group, value) = value.split_once(": ").map_or((None, value), |(group, value)| (Some(group), value));
+            let beside = beside.strip_suffix(')').unwrap_or(beside).to_owned();
+            Single { group: group.map(str::to_owned), value: value.to_owned(), beside }
+        };
+        let text = self.text.as_deref().filter(|text| !text.is_empty());
+        text.map(|text| text.split("; ").map(single).collect()).unwrap_or_default()
     }
 
     /// True for a number that the contrary of a statement would make another.
@@ -233,6 +254,40 @@ type Group = (f64, Vec<(f64, f64, f64)>);
 impl Figure {
     pub(super) fn number_of_data(&self) -> usize {
         self.data.len()
+    }
+
+    /// Names of its checks with their ranges and the numbers of their contraries.
+    #[cfg(test)]
+    pub(super) fn ranges(&self) -> impl Iterator<Item = (&str, Option<[f64; 2]>, Option<f64>)> {
+        self.check.iter().map(|check| (check.name.as_str(), check.within, check.opposite))
+    }
+
+    /// The axes of its panels, in words.
+    pub(super) fn axes(&self) -> String {
+        if let Some(axes) = &self.axes {
+            return axes.clone();
+        }
+        let of = |axis: fn(&Panel) -> &String| {
+            let mut all: Vec<String> = Vec::new();
+            for panel in &self.panel {
+                let plain =
+                    axis(panel).replace("R_{0}", "R0").replace("c_{0}", "c0").replace("_{", "_").replace('}', "");
+                if !all.contains(&plain) {
+                    all.push(plain);
+                }
+            }
+            all.join(", ")
+        };
+        if self.panel.is_empty() {
+            return String::new();
+        }
+        format!("{} (across), {} (up)", of(|panel| &panel.x), of(|panel| &panel.y))
+    }
+
+    /// True for data that a panel shows.
+    pub(super) fn shows(&self, name: &str) -> bool {
+        let curves = || self.panel.iter().flat_map(|panel| &panel.curve);
+        curves().any(|curve| curve.points.data.as_ref().or(self.data.first()).is_some_and(|data| data == name))
     }
 
     /// All that is found, or a sentence about what is wrong in its file.
@@ -312,7 +367,7 @@ impl Figure {
         let deciding: Vec<bool> = judged.iter().filter(|check| check.decides()).map(|check| check.stands).collect();
         let resolved = judged.iter().all(|check| check.decides() || check.stands);
         match deciding.iter().filter(|stands| **stands).count() {
-            _ if !resolved || deciding.is_empty() => Verdict::CannotTell,
+            _ if !resolved || deciding.is_empty() => Verdict::Undecided,
             0 => Verdict::Refuted,
             count if count == deciding.len() => Verdict::Confirmed,
             _ => Verdict::ConfirmedInPart,
@@ -443,7 +498,7 @@ impl Figure {
             texts.iter().map(|text| parse(text)).collect()
         };
         let (x, y) = (several(&points.x)?, several(&points.y)?);
-        ensure!(x.len() == y.len(), "{} places and {} values: give equally many", x.len(), y.len());
+        ensure!(x.len() == y.len(), "{} places and {} values. Use equally many", x.len(), y.len());
         let is_list = matches!(&points.x, Several::One(text) if text.ends_with('*'));
         let has_ends = matches!(&points.x, Several::One(text) if text.ends_with("*_*"));
         let by = points.by.as_deref().map(&parse).transpose()?;

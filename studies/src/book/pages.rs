@@ -1,40 +1,29 @@
-//! The pages of the book, written from the files of the figures and from what was kept of those that were made.
+//! The pages of the report, and the tables with all of its checks.
+//!
+//! A page is written from a text in `studies/book/chapters`, in which `{{figure 3.4}}` stands for a picture with its
+//! caption, `{{3.4 | NAME}}` for the number that the check NAME of figure 3.4 found, `{{3.4 | NAME | GROUP}}` for the
+//! number of one of its groups, both with `| %` behind them for per cent or `| ±` for the number with its error, `| error` for the error alone, and
+//! `{{failed 4.19}}`, `{{verdicts}}`, `{{questions}}`, `{{counts}}` and `{{sections}}` for what the machinery knows of all
+//! figures. Everything else that is known of the checks is in `docs/book/checks`.
+
+mod filled;
+mod sheets;
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
-use super::data::Source;
 use super::figure::{Figure, Judged};
-use super::{ENVIRONMENT, Kept, chapter_of, definitions, different, numbers, read, said_by, verdict};
+use super::{ENVIRONMENT, Kept, chapter_of, definitions, directory, numbers, read, verdict};
 use crate::tables;
 
 /// Widest line of prose.
 const WIDEST: usize = 120;
-const CHAPTERS: [(&str, &str); 6] = [
-    ("2", "Active droplets and contrasts of viscosity"),
-    ("3", "Rigid channels"),
-    ("4", "Deformable walls"),
-    ("5", "Geometries and nuclei"),
-    ("B", "Extinction of a birth-death process"),
-    (ENVIRONMENT, "The environment"),
-];
-
-const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
-                     what converged results say. All of it is written by `cargo run --release -p studies -- figures \
-                     --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` \
-                     a chapter; with `--quick` runs are fewer, shorter and coarser, and decide nothing. A figure that \
-                     was not computed says so; a verdict whose numbers came out otherwise than it needs is shown as \
-                     open, with the number. Every verdict but 'cannot tell' and 'no claim' rests on ranges that the \
-                     number of the contrary statement is outside of; a test refuses one without. Where older numbers \
-                     were known when a range was stated, as in chapter 4 and parts of chapter 3, it was chosen from \
-                     the claim.";
-
-const SECOND: &str = "What the surroundings do to a cell: questions that the thesis leaves open (its sections 5.2.2 \
-                      and 5.2.3), made as the figures are, with `figures --chapter E`. Each has a statement that could \
-                      be false, with ranges stated before the data, and an answer.";
+/// Largest text of a chapter of the thesis (bytes), and most words of a cell of a table.
+const LARGEST: usize = 8192;
+pub(super) const MOST_WORDS: usize = 12;
 
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")
@@ -52,155 +41,156 @@ fn kept(number: &str) -> Result<Option<Kept>> {
     serde_json::from_str(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())
 }
 
+/// A figure with all that is known of it.
+struct Entry {
+    number: String,
+    figure: Figure,
+    kept: Option<Kept>,
+    judged: Vec<Judged>,
+    verdict: String,
+}
+
+impl Entry {
+    fn of(number: &str) -> Result<Self> {
+        let figure = read(number)?;
+        if let Some(lack) = figure.lacks() {
+            bail!("figure {number}: {lack}");
+        }
+        let kept = kept(number)?;
+        let checks = figure.found(&definitions()?, kept.as_ref().map_or(&[], |kept| &kept.checks))?;
+        let judged = figure.judged(&checks);
+        let verdict = verdict(&figure, Some(&judged));
+        Ok(Self { number: number.to_owned(), figure, kept, judged, verdict })
+    }
+
+    fn chapter(&self) -> &str {
+        chapter_of(&self.number)
+    }
+
+    fn is_question(&self) -> bool {
+        self.chapter() == ENVIRONMENT
+    }
+
+    /// The verdict in a word or two.
+    fn kind(&self) -> &str {
+        if self.verdict.starts_with("open") { "open" } else { &self.verdict }
+    }
+
+    /// What a page calls it.
+    fn name(&self) -> String {
+        match self.number.matches('.').count() {
+            1 if self.is_question() => self.number.clone(),
+            1 => format!("Figure {}", self.number),
+            _ => format!("Section {}", self.number),
+        }
+    }
+
+    /// Where a page has it.
+    fn anchor(&self) -> String {
+        format!("figure-{}", self.number.to_lowercase().replace('.', ""))
+    }
+
+    /// Its pictures, by their paths from the page.
+    fn pictures(&self) -> Vec<String> {
+        let own = format!("figures/{}.svg", self.number);
+        let drawn = folder().join(&own).exists().then_some(own);
+        drawn.into_iter().chain(self.figure.picture.as_ref().map(|picture| format!("../{picture}"))).collect()
+    }
+
+    /// The picture and its caption, with the axes.
+    fn shown(&self) -> String {
+        let mut text = format!("<a id=\"{}\"></a>\n", self.anchor());
+        for picture in self.pictures() {
+            let _ = write!(text, "![{}]({picture})\n\n", self.name());
+        }
+        let axes = self.figure.axes();
+        let axes = if axes.is_empty() { axes } else { format!(" Axes: {axes}.") };
+        let (first, rest) = self.kind().split_at(1);
+        let verdict = first.to_uppercase() + rest;
+        text + &wrapped(&format!("**{}.** {}.{axes} *{verdict}.*", self.name(), self.figure.title))
+    }
+}
+
 /// Writes all pages.
 pub(super) fn write() -> Result<()> {
-    fs::create_dir_all(folder())?;
     for (name, text) in all()? {
-        fs::write(folder().join(name), text)?;
+        let path = folder().join(name);
+        fs::create_dir_all(path.parent().context("a folder of the page")?)?;
+        fs::write(path, text)?;
     }
     Ok(())
 }
 
-/// The names of all pages and their texts.
+/// The names of all pages and tables, and their texts.
 pub(super) fn all() -> Result<Vec<(String, String)>> {
-    let (numbers, definitions) = (numbers()?, definitions()?);
-    let mut front = format!("# The book\n\n{}\n", wrapped(FRONT));
-    let mut pages = Vec::new();
-    let mut counts: Vec<(String, usize)> = Vec::new();
-    let mut table = String::from("| figure | statement | verdict | evidence |\n|---|---|---|---|\n");
-    let mut answers = String::from("| question | verdict | answer |\n|---|---|---|\n");
-    for chapter in different(numbers.iter().map(|number| chapter_of(number).to_owned()).collect()) {
-        let title = CHAPTERS.iter().find(|(number, _)| *number == chapter).map_or("", |(_, title)| title);
-        let name = format!("chapter-{chapter}.md");
-        let mut page = format!(
-            "# Chapter {chapter}: {title}\n\nWritten by `studies -- figures --write`: [the book](README.md).\n"
-        );
-        let second = chapter == ENVIRONMENT;
-        if second {
-            page += &format!("\n{}\nANSWERS", wrapped(SECOND));
-        }
-        page += &told(numbers.iter().filter(|number| chapter_of(number) == chapter))?;
-        for number in numbers.iter().filter(|number| chapter_of(number) == chapter) {
-            let figure = read(number)?;
-            if let Some(lack) = figure.lacks() {
-                bail!("figure {number}: {lack}");
-            }
-            let kept = kept(number)?;
-            let checks = figure.found(&definitions, kept.as_ref().map_or(&[], |kept| &kept.checks))?;
-            let judged = figure.judged(&checks);
-            let verdict = verdict(&figure, Some(&judged));
-            let decisive = judged.iter().find(|check| !check.range().is_empty()).or(judged.first());
-            let evidence = decisive.map_or_else(String::new, |check| {
-                format!("{}: {}", check.name, check.text.as_deref().unwrap_or("not found yet"))
-            });
-            let anchor = format!("figure-{}", number.to_lowercase().replace('.', ""));
-            let cell = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|");
-            page += &section(number, &figure, &verdict, &judged, kept.as_ref())?;
-            let link = format!("[{number}]({name}#{anchor})");
-            if second {
-                let (title, why) = (cell(&figure.title), cell(&figure.why));
-                let _ = writeln!(answers, "| {link} {title} | {} | {why} |", cell(&verdict));
-                continue;
-            }
-            let _ = writeln!(table, "| {link} | {} | {} | {} |", cell(&figure.title), cell(&verdict), cell(&evidence));
-            let kind = if verdict.starts_with("open") { "open" } else { &verdict };
-            match counts.iter_mut().find(|(name, _)| name == kind) {
-                Some((_, count)) => *count += 1,
-                None => counts.push((kind.to_owned(), 1)),
-            }
-        }
-        pages.push((name, page.replacen("ANSWERS", &answers, usize::from(second))));
+    let entries = numbers()?.iter().map(|number| Entry::of(number)).collect::<Result<Vec<_>>>()?;
+    let mut texts = Vec::new();
+    for path in tables::files("studies/book/chapters", "md")? {
+        let name = path.file_name().context("a name")?.to_string_lossy().into_owned();
+        texts.push((name, fs::read_to_string(&path)?));
     }
-    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    let words: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
-    let count: usize = counts.iter().map(|(_, count)| count).sum();
-    front += &wrapped(&format!("{count} figures: {}.", words.join(", ")));
-    front += "\n![Speed over the activity in channels](figures/3.4.svg)\n\n";
-    front += &table;
-    front += &format!("\n## The environment\n\n{}\n{answers}", wrapped(SECOND));
-    pages.insert(0, ("README.md".to_owned(), front));
+    texts.sort();
+    for entry in &entries {
+        let mark = format!("{{{{figure {}}}}}", entry.number);
+        let shown = entry.is_question() || texts.iter().any(|(_, text)| text.contains(&mark));
+        ensure!(shown, "figure {} is in no text of {}/chapters", entry.number, directory().display());
+    }
+    let mut pages = Vec::new();
+    for (name, text) in &texts {
+        let page = filled::page(text, &entries).with_context(|| name.clone())?;
+        let of_thesis = name.starts_with("chapter-") && !name.contains(ENVIRONMENT);
+        ensure!(!of_thesis || page.len() <= LARGEST, "{name} has {} bytes, more than {LARGEST}", page.len());
+        pages.push((name.clone(), page));
+    }
+    pages.extend(sheets::all(&entries)?);
     Ok(pages)
 }
 
-/// Description of the data of a chapter's figures, once for all of them.
-fn told<'a>(numbers: impl Iterator<Item = &'a String>) -> Result<String> {
-    let mut names: Vec<String> = Vec::new();
-    for number in numbers {
-        for name in read(number)?.data {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-    }
-    let mut text = String::from("\n## Data\n\n");
-    for name in &names {
-        text += &wrapped(&format!("* **{name}**: {}", Source::read(name)?.told()));
-    }
-    Ok(if names.is_empty() { String::new() } else { text })
+/// A text with its marks filled from all figures.
+#[cfg(test)]
+pub(super) fn filled_with_all(text: &str) -> Result<String> {
+    let entries = numbers()?.iter().map(|number| Entry::of(number)).collect::<Result<Vec<_>>>()?;
+    filled::page(text, &entries)
 }
 
-fn section(number: &str, figure: &Figure, verdict: &str, judged: &[Judged], kept: Option<&Kept>) -> Result<String> {
-    let mut text = format!("\n## Figure {number}\n\n{}", wrapped(&figure.title));
+/// A question of the second part with its answer.
+fn section(entry: &Entry) -> String {
+    let figure = &entry.figure;
+    let mut text = format!("## Figure {}\n\n**{}.**\n\n", entry.number, figure.title);
+    text += &wrapped(&format!("**Statement:** {}", figure.says));
     text += "\n";
-    text += &wrapped(&format!("**{}:** {}", said_by(number), figure.says));
-    if let Some(kept) = kept {
-        text += "\n";
-        text += &wrapped(&format!("**Found** from the data {}, at {}:", figure.data.join(", "), kept.commit));
-        if !judged.is_empty() {
-            text += "\n";
-        }
-        for check in judged {
-            let (found, outside) = match check.text.as_deref() {
-                None => ("not found yet", ""),
-                Some("") => ("nothing to measure", ""),
-                Some(found) => (found, if check.stands { "" } else { ": it does not" }),
-            };
-            text += &wrapped(&format!("* {}: {found}{}{outside}", check.name, check.range()));
-        }
-        if kept.left_out > 0 {
-            let _ = writeln!(text, "\nRuns that failed and are left out: {} of {}.", kept.left_out, kept.runs);
-            if !kept.failures.is_empty() {
-                text += "\n";
-            }
-            for failure in &kept.failures {
-                // The run, and the last of its reasons.
-                let (run, why) = failure.split_once(": ").unwrap_or(("", failure));
-                let last = why.rsplit_once("ended because ").map_or(why, |(_, last)| last);
-                text += &wrapped(&format!("* {run}: {last}"));
-            }
-        }
+    text += &wrapped(&format!("**Verdict: {}.** {}", entry.verdict, figure.why));
+    for picture in entry.pictures() {
+        let _ = write!(text, "\n![{}]({picture})\n", entry.name());
     }
-    text += "\n";
-    text += &wrapped(&format!("**Verdict: {verdict}.** {}", figure.why));
-    if folder().join(format!("figures/{number}.svg")).exists() {
-        let _ = write!(text, "\n![Figure {number}](figures/{number}.svg)\n");
+    let own = format!("cargo run --release -p studies -- figure {}", entry.number);
+    let mut last = format!("Reproduce: `{}`", figure.command.as_ref().unwrap_or(&own));
+    if let Some(seconds) = figure.processor.filter(|_| entry.kept.is_some()) {
+        let _ = write!(last, " ({seconds:.0} s of processor time)");
     }
-    if let Some(picture) = &figure.picture {
-        let _ = write!(text, "\n![Figure {number}](../{picture})\n");
-    }
-    let own = format!("figure {number}");
-    let command = figure.command.clone().unwrap_or_else(|| format!("cargo run --release -p studies -- {own}"));
-    let mut last = format!("`{command}`");
-    if let Some(seconds) = figure.processor.filter(|_| kept.is_some()) {
-        last += &format!(" ({seconds:.0} s of processor time)");
-    } else if let Some(seconds) = kept.map(|kept| kept.seconds).filter(|seconds| *seconds > 1.0) {
-        last += &format!(" ({seconds:.0} s of computation)");
+    if let Some(kept) = entry.kept.as_ref().filter(|kept| kept.left_out > 0) {
+        let (failed, runs) = (kept.left_out, kept.runs);
+        let _ = write!(last, "; [{failed} of {runs} runs failed](checks/failures.csv)");
     }
     for page in &figure.see {
-        last += &format!(", [{page}](../{page})");
+        let name = page.rsplit('/').next().unwrap_or(page);
+        let _ = write!(last, "; [{name}](../{page})");
     }
     text += "\n";
-    text += &wrapped(&(last + "."));
-    Ok(text)
+    text + &wrapped(&(last + "."))
 }
 
 /// A paragraph in lines that are not too long.
 fn wrapped(text: &str) -> String {
+    wrapped_to(text, WIDEST)
+}
+
+fn wrapped_to(text: &str, widest: usize) -> String {
     let mut out = String::new();
     let mut width = 0;
     for word in text.split_whitespace() {
         let length = word.chars().count();
-        if width > 0 && width + 1 + length > WIDEST {
+        if width > 0 && width + 1 + length > widest {
             out.push('\n');
             width = 0;
         } else if width > 0 {
@@ -211,4 +201,9 @@ fn wrapped(text: &str) -> String {
         width += length;
     }
     out + "\n"
+}
+
+/// The text of a cell of a table.
+fn cell(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }

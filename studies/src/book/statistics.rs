@@ -112,7 +112,7 @@ impl Measure {
 }
 
 /// Mean and standard deviation (of the sample; 0 of one).
-pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+pub(crate) fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let n = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / n;
     let squares: f64 = values.map(|v| (v - mean).powi(2)).sum();
@@ -129,7 +129,7 @@ fn moments(points: &[(f64, f64)]) -> (f64, f64, f64) {
 }
 
 /// Least squares of y = a + b f(x): a, b, largest residual.
-pub(super) fn line(points: &[(f64, f64)], f: impl Fn(f64) -> f64) -> (f64, f64, f64) {
+pub(crate) fn line(points: &[(f64, f64)], f: impl Fn(f64) -> f64) -> (f64, f64, f64) {
     let mapped: Vec<(f64, f64)> = points.iter().map(|(x, y)| (f(*x), *y)).collect();
     let (xx, xy, _) = moments(&mapped);
     let b = xy / xx;

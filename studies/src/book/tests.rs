@@ -10,6 +10,10 @@ fn making(quick: bool, name: &str) -> Making {
     Making { quick, threads: 1, quiet: true, out }
 }
 
+fn quick(out: PathBuf) -> Common {
+    Common { quick: true, write: false, pictures: false, threads: Some(1), quiet: true, out }
+}
+
 #[test]
 fn every_figure_has_its_file_and_every_plan_its_scenes() {
     let numbers = numbers().expect("figures");
@@ -67,7 +71,7 @@ fn quick_is_faster_than_full() {
 #[test]
 fn figures_of_boundaries_have_no_quick_version() {
     let out = std::env::temp_dir().join(format!("motile-no-quick-{}", std::process::id()));
-    let common = Common { quick: true, write: false, threads: Some(1), quiet: true, out: out.clone() };
+    let common = quick(out.clone());
     let error = make(&["E.6".to_owned()], &common).unwrap_err().to_string();
     assert!(error.starts_with("figure E.6 has no quick version, because short runs show no boundary"), "{error}");
     make(&["E.6".to_owned(), "E.7".to_owned()], &common).unwrap();
@@ -81,14 +85,15 @@ fn figures_of_boundaries_have_no_quick_version() {
 #[test]
 fn a_figure_is_made_from_its_file() {
     let (making, mut made) = (making(true, "one"), BTreeMap::new());
-    one("3.1", &making, &mut made, false).expect("figure 3.1");
+    let common = quick(making.out.clone());
+    one("3.1", &making, &mut made, &common).expect("figure 3.1");
     let points = fs::read_to_string(making.out.join("3.1.csv")).expect("points");
     assert!(points.starts_with("panel,curve,group,x,y,deviation\n") && points.lines().count() > 4, "{points}");
     assert!(making.out.join("3.1.svg").exists() && making.out.join("3.1.png").exists());
     // Every steady state was made once: again it takes no computation.
     let first = made.clone();
     let mut again = BTreeMap::new();
-    one("3.1", &making, &mut again, false).expect("figure 3.1 again");
+    one("3.1", &making, &mut again, &common).expect("figure 3.1 again");
     for (name, data) in first {
         let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs();
         assert!(same(data.seconds, again[&name].seconds), "{name}");
@@ -169,7 +174,7 @@ fn verdicts_of_questions_follow_from_their_numbers() {
         ([1.0, 1.0, 1.0], "confirmed"),
         ([1.0, 2.0, 1.0], "confirmed in part"),
         ([0.0, 2.0, 1.0], "refuted"),
-        ([1.0, 1.0, 1.2], "cannot tell"),
+        ([1.0, 1.0, 1.2], "undecided"),
         ([f64::NAN, 2.0, 1.0], "refuted"),
     ] {
         let row = ["a", "b", "error"].map(str::to_owned).into_iter().zip(numbers).collect();
@@ -194,17 +199,95 @@ fn every_verdict_rests_on_a_range_that_its_contrary_is_outside_of() {
 }
 
 #[test]
-fn answers_stand_at_the_top_of_the_second_part_and_are_not_counted_with_the_figures_of_the_thesis() {
+fn verdicts_of_the_thesis_and_of_questions_are_counted_apart() {
     let pages = pages::all().expect("pages");
     let page = |wanted: &str| &pages.iter().find(|(name, _)| name == wanted).expect(wanted).1;
     let (front, second) = (page("README.md"), page("chapter-E.md"));
-    let of_thesis = numbers().expect("figures").iter().filter(|number| chapter_of(number) != ENVIRONMENT).count();
-    assert!(front.contains(&format!("\n{of_thesis} figures: ")), "{front}");
-    let table = "| question | verdict | answer |";
-    let answers = second.find(table).expect("a table of answers");
-    assert!(answers < second.find("## Data").expect("data") && front.contains(table));
-    assert!(second.contains("**Statement:**") && !second.contains("**Cowley:**"));
-    assert!(page("chapter-3.md").contains("**Cowley:**") && !page("chapter-3.md").contains("**Statement:**"));
+    let numbers = numbers().expect("figures");
+    let of_thesis = numbers.iter().filter(|number| chapter_of(number) != ENVIRONMENT).count();
+    assert!(front.contains(&format!("\n{of_thesis} figures and claims: ")), "{front}");
+    let (verdicts, questions) = front.split_once("## The environment").expect("two tables");
+    let rows = |text: &str| text.lines().filter(|line| line.starts_with("| [")).count();
+    let questions = questions.split_once("## Misprints").expect("misprints").0;
+    assert_eq!((rows(verdicts), rows(questions)), (of_thesis, numbers.len() - of_thesis));
+    assert_eq!(second.matches("**Statement:**").count(), numbers.len() - of_thesis);
+}
+
+/// Every check with its range and the number of its contrary is a line of a table beside the pages.
+#[test]
+fn tables_have_every_check_with_its_range_and_contrary() {
+    let pages = pages::all().expect("pages");
+    for number in numbers().expect("figures") {
+        let name = format!("checks/chapter-{}.csv", chapter_of(&number));
+        let text = &pages.iter().find(|(other, _)| *other == name).expect(&name).1;
+        let mut table = csv::Reader::from_reader(text.as_bytes());
+        let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect(&name)).collect();
+        for (check, within, opposite) in read(&number).expect(&number).ranges() {
+            let own = rows.iter().filter(|row| row[0] == number[..] && row[1] == *check);
+            let found: Vec<[Option<f64>; 3]> = own.map(|row| [5, 6, 7].map(|k| row[k].parse().ok())).collect();
+            let expected = [within.map(|range| range[0]), within.map(|range| range[1]), opposite];
+            assert!(found.contains(&expected), "{number}, {check}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn marks_of_a_text_are_filled_with_the_numbers_of_checks() {
+    let filled = |text: &str| pages::filled_with_all(text);
+    let kept = read("3.4").expect("a figure");
+    assert!(kept.ranges().any(|(name, ..)| name == "unconfined speed at -2"));
+    let text = filled("The speed is {{3.4 | unconfined speed at -2}}.").expect("a number");
+    assert!(text.starts_with("The speed is 0.13") && !text.contains('{'), "{text}");
+    for (text, expected) in [
+        ("{{3.4 | no such check}}", "has no check"),
+        ("{{3.4 | speed at -2 by width}}", "name a group"),
+        ("{{3.4 | speed at -2 by width | 7}}", "found nothing"),
+        ("{{9.9 | a}}", "no figure 9.9"),
+        ("{{3.4 | unconfined speed at -2", "no '}}'"),
+    ] {
+        let told = format!("{:#}", filled(text).expect_err(text));
+        assert!(told.contains(expected), "{text}: {told}");
+    }
+}
+
+/// (1.12) and (1.13), corrected as the report says, are free of divergence and have their values on the sphere; as
+/// printed they do not.
+#[test]
+fn the_corrected_flow_of_squirmers_is_free_of_divergence_and_the_printed_one_is_not() {
+    // P_n and V_n = -2/(n(n+1)) dP_n/dθ for n = 2 and 3.
+    let legendre = |n: i32, theta: f64| {
+        let (s, c) = theta.sin_cos();
+        match n {
+            2 => (1.5 * c * c - 0.5, s * c),
+            _ => (2.5 * c.powi(3) - 1.5 * c, s * (7.5 * c * c - 1.5) / 6.0),
+        }
+    };
+    let flow = |n: i32, a: f64, b: f64, corrected: bool, r: f64, theta: f64| {
+        let (p, v) = legendre(n, theta);
+        let (near, far, half) = (r.powi(-n), r.powi(-n - 2), 0.5 * f64::from(n));
+        let other = if corrected { 1.0 } else { 0.0 };
+        let radial = (half * near - (half - 1.0) * far) * a + other * (far - near) * b;
+        let along = (half * far - (half - 1.0) * near) * b + other * half * (half - 1.0) * (near - far) * a;
+        (radial * p, along * v)
+    };
+    let divergence = |n: i32, a: f64, b: f64, corrected: bool, r: f64, theta: f64| {
+        let h = 1e-4;
+        let radial = |r: f64| r * r * flow(n, a, b, corrected, r, theta).0;
+        let along = |theta: f64| theta.sin() * flow(n, a, b, corrected, r, theta).1;
+        (radial(r + h) - radial(r - h)) / (2.0 * h * r * r)
+            + (along(theta + h) - along(theta - h)) / (2.0 * h * r * theta.sin())
+    };
+    for n in [2, 3] {
+        let (p, v) = legendre(n, 0.9);
+        let (radial, along) = flow(n, 0.7, -1.3, true, 1.0, 0.9);
+        assert!((radial - 0.7 * p).abs() < 1e-14 && (along + 1.3 * v).abs() < 1e-14, "{n}");
+        // At n = 2 the term of A_n that is missing in (1.13) vanishes.
+        for (a, b) in [(1.0, 0.0), (0.0, 1.0)] {
+            assert!(divergence(n, a, b, true, 1.4, 0.9).abs() < 1e-7, "{n}, {a}, {b}");
+            let printed = divergence(n, a, b, false, 1.4, 0.9).abs();
+            assert!(printed > 0.01 || (n == 2 && a == 1.0), "{n}, {a}, {b}: {printed}");
+        }
+    }
 }
 
 #[test]

@@ -53,27 +53,24 @@ pub(super) fn digits(value: f64, count: i32) -> String {
 
 /// The threshold in plane, box and channels and over A and D, and its onset.
 pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
-    let header = ["region", "A", "D", "threshold", "over that of the plane", "frequency", "onset"];
-    let mut table = Table::new("Threshold of polarisation, at c0", &header);
+    let header = "region | A | D | threshold | over that of the plane | frequency | onset";
+    let mut table = Table::new("Threshold of polarisation, at c0", header);
     let scene = |region: Region| {
         let droplets = vec![DropletSetup::contractile(-0.4, 10.0)];
         Setup { region, method: nodes(count), droplets, ..Setup::default() }
     };
     let mut exact = f64::NAN;
     let mut add = |name: String, setup: &Setup, strength: f64, diffusion: f64| {
-        let mut cells = vec![name, strength.to_string(), diffusion.to_string()];
-        match polarisation(setup) {
+        let found = match polarisation(setup) {
             Ok(critical) => {
                 let (found, frequency) = (activity(&critical), critical.mode.value.im);
-                if exact.is_nan() {
-                    exact = found;
-                }
-                cells.extend([digits(found, 7), digits(found / exact, 7), format!("{frequency:.4}")]);
-                cells.push(onset(critical, diffusion).map_or_else(|_| "-".into(), |value| digits(value, 3)));
+                exact = if exact.is_nan() { found } else { exact };
+                let onset = onset(critical, diffusion).map_or_else(|_| "-".into(), |value| digits(value, 3));
+                format!("{} | {} | {frequency:.4} | {onset}", digits(found, 7), digits(found / exact, 7))
             }
-            Err(_) => cells.extend(["not found", "", "", ""].map(String::from)),
-        }
-        table.push(cells);
+            Err(_) => "not found |  |  | ".to_owned(),
+        };
+        table.row(format_args!("{name} | {strength} | {diffusion} | {found}"));
     };
     add("plane".into(), &scene(Region::Plane), 10.0, 0.1);
     for side in [4.0, 6.0, 12.0] {
@@ -113,8 +110,8 @@ pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
 
 /// Hopf points of the straight swimmer over the width, for each A and period.
 pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
-    let header = ["A", "l", "width", "Hopf points (frequency)", "other points", "stable at", "followed to"];
-    let mut table = Table::new("Straight swimmers: activities from -0.6 to -6", &header);
+    let header = "A | l | width | Hopf points (frequency) | other points | stable at | followed to";
+    let mut table = Table::new("Straight swimmers: activities from -0.6 to -6", header);
     for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [12.0, 18.0, 24.0].map(|l| (a, l))) {
         for width in [2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0] {
             let start = SteadyState::find(&channel(length, width, -0.6, strength, count))?;
@@ -134,15 +131,12 @@ pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
                 .map(|point| (point.value, point.spectrum.stability() == Stability::Stable))
                 .collect();
             let last = stable.last().map_or(f64::NAN, |point| point.0);
-            table.push([
-                strength.to_string(),
-                length.to_string(),
-                width.to_string(),
+            table.row(format_args!(
+                "{strength} | {length} | {width} | {} | {} | {} | {last:.2}",
                 hopf.join("; "),
                 other.join("; "),
-                intervals(&stable),
-                format!("{last:.2}"),
-            ]);
+                intervals(&stable)
+            ));
         }
     }
     Ok(vec![table])
@@ -181,38 +175,26 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let swing = |mode: &&Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
     let mode = spectrum.modes.iter().find(swing).context("no swings")?;
     let hopf = state.critical(mode, parameter)?;
-    let header = [
-        "activity",
-        "amplitude",
-        "period",
-        "mean speed",
-        "instants",
-        "last harmonics",
-        "largest multiplier",
-        "of the shifts less 1",
-    ];
-    let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", &header);
-    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: [String; 4]| {
-        let cells = [format!("{at:.5}"), format!("{amplitude:.4}"), format!("{period:.3}"), format!("{speed:.6}")];
-        motile_cli::run::say(format_args!("{cells:?} {rest:?}"));
-        table.push(cells.into_iter().chain(rest));
+    let header = "activity | amplitude | period | mean speed | instants | last harmonics | largest multiplier | of the \
+        shifts less 1";
+    let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", header);
+    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: &str| {
+        let row = format!("{at:.5} | {amplitude:.4} | {period:.3} | {speed:.6} | {rest}");
+        motile_cli::run::say(&row);
+        table.row(format_args!("{row}"));
     };
-    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, Default::default());
-    let mut show = |cycle: &LimitCycle| -> Result<[f64; 2]> {
+    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, " |  |  | ");
+    let mut show = |cycle: &LimitCycle| -> Result<()> {
         let (at, amplitude) = (cycle.value(parameter), cycle.amplitude()?);
         let multipliers = cycle.multipliers()?;
         // Those that the nodes do not resolve are left out.
         let resolved = multipliers.values.first().filter(|_| multipliers.neutral < RESOLVED);
-        let told = [
-            cycle.instants().to_string(),
-            format!("{:.0e}", cycle.tail()),
-            resolved.map_or_else(String::new, |value| format!("{:.4}", value.norm())),
-            format!("{:.0e}", multipliers.neutral),
-        ];
-        push(at, amplitude, cycle.period(), cycle.mean_speed(), told);
-        Ok([at, amplitude])
+        let largest = resolved.map_or_else(String::new, |value| format!("{:.4}", value.norm()));
+        let (instants, tail, neutral) = (cycle.instants(), cycle.tail(), multipliers.neutral);
+        let told = format!("{instants} | {tail:.0e} | {largest} | {neutral:.0e}");
+        push(at, amplitude, cycle.period(), cycle.mean_speed(), &told);
+        Ok(())
     };
-    let mut points = Vec::new();
     LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
         // The last one at the activity of the reference.
         let last = cycle.value(parameter) < GOAL;
@@ -220,13 +202,7 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
             true => cycle.at(parameter, GOAL).map_err(Into::into).and_then(|end| show(&end)),
             false => show(cycle),
         };
-        shown.map(|point| points.push(point)).is_ok() && !last
+        shown.is_ok() && !last
     })?;
-    // activity - Hopf = b amplitude^p through the first two.
-    let [[a, u], [b, v], ..] = points[..] else { anyhow::bail!("no branch") };
-    let exponent = ((b - activity(&hopf)) / (a - activity(&hopf))).ln() / (v / u).ln();
-    let mut growth =
-        Table::new("Growth from the Hopf point", &["activity less that of the point grows as amplitude to"]);
-    growth.push([format!("{exponent:.3}")]);
-    Ok(vec![table, growth])
+    Ok(vec![table])
 }

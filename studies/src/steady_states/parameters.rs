@@ -8,6 +8,7 @@ use motile_steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 use motile_tests::validation::Table;
 
 use super::{channel, nodes};
+use crate::book::statistics::line;
 
 /// Lengths of the table, and the largest factor from one to the next on the way.
 const LENGTHS: [f64; 13] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 120.0, 144.0, 180.0, 240.0];
@@ -50,8 +51,8 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
         let Ok(next) = next else { break };
         open.push((length, next));
     }
-    let header = ["length", "speed", "film", "last modes", "growth rate"];
-    let mut speeds = Table::new("Straight swimmers, width 2, activity -2, A = 10", &header);
+    let header = "length | speed | film | last modes | growth rate";
+    let mut speeds = Table::new("Straight swimmers, width 2, activity -2, A = 10", header);
     let points = tabulated(&mut speeds, &open, width)?;
     // Where the straight swimmers lose their stability those branch off that are not their own mirror images.
     let Some((length, start)) = open.iter().rev().find(|(length, _)| *length < TILTS_AT) else { bail!("no swimmer") };
@@ -64,14 +65,14 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     let region = Region::Channel { length: LONGEST, width, drive: Drive::ZeroFlux };
     let setup = Setup { region, ..last.setup().clone() };
     let without_flux = SteadyState::near(&setup, last.profile(), last.velocity(), false)?;
-    let mut tilted = Table::new("Swimmers that are not their own mirror images, and without a net flux", &header);
+    let mut tilted = Table::new("Swimmers that are not their own mirror images, and without a net flux", header);
     let tilted_points = tabulated(&mut tilted, &tilts, width)?;
     tabulated(&mut tilted, &[(f64::INFINITY, without_flux)], width)?;
-    let header = ["law", "a", "b", "c", "largest residual"];
-    let mut laws = Table::new("Least squares of the speeds without a pressure gradient", &header);
+    let header = "law | a | b | c | largest residual";
+    let mut laws = Table::new("Least squares of the speeds without a pressure gradient", header);
     let mut fitted = |name: &str, points: &[(f64, f64)], range: std::ops::Range<i32>, law: fn(f64, f64) -> f64| {
         // Linear in a and b for each c.
-        let all = range.map(|k| 0.05 * f64::from(k)).map(|c| (fit(points, |l| law(l, c)), c));
+        let all = range.map(|k| 0.05 * f64::from(k)).map(|c| (line(points, |l| law(l, c)), c));
         // An exponential that has died off at all lengths fits nothing.
         let all = all.filter(|((a, b, worst), _)| (a + b + worst).is_finite());
         if let Some(((a, b, worst), c)) = all.min_by(|x, y| x.0.2.total_cmp(&y.0.2)) {
@@ -104,8 +105,8 @@ fn tabulated(table: &mut Table, states: &[(f64, SteadyState)], width: f64) -> Re
 
 /// Straight swimmers in a channel of width 3 at an activity of -4 over its length.
 fn stresslets(count: usize) -> Result<Table> {
-    let header = ["A", "length", "stresslet", "speed", "growth rate", "frequency"];
-    let mut table = Table::new("Width 3, activity -4", &header);
+    let header = "A | length | stresslet | speed | growth rate | frequency";
+    let mut table = Table::new("Width 3, activity -4", header);
     for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [8.0, 12.0, 18.0, 24.0, 36.0].map(|l| (a, l))) {
         let state = SteadyState::find(&channel(length, 3.0, -4.0, strength, count))?;
         let (seen, spectrum) = (state.measured()?, state.spectrum()?);
@@ -117,27 +118,14 @@ fn stresslets(count: usize) -> Result<Table> {
     Ok(table)
 }
 
-/// Least squares of U = a + b f(l): a, b, largest residual.
-fn fit(points: &[(f64, f64)], f: impl Fn(f64) -> f64) -> (f64, f64, f64) {
-    let n = points.len() as f64;
-    let (mut x, mut y, mut xx, mut xy) = (0.0, 0.0, 0.0, 0.0);
-    for (l, u) in points {
-        let v = f(*l);
-        (x, y, xx, xy) = (x + v, y + u, xx + v * v, xy + v * u);
-    }
-    let b = (n * xy - x * y) / (n * xx - x * x);
-    let a = (y - b * x) / n;
-    (a, b, points.iter().map(|(l, u)| (u - a - b * f(*l)).abs()).fold(0.0, f64::max))
-}
-
 /// Columns of what is told of a swimmer.
-const HEADER: [&str; 6] = ["speed", "aspect ratio", "c max", "least curvature", "growth rate", "symmetry"];
+const HEADER: &str = "speed | aspect ratio | c max | least curvature | growth rate | symmetry";
 
 /// Swimmers over the viscosity ratio at fixed sum, and strongly active ones.
 pub(super) fn contrast(count: usize) -> Result<Vec<Table>> {
     let parameter = Parameter::ViscosityRatio;
-    let header = [&["inside/outside"], &HEADER[..]].concat();
-    let mut ratios = Table::new("Box 6, activity -2, A = 10, sum of the viscosities 200", &header);
+    let mut ratios =
+        Table::new("Box 6, activity -2, A = 10, sum of the viscosities 200", &format!("inside/outside | {HEADER}"));
     let droplet = DropletSetup { viscosity: Some(100.0), ..DropletSetup::active(-2.0) };
     let setup = Setup { method: nodes(count), droplets: vec![droplet], ..Setup::default() };
     let start = SteadyState::find(&setup)?;
@@ -146,35 +134,32 @@ pub(super) fn contrast(count: usize) -> Result<Vec<Table>> {
         let branch = settings.follow(&start, |_, _| true)?;
         for point in &branch.points {
             let cells = described(&point.state, point.spectrum.leading())?;
-            ratios.push(std::iter::once(format!("{:.4}", point.value)).chain(cells));
+            ratios.row(format_args!("{:.4} | {cells}", point.value));
         }
         for special in &branch.special {
             let cells = described(&special.critical.state, Some(&special.critical.mode))?;
-            ratios.push(std::iter::once(format!("{:.4} ({})", special.value, special.kind.name())).chain(cells));
+            ratios.row(format_args!("{:.4} ({}) | {cells}", special.value, special.kind.name()));
         }
     }
-    let header = [&["inside", "outside", "activity", "A"], &HEADER[..]].concat();
-    let mut strong = Table::new("Strong activity in a box of 6", &header);
+    let mut strong =
+        Table::new("Strong activity in a box of 6", &format!("inside | outside | activity | A | {HEADER}"));
     for (inside, outside, activity) in [(1000.0, 500.0, -15.0), (1000.0, 100.0, -10.0)] {
         for strength in [13.5, 16.0, 20.0, 25.0, 30.0] {
             let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::contractile(activity, strength) };
             let setup = Setup { method: nodes(count), viscosity: outside, droplets: vec![droplet], ..Setup::default() };
             let state = SteadyState::find(&setup)?;
             let cells = described(&state, state.spectrum()?.leading())?;
-            strong.push([inside, outside, activity, strength].map(|value| value.to_string()).into_iter().chain(cells));
+            strong.row(format_args!("{inside} | {outside} | {activity} | {strength} | {cells}"));
         }
     }
     Ok(vec![ratios, strong])
 }
 
-fn described(state: &SteadyState, leading: Option<&Eigenmode>) -> Result<[String; 6]> {
+fn described(state: &SteadyState, leading: Option<&Eigenmode>) -> Result<String> {
     let seen = state.measured()?;
-    Ok([
-        format!("{:.6}", seen.speed),
-        format!("{:.5}", seen.aspect_ratio),
-        format!("{:.4}", seen.concentration[0]),
-        format!("{:.3}", seen.least_curvature),
-        leading.map_or_else(String::new, |mode| format!("{:.5} + {:.4} i", mode.value.re, mode.value.im)),
-        leading.map_or("", |mode| mode.symmetry.name()).to_owned(),
-    ])
+    let rate = leading.map_or_else(String::new, |mode| format!("{:.5} + {:.4} i", mode.value.re, mode.value.im));
+    let symmetry = leading.map_or("", |mode| mode.symmetry.name());
+    let (speed, aspect_ratio, curvature) = (seen.speed, seen.aspect_ratio, seen.least_curvature);
+    let largest = seen.concentration[0];
+    Ok(format!("{speed:.6} | {aspect_ratio:.5} | {largest:.4} | {curvature:.3} | {rate} | {symmetry}"))
 }

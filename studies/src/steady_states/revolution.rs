@@ -66,23 +66,13 @@ fn regime(turn: [[f64; 2]; 2], flatten: [[f64; 2]; 2]) -> String {
 
 /// Swimmers in unbounded fluid over activity, excluded volume and viscosities, and their regimes.
 pub(super) fn space() -> Result<Vec<Table>> {
-    let header =
-        ["viscosities", "activity", "A", "nodes", "speed", "aspect ratio", "largest c", "stresslet", "tail", "m = 0"];
-    let mut table = Table::new("Swimmers of revolution in unbounded fluid", &header);
+    let header = "viscosities | activity | A | nodes | speed | aspect ratio | largest c | stresslet | tail | m = 0";
+    let mut table = Table::new("Swimmers of revolution in unbounded fluid", header);
     let [coarse, fine] = PAIR;
-    let columns = [
-        "viscosities".to_owned(),
-        "activity".to_owned(),
-        "A".to_owned(),
-        format!("m = 1, {coarse} nodes"),
-        format!("m = 1, {fine} nodes"),
-        "digits of m = 1".to_owned(),
-        format!("m = 2, {coarse} nodes"),
-        format!("m = 2, {fine} nodes"),
-        "digits of m = 2".to_owned(),
-        "regime".to_owned(),
-    ];
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    let columns = format!(
+        "viscosities | activity | A | m = 1, {coarse} nodes | m = 1, {fine} nodes | digits of m = 1 | \
+         m = 2, {coarse} nodes | m = 2, {fine} nodes | digits of m = 2 | regime"
+    );
     let mut regimes = Table::new("Regimes of swimmers in unbounded fluid", &columns);
     let equal = [100.0; 2];
     for (viscosities, activity, strength) in [
@@ -96,39 +86,43 @@ pub(super) fn space() -> Result<Vec<Table>> {
         ([10.0, 100.0], -0.4, 0.8),
     ] {
         let [inside, outside] = viscosities;
-        let names = [format!("{inside}/{outside}"), activity.to_string(), strength.to_string()];
+        let names = format!("{inside}/{outside} | {activity} | {strength}");
         let (mut turns, mut flattens) = ([[f64::NAN; 2]; 2], [[f64::NAN; 2]; 2]);
         for (k, count) in PAIR.into_iter().enumerate() {
             let state = SteadyState::find(&droplet(Region::Space, viscosities, activity, strength, count))?;
             let seen = state.measured()?;
             let values = [seen.speed, seen.aspect_ratio, seen.concentration[0], seen.stresslet];
-            let values = values.map(|value| digits(value, 6)).into_iter();
-            let growth = [format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)];
-            table.push(names.clone().into_iter().chain([count.to_string()]).chain(values).chain(growth));
+            let values = values.map(|value| digits(value, 6)).join(" | ");
+            let (tail, grows) = (state.tail(), leading(&state)?);
+            table.row(format_args!("{names} | {count} | {values} | {tail:.0e} | {grows:.4}"));
             (turns[k], flattens[k]) = (turning(&state, 1)?, turning(&state, 2)?);
         }
-        let of = |found: [[f64; 2]; 2]| [rate(found[0], 4), rate(found[1], 4), settled(found)];
-        let cells = names.into_iter().chain(of(turns)).chain(of(flattens)).chain([regime(turns, flattens)]);
-        let cells: Vec<String> = cells.collect();
-        say(cells.join("  "));
-        regimes.push(cells);
+        let of = |found: [[f64; 2]; 2]| [rate(found[0], 4), rate(found[1], 4), settled(found)].join(" | ");
+        let row = format!("{names} | {} | {} | {}", of(turns), of(flattens), regime(turns, flattens));
+        say(&row);
+        regimes.row(format_args!("{row}"));
     }
     Ok(vec![table, regimes])
 }
 
 /// Swimmers of activity -2 in tubes, at two numbers of nodes each.
 pub(super) fn tubes() -> Result<Vec<Table>> {
-    let header = ["radius", "nodes", "speed", "film", "aspect ratio", "stresslet", "tail", "m = 0", "m = 1"];
-    let mut table = Table::new("Swimmers in tubes without flux, viscosities 100, activity -2, A = 4", &header);
+    let header = "radius | nodes | speed | film | aspect ratio | stresslet | tail | m = 0 | m = 1";
+    let mut table = Table::new("Swimmers in tubes without flux, viscosities 100, activity -2, A = 4", header);
     for (radius, count) in RADII.into_iter().flat_map(|radius| PAIR.map(|count| (radius, count))) {
-        let mut cells = vec![radius.to_string(), count.to_string()];
         let state = SteadyState::find(&droplet(Region::tube(radius), [100.0; 2], -2.0, 4.0, count))?;
         let seen = state.measured()?;
         let widest = state.profile().positions.iter().map(|x| x.y).fold(0.0, f64::max);
-        cells.extend([digits(seen.speed, 6), digits(radius - widest, 5), digits(seen.aspect_ratio, 6)]);
-        cells.extend([digits(seen.stresslet, 6), format!("{:.0e}", state.tail()), format!("{:.4}", leading(&state)?)]);
-        cells.push(rate(turning(&state, 1)?, 5));
-        table.push(cells);
+        table.row(format_args!(
+            "{radius} | {count} | {} | {} | {} | {} | {:.0e} | {:.4} | {}",
+            digits(seen.speed, 6),
+            digits(radius - widest, 5),
+            digits(seen.aspect_ratio, 6),
+            digits(seen.stresslet, 6),
+            state.tail(),
+            leading(&state)?,
+            rate(turning(&state, 1)?, 5)
+        ));
     }
     Ok(vec![table, drives()?])
 }
@@ -138,7 +132,7 @@ fn drives() -> Result<Table> {
     let title = format!(
         "Swimmers of activity -2, A = 4 in a tube of radius {RADIUS} without a pressure drop over a length, 96 nodes"
     );
-    let mut table = Table::new(&title, &["length", "speed", "over that without flux", "excess times length"]);
+    let mut table = Table::new(&title, "length | speed | over that without flux | excess times length");
     let setup = droplet(Region::tube(RADIUS), [100.0; 2], -2.0, 4.0, 96);
     let closed = SteadyState::find(&setup)?;
     let still = closed.measured()?.speed;
@@ -148,17 +142,24 @@ fn drives() -> Result<Table> {
         let open = SteadyState::near(&Setup { region, ..setup.clone() }, closed.profile(), closed.velocity(), true)?;
         let speed = open.measured()?.speed;
         let excess = speed / still - 1.0;
-        table.push([length.to_string(), digits(speed, 6), digits(speed / still, 6), digits(excess * length, 4)]);
+        table.row(format_args!(
+            "{length} | {} | {} | {}",
+            digits(speed, 6),
+            digits(speed / still, 6),
+            digits(excess * length, 4)
+        ));
     }
-    table.push(["no flux".to_owned(), digits(still, 6), "1".to_owned(), String::new()]);
+    table.row(format_args!("no flux | {} | 1 | ", digits(still, 6)));
     Ok(table)
 }
 
 /// Threshold, fold with its speed, and speed at the threshold, to which a droplet at rest jumps.
-fn fold(viscosities: [f64; 2], strength: f64, count: usize) -> Result<[f64; 4]> {
+fn fold(viscosities: [f64; 2], strength: f64, tension: f64, count: usize) -> Result<[f64; 4]> {
     let [inside, outside] = viscosities;
     let guess = -1e-3 * (3.0 * inside + 2.0 * outside);
-    let critical = polarisation(&droplet(Region::Space, viscosities, guess, strength, count))?;
+    let mut setup = droplet(Region::Space, viscosities, guess, strength, count);
+    setup.droplets[0].tension = tension;
+    let critical = polarisation(&setup)?;
     let threshold = activity(&critical);
     let range = Continuation::new(Parameter::Activity, 0.5 * threshold, 1.2 * threshold);
     let swimmers = Continuation { largest_step: 0.02, most_points: POINTS, ..range };
@@ -179,20 +180,20 @@ fn fold(viscosities: [f64; 2], strength: f64, count: usize) -> Result<[f64; 4]> 
 
 /// Folds over the ratio of viscosities and the strength of the excluded volume.
 pub(super) fn folds(count: usize) -> Result<Vec<Table>> {
-    let header = ["viscosities", "A", "threshold", "fold", "fold over threshold", "speed there", "jump"];
-    let mut table = Table::new("Onset of swimming in unbounded fluid", &header);
+    let header = "viscosities | A | threshold | fold | fold over threshold | speed there | jump";
+    let mut table = Table::new("Onset of swimming in unbounded fluid", header);
     for (viscosities, strength) in
         [([100.0; 2], 0.5), ([100.0; 2], 1.0), ([100.0; 2], 4.0), ([10.0, 100.0], 1.0), ([100.0, 10.0], 1.0)]
     {
         let [inside, outside] = viscosities;
         let mut cells = vec![format!("{inside}/{outside}"), strength.to_string()];
-        let [threshold, fold, speed, jump] = fold(viscosities, strength, count)?;
+        let [threshold, fold, speed, jump] = fold(viscosities, strength, 10.0, count)?;
         let values = [(threshold, 6), (fold, 6), (fold / threshold, 5), (speed, 4), (jump, 4)];
         let cell = |(value, count): (f64, i32)| if value.is_finite() { digits(value, count) } else { "-".to_owned() };
         cells.extend(values.map(cell));
         table.push(cells);
     }
-    Ok(vec![table])
+    Ok(vec![table, tensions(count)?])
 }
 
 /// Activities and times of a run in which the activity is raised and lowered, the fold and the threshold between the
@@ -215,13 +216,26 @@ pub(super) fn hysteresis() -> Result<Vec<Table>> {
     let mut scene = Scene::new(setup.flow()?);
     let body = scene.add(body);
     let title = "A run in unbounded fluid, viscosities 100, A = 1, 32 nodes, whose activity is raised and lowered";
-    let mut table = Table::new(title, &["activity", "until t", "speed"]);
+    let mut table = Table::new(title, "activity | until t | speed");
     for (activity, time) in STAGES {
         let law = Particles { activity, ..particles }.law(tension)?;
         scene.body_mut(body)?.set_tension(law);
         let end = scene.system().time() + time;
         scene.run(end).go()?;
-        table.push([activity.to_string(), end.to_string(), digits(scene.observe(body)?.speed(), 4)]);
+        table.row(format_args!("{activity} | {end} | {}", digits(scene.observe(body)?.speed(), 4)));
     }
     Ok(vec![table])
+}
+
+/// Folds of a droplet less viscous than the fluid over its tension without particles.
+fn tensions(count: usize) -> Result<Table> {
+    let header = "tension | threshold | fold | fold over threshold";
+    let mut table = Table::new("Onset of swimming, viscosities 10/100, A = 1, over the tension", header);
+    for tension in [10.0, 100.0, 1000.0] {
+        let [threshold, fold, ..] = fold([10.0, 100.0], 1.0, tension, count)?;
+        let cell = |value: f64, count| if value.is_finite() { digits(value, count) } else { "-".to_owned() };
+        let [below, turn, ratio] = [(threshold, 6), (fold, 6), (fold / threshold, 5)].map(|(value, n)| cell(value, n));
+        table.row(format_args!("{tension} | {below} | {turn} | {ratio}"));
+    }
+    Ok(table)
 }

@@ -20,34 +20,20 @@ const ROWS: f64 = 100.0;
 const CONTACT: f64 = 0.2;
 
 pub(super) fn table(flags: &Flags, rows: &mut Rows) -> Result<Table> {
-    let columns = [
-        "fraction",
-        "activity",
-        "ratio",
-        "polar order",
-        "nematic order",
-        "contacts a droplet",
-        "largest cluster",
-        "square displacement",
-        "rotational diffusion",
-        "least film",
-        "film held",
-        "contacts over stress",
-        "area change",
-        "steps",
-        "end",
-    ];
-    let mut table = Table::new("random suspensions", &columns);
+    let columns = "fraction | activity | ratio | polar order | nematic order | contacts a droplet | largest cluster | \
+        square displacement | rotational diffusion | least film | film held | contacts over stress | area \
+        change | steps | end";
+    let mut table = Table::new("random suspensions", columns);
     let ways = FRACTIONS.into_iter().flat_map(|fraction| ACTIVITIES.map(|activity| (fraction, activity)));
     for ((fraction, activity), ratio) in ways.flat_map(|way| RATIOS.map(|ratio| (way, ratio))) {
         let name = format!("crowd {} {} {fraction} {activity} {ratio}", flags.count, flags.time);
-        table.push(rows.row(&name, || crowd(flags, fraction, activity, ratio))?);
+        table.row(format_args!("{}", rows.row(&name, || crowd(flags, fraction, activity, ratio))?));
     }
     Ok(table)
 }
 
 /// A row: means over the second half of the run.
-fn crowd(flags: &Flags, fraction: f64, activity: f64, ratio: f64) -> Result<Vec<String>> {
+fn crowd(flags: &Flags, fraction: f64, activity: f64, ratio: f64) -> Result<String> {
     let setup = super::suspension(flags.count, fraction, activity, ratio, NODES)?;
     let Built { mut scene, .. } = setup.build()?;
     let directory = std::env::temp_dir().join(format!("suspensions-{}", std::process::id()));
@@ -76,23 +62,20 @@ fn crowd(flags: &Flags, fraction: f64, activity: f64, ratio: f64) -> Result<Vec<
     let interval = diffusion.get(1).map_or(0.0, |row| row[0]);
     let correlation: Vec<f64> = diffusion.iter().map(|row| row[2]).collect();
     let changes = tables.table().curve("time", "area_change")?;
-    let row = vec![
-        fraction.to_string(),
-        activity.to_string(),
-        ratio.to_string(),
-        format!("{:.2}", mean("polar_order")?),
-        format!("{:.2}", mean("nematic_order")?),
-        format!("{:.2}", 2.0 * mean("contacts")? / flags.count as f64),
-        format!("{:.1}", mean("largest_cluster")?),
-        format!("{:.2}", tables.last("square_displacement").unwrap_or(f64::NAN)),
-        rotational_diffusion(&correlation, interval).map_or_else(String::new, |rate| format!("{rate:.3}")),
-        format!("{:.3}", scene.system().minimum_gap().unwrap_or(f64::NAN)),
-        format!("{:.3}", mean("film")?),
-        format!("{share:.2}"),
-        format!("{:.0e}", changes.iter().map(|row| row.1).fold(0.0, f64::max)),
-        scene.steps().to_string(),
-        end,
-    ];
+    let diffusion = rotational_diffusion(&correlation, interval).map_or_else(String::new, |rate| format!("{rate:.3}"));
+    let row = format!(
+        "{fraction} | {activity} | {ratio} | {:.2} | {:.2} | {:.2} | {:.1} | {:.2} | {diffusion} | {:.3} | {:.3} | \
+         {share:.2} | {:.0e} | {} | {end}",
+        mean("polar_order")?,
+        mean("nematic_order")?,
+        2.0 * mean("contacts")? / flags.count as f64,
+        mean("largest_cluster")?,
+        tables.last("square_displacement").unwrap_or(f64::NAN),
+        scene.system().minimum_gap().unwrap_or(f64::NAN),
+        mean("film")?,
+        changes.iter().map(|row| row.1).fold(0.0, f64::max),
+        scene.steps()
+    );
     std::fs::remove_dir_all(&directory)?;
     Ok(row)
 }

@@ -1,16 +1,13 @@
 //! Sixteen droplets by a grid, by layers and without a grid: error against cost.
 
-use std::cell::RefCell;
-use std::time::Duration;
-
-use anyhow::{Context, Result};
+use anyhow::Result;
 use motile::analysis::suspension::Member;
 use motile::base::{Region, Vec2};
 use motile::setup::{Built, GridMethod, LayersMethod, Method, Setup};
 use motile_tests::validation::Table;
-use motile_timing::{PlainPair, Turns};
 
 use super::{CELLS, Rows, integral, suspension};
+use crate::many::costs;
 
 const COUNT: usize = 16;
 const FRACTION: f64 = 0.3;
@@ -23,8 +20,8 @@ const TIME: f64 = 2.0;
 const BUDGET: f64 = 6.0;
 
 pub(super) fn table(rows: &mut Rows) -> Result<Table> {
-    let columns = ["method", "error in % of the way", "steps", "FFT pairs a unit of time"];
-    let mut table = Table::new("sixteen droplets in a box, area fraction 0.3: error at t = 2 against cost", &columns);
+    let columns = "method | error in % of the way | steps | FFT pairs a unit of time";
+    let mut table = Table::new("sixteen droplets in a box, area fraction 0.3: error at t = 2 against cost", columns);
     let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, HELD)?;
     let Region::Box { lengths: [side, _] } = usual.region else { anyhow::bail!("no box") };
     // The next spacing of which the box has a whole number.
@@ -50,7 +47,7 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
     };
     let mut exact = None;
     for (name, method) in all {
-        table.push(rows.row(&format!("method {name}"), || {
+        let row = rows.row(&format!("method {name}"), || {
             if exact.is_none() {
                 exact = Some(way(&by(integral(FINEST)))?.0);
             }
@@ -60,10 +57,10 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
                 error = error.max(end.distance(*other));
                 length = length.max(end.distance(*start));
             }
-            let cost = cost(&by(method), steps as f64 / TIME)?;
-            let error = format!("{:.2}", 100.0 * error / length);
-            Ok(vec![name.to_owned(), error, steps.to_string(), format!("{cost:.0}")])
-        })?);
+            let cost = costs(std::iter::once((by(method), steps as f64 / TIME)), BUDGET)?[0];
+            Ok(format!("{name} | {:.2} | {steps} | {cost:.0}", 100.0 * error / length))
+        })?;
+        table.row(format_args!("{row}"));
     }
     Ok(table)
 }
@@ -75,24 +72,4 @@ fn way(setup: &Setup) -> Result<(Vec<[Vec2; 2]>, usize)> {
     scene.run(TIME).go()?;
     let end = Member::all(scene.system_mut())?;
     Ok((start.iter().zip(&end).map(|(start, end)| [start.centroid, end.centroid]).collect(), scene.steps()))
-}
-
-/// Cost of a unit of time with so many steps in it, in FFT pairs measured by turns.
-fn cost(setup: &Setup, rate: f64) -> Result<f64> {
-    let Built { mut scene, .. } = setup.build()?;
-    // What is kept from step to step is there.
-    for _ in 0..3 {
-        scene.step(1.0 / rate)?;
-    }
-    let mut pair = PlainPair::new(120, 120);
-    let failed = RefCell::new(None);
-    let mut plain = || pair.run();
-    let mut step = || {
-        if let Err(error) = scene.step(1.0 / rate) {
-            failed.replace(Some(error));
-        }
-    };
-    let turns = Turns::measure(Duration::from_secs_f64(BUDGET), &mut [&mut plain, &mut step]);
-    failed.into_inner().map_or(Ok(()), Err).context("a step of measured length")?;
-    Ok(rate * turns.least(1) / turns.least(0))
 }

@@ -28,30 +28,18 @@ const MOVING: f64 = 0.2;
 pub(super) fn table(rows: &mut Rows) -> Result<Table> {
     let mut table = Table::new(
         "two droplets that meet",
-        &[
-            "meeting",
-            "nodes",
-            "repulsion",
-            "film at 2",
-            "at 5",
-            "at 10",
-            "at 20",
-            "least film",
-            "turned by",
-            "steps",
-            "end",
-        ],
+        "meeting | nodes | repulsion | film at 2 | at 5 | at 10 | at 20 | least film | turned by | steps | end",
     );
     for meeting in MEETINGS {
         for (nodes, repulsion) in NODES.into_iter().flat_map(|nodes| [(nodes, false), (nodes, true)]) {
             let name = format!("pair {} {nodes} {repulsion}", meeting.0);
-            table.push(rows.row(&name, || pair(meeting, nodes, repulsion))?);
+            table.row(format_args!("{}", rows.row(&name, || pair(meeting, nodes, repulsion))?));
         }
     }
     Ok(table)
 }
 
-fn pair((name, places, back): (&str, [[f64; 2]; 2], bool), nodes: usize, repulsion: bool) -> Result<Vec<String>> {
+fn pair((name, places, back): (&str, [[f64; 2]; 2], bool), nodes: usize, repulsion: bool) -> Result<String> {
     let angles = [0.0, if back { PI } else { 0.0 }];
     let droplets = places.into_iter().zip(angles);
     let setup = Setup {
@@ -82,17 +70,6 @@ fn pair((name, places, back): (&str, [[f64; 2]; 2], bool), nodes: usize, repulsi
     };
     let film = |k: usize| films.get(k).map_or_else(String::new, |film| format!("{film:.4}"));
     let least = scene.system().minimum_gap().unwrap_or(f64::NAN);
-    Ok(vec![
-        name.to_owned(),
-        nodes.to_string(),
-        if repulsion { "on" } else { "off" }.to_owned(),
-        film(0),
-        film(1),
-        film(2),
-        film(3),
-        format!("{least:.4}"),
-        turned,
-        scene.steps().to_string(),
-        end,
-    ])
+    let (on, films, steps) = (if repulsion { "on" } else { "off" }, [0, 1, 2, 3].map(film).join(" | "), scene.steps());
+    Ok(format!("{name} | {nodes} | {on} | {films} | {least:.4} | {turned} | {steps} | {end}"))
 }

@@ -20,14 +20,12 @@ const RUNS: [(&str, usize, f64, f64); 3] =
 const TIMES: [f64; 7] = [1.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0];
 
 pub(super) fn table(rows: &mut Rows) -> Result<Table> {
-    let at: Vec<String> = TIMES.iter().map(|time| format!("at {time}")).collect();
-    let after = ["area change", "particle change", "least film"];
-    let columns: Vec<&str> =
-        ["against", "steps"].into_iter().chain(at.iter().map(String::as_str)).chain(after).collect();
+    let at = TIMES.map(|time| format!("at {time}")).join(" | ");
+    let columns = format!("against | steps | {at} | area change | particle change | least film");
     let mut table = Table::new("largest distance of a droplet from where it is with 64 nodes at 1e-6", &columns);
     let mut usual = None;
     for (number, (name, nodes, tolerance, end)) in RUNS.into_iter().enumerate() {
-        table.push(rows.row(&format!("parting {name}"), || {
+        let row = rows.row(&format!("parting {name}"), || {
             if usual.is_none() {
                 let (_, nodes, tolerance, _) = RUNS[0];
                 usual = Some(Way::of(nodes, tolerance, end)?);
@@ -41,15 +39,11 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
                 }
                 _ => String::new(),
             });
-            let changes = other.changes.map(|change| format!("{change:.0e}"));
-            let film = format!("{:.3}", other.film);
-            Ok([name.to_owned(), other.steps.to_string()]
-                .into_iter()
-                .chain(apart)
-                .chain(changes)
-                .chain([film])
-                .collect())
-        })?);
+            let changes = other.changes.map(|change| format!("{change:.0e}")).join(" | ");
+            let apart = apart.collect::<Vec<_>>().join(" | ");
+            Ok(format!("{name} | {} | {apart} | {changes} | {:.3}", other.steps, other.film))
+        })?;
+        table.row(format_args!("{row}"));
     }
     Ok(table)
 }

@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use motile_cli::run::say;
 
-/// Separator of the name of a row from its values, and of these from one another.
+/// Separator of the name of a row from its cells.
 const TAB: char = '\t';
 
-/// Rows by their names.
+/// Rows of a [`motile_tests::validation::Table`] by their names.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     path: Option<PathBuf>,
-    found: BTreeMap<String, Vec<String>>,
+    found: BTreeMap<String, String>,
 }
 
 impl Rows {
@@ -24,24 +24,22 @@ impl Rows {
         let mut rows = Self { path: path.map(Path::to_owned), ..Self::default() };
         let Some(path) = path.filter(|path| path.exists()) else { return Ok(rows) };
         for line in fs::read_to_string(path).with_context(|| path.display().to_string())?.lines() {
-            let mut parts = line.split(TAB).map(str::to_owned);
-            let name = parts.next().unwrap_or_default();
-            rows.found.insert(name, parts.collect());
+            let (name, row) = line.split_once(TAB).unwrap_or((line, ""));
+            rows.found.insert(name.to_owned(), row.to_owned());
         }
         Ok(rows)
     }
 
     /// The row of that name, which `make` finds if it is not there.
-    pub(super) fn row(&mut self, name: &str, make: impl FnOnce() -> Result<Vec<String>>) -> Result<Vec<String>> {
+    pub(super) fn row(&mut self, name: &str, make: impl FnOnce() -> Result<String>) -> Result<String> {
         if let Some(row) = self.found.get(name) {
             return Ok(row.clone());
         }
         let row = make()?;
-        say(row.join("  "));
+        say(&row);
         if let Some(path) = &self.path {
             let mut file = OpenOptions::new().create(true).append(true).open(path)?;
-            let line: String = [name].into_iter().chain(row.iter().map(String::as_str)).collect::<Vec<_>>().join("\t");
-            writeln!(file, "{line}").with_context(|| path.display().to_string())?;
+            writeln!(file, "{name}{TAB}{row}").with_context(|| path.display().to_string())?;
         }
         self.found.insert(name.to_owned(), row.clone());
         Ok(row)

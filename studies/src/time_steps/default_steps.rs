@@ -130,27 +130,21 @@ fn found(setup: &Setup, until: f64, measure: Measure) -> Result<Found> {
 pub(super) fn default_steps() -> Result<Table> {
     let title = "Errors of the default steps, against adaptive ones of 1e-6: of the speed at the end, of the rate of \
                  turning or of a cycle's amplitude, and of the position at the end (R0)";
-    let columns =
-        ["scene", "time", "measured", "value", "error in %", "of position", "steps", "retried", "steps at 1e-6"];
-    let mut table = Table::new(title, &columns);
+    let columns = "scene | time | measured | value | error in % | of position | steps | retried | steps at 1e-6";
+    let mut table = Table::new(title, columns);
     for (name, setup, until, measure) in scenes() {
         let fine = Setup { step: StepSize::Adaptive { tolerance: FINE }, ..setup.clone() };
         let runs = found(&setup, until, measure).and_then(|found_| Ok((found_, found(&fine, until, measure)?)));
         let row = match runs {
-            Ok((Found { value, place, steps, retried }, fine)) => [
-                format!("{value:.6}"),
-                format!("{:.1e}", 100.0 * (value / fine.value - 1.0).abs()),
-                format!("{:.1e}", place.distance(fine.place)),
-                steps.to_string(),
-                retried.to_string(),
-                fine.steps.to_string(),
-            ],
-            Err(error) => {
-                [format!("ends: {error}"), String::new(), String::new(), String::new(), String::new(), String::new()]
+            Ok((Found { value, place, steps, retried }, fine)) => {
+                let error = 100.0 * (value / fine.value - 1.0).abs();
+                let apart = place.distance(fine.place);
+                format!("{value:.6} | {error:.1e} | {apart:.1e} | {steps} | {retried} | {}", fine.steps)
             }
+            Err(error) => format!("ends: {error} |  |  |  |  | "),
         };
-        eprintln!("{name}: {row:?}");
-        table.push([name.to_owned(), format!("{until}"), format!("{measure:?}").to_lowercase()].into_iter().chain(row));
+        eprintln!("{name}: {row}");
+        table.row(format_args!("{name} | {until} | {} | {row}", format!("{measure:?}").to_lowercase()));
     }
     Ok(table)
 }

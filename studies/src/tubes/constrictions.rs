@@ -1,25 +1,28 @@
 //! Constrictions of tubes that a droplet passes, beside those of channels in the plane.
 
-use std::thread::ScopedJoinHandle;
+use std::error::Error;
 
 use anyhow::{Context, Result, bail};
+use motile::active_interface::polygon_moments;
 use motile::base::{Drive, Region, TubeShape};
-use motile::scene::{Every, SceneError};
-use motile::setup::{DropletSetup, Setup};
+use motile::scene::{Every, SceneError, System};
+use motile::setup::{AnyFlow, Built, DropletSetup, Setup};
 use motile_cli::run::{Decided, say};
 
 use motile_tests::validation::Table;
+use rayon::prelude::*;
 use toml::{Table as Toml, Value};
 
 use super::scene;
-use crate::passage::{Passage, Verdict};
 
 /// Sources that the table depends on besides those of every run.
-pub(super) const INPUTS: [&str; 3] =
-    ["studies/src/tubes/constrictions.rs", "studies/src/passage.rs", "studies/book/data/environment-constriction.toml"];
+pub(super) const INPUTS: [&str; 2] =
+    ["studies/src/tubes/constrictions.rs", "studies/book/data/environment-constriction.toml"];
 /// End of the runs, and place on the axis where they start (R0).
 const TIME: f64 = 160.0;
 const START: f64 = -4.0;
+/// How far back from the furthest it has come a droplet counts as turned back (R0).
+const BACK: f64 = 1.0;
 /// Half of the distance of the last two throats over their middle.
 const WITHIN: f64 = 0.02;
 /// Diameter of tubes and width of the channel (R0).
@@ -79,22 +82,16 @@ fn in_channel(closed: Drive, width: f64) -> Result<Setup> {
     Ok(scene.try_into()?)
 }
 
-/// What is known of the least throat.
-#[derive(Debug)]
-struct Boundary {
-    /// Throats that are not passed and that are (R0), as far as there are.
-    ends: [f64; 2],
-    /// Runs, and those that ended in an error, as the film to the wall is thinner than the nodes resolve, judged by how
-    /// far they had come.
-    runs: usize,
-    failed: usize,
-}
-
 /// Runs a scene: true where the droplet passes the place `beyond` (R0), and where the run ended in an error.
 fn passes(setup: &Setup, beyond: f64) -> Result<[bool; 2]> {
-    let mut scene = setup.build()?.scene;
-    let mut passage = Passage::new(beyond);
-    let failed = match scene.run(TIME).observe(Every::Steps(1), &mut passage).go() {
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let (mut x, mut furthest) = (START, START);
+    let mut follow = |system: &mut System<AnyFlow>| -> Result<(), Box<dyn Error + Send + Sync>> {
+        x = polygon_moments(system.body(droplets[0])?.markers())?.centroid.x;
+        furthest = furthest.max(x);
+        if x > beyond || x < furthest - BACK { Err(Decided.into()) } else { Ok(()) }
+    };
+    let failed = match scene.run(TIME).observe(Every::Steps(1), &mut follow).go() {
         Err(SceneError::Observer { source, .. }) if !source.is::<Decided>() => bail!("{source}"),
         Err(SceneError::Observer { .. }) | Ok(_) => false,
         Err(error) => {
@@ -102,54 +99,33 @@ fn passes(setup: &Setup, beyond: f64) -> Result<[bool; 2]> {
             true
         }
     };
-    say(format_args!("{:?} at t = {:.1}", passage.verdict(), passage.time()));
-    Ok([passage.verdict() == Verdict::Passed, failed])
+    say(format_args!("at x = {x:.2} at t = {:.1}", scene.time()));
+    Ok([x > beyond, failed])
 }
 
-/// Results of two works that are done side by side.
-fn both<T: Send>(works: [impl FnOnce() -> Result<T> + Send; 2]) -> Result<[T; 2]> {
-    std::thread::scope(|scope| {
-        let [first, second] = works.map(|work| scope.spawn(work)).map(ScopedJoinHandle::join);
-        let (Ok(first), Ok(second)) = (first, second) else { bail!("a run has panicked") };
-        Ok([first?, second?])
-    })
-}
+/// What is known of the least throat: throats that are not passed and that are (R0), runs, and those that ended in an
+/// error, as the film to the wall is thinner than the nodes resolve, judged by how far they had come.
+type Boundary = ([f64; 2], usize, usize);
 
-impl Boundary {
-    /// By bisection between a throat that is not passed and one that is; with one end that is not a number where the
-    /// first two are not so.
-    fn found(setup: impl Fn(f64) -> Result<Setup> + Sync, beyond: f64, ends: [f64; 2]) -> Result<Self> {
-        let run = |throat: f64| passes(&setup(throat)?, beyond);
-        let [narrow, wide] = both(ends.map(|throat| move || run(throat)))?;
-        let failed = [narrow, wide].into_iter().filter(|[_, failed]| *failed).count();
-        let mut found = Self { ends, runs: 2, failed };
-        match [narrow[0], wide[0]] {
-            [false, true] => {}
-            [true, _] => found.ends = [f64::NAN, ends[0]],
-            _ => found.ends = [ends[1], f64::NAN],
-        }
-        while found.error() > WITHIN * found.middle() {
-            let middle = found.middle();
-            let [passed, failed] = run(middle)?;
-            found.ends[usize::from(passed)] = middle;
-            found.runs += 1;
-            found.failed += usize::from(failed);
-        }
-        Ok(found)
+/// By bisection between a throat that is not passed and one that is; with one end that is not a number where the first
+/// two are not so.
+fn boundary(setup: impl Fn(f64) -> Result<Setup> + Sync, beyond: f64, mut ends: [f64; 2]) -> Result<Boundary> {
+    let run = |throat: f64| passes(&setup(throat)?, beyond);
+    let (narrow, wide) = rayon::join(|| run(ends[0]), || run(ends[1]));
+    let ([held, first], [passed, second]) = (narrow?, wide?);
+    let (mut runs, mut failed) = (2, usize::from(first) + usize::from(second));
+    match [held, passed] {
+        [false, true] => {}
+        [true, _] => ends = [f64::NAN, ends[0]],
+        _ => ends = [ends[1], f64::NAN],
     }
-
-    /// Ends that were found.
-    fn known(&self) -> [bool; 2] {
-        self.ends.map(f64::is_finite)
+    while ends[1] - ends[0] > WITHIN * (ends[0] + ends[1]) {
+        let middle = 0.5 * (ends[0] + ends[1]);
+        let [passed, in_error] = run(middle)?;
+        ends[usize::from(passed)] = middle;
+        (runs, failed) = (runs + 1, failed + usize::from(in_error));
     }
-
-    fn middle(&self) -> f64 {
-        0.5 * (self.ends[0] + self.ends[1])
-    }
-
-    fn error(&self) -> f64 {
-        0.5 * (self.ends[1] - self.ends[0])
-    }
+    Ok((ends, runs, failed))
 }
 
 /// Least diameters of throats in tubes, and least widths in the plane with closed ends and with a flux.
@@ -159,29 +135,23 @@ pub(super) fn constrictions() -> Result<Table> {
         "Least throats {long} R0 long behind ramps of {ramp} R0 that droplets of activity -4, A = 10 pass by \
          t = {TIME} from x = {START} R0, of tubes of diameter and channels of width {WIDTH} R0, 16 R0 long"
     );
-    let header = ["in", "nodes", "not passed", "passed", "half of the bracket over its middle", "runs", "in errors"];
-    let mut table = Table::new(&title, &header);
+    let header = "in | nodes | not passed | passed | half of the bracket over its middle | runs | in errors";
+    let mut table = Table::new(&title, header);
     let beyond = 0.5 * long + ramp + 1.0;
-    let work = &|(place, count, ends): (Place, usize, [f64; 2])| match place {
-        Place::Tube => Boundary::found(|throat| in_tube(count, throat), beyond, ends),
-        Place::Plane(drive) => Boundary::found(|width| in_channel(drive, width), beyond, ends),
+    let work = |(place, count, ends): (Place, usize, [f64; 2])| match place {
+        Place::Tube => boundary(|throat| in_tube(count, throat), beyond, ends),
+        Place::Plane(drive) => boundary(|width| in_channel(drive, width), beyond, ends),
     };
-    let pair = &|k: usize| both([k, k + 1].map(|k| move || work(CASES[k])));
-    let found = both([0, 2].map(|k| move || pair(k)))?;
-    for ((place, count, _), found) in CASES.into_iter().zip(found.into_iter().flatten()) {
+    let found: Vec<Boundary> = CASES.into_par_iter().map(work).collect::<Result<_>>()?;
+    for ((place, count, _), (ends, runs, failed)) in CASES.into_iter().zip(found) {
         let name = match place {
             Place::Tube => "tube, no flux",
             Place::Plane(Drive::ZeroFlux) => "plane, no flux",
             Place::Plane(_) => "plane, no pressure drop",
         };
-        let Boundary { ends: [held, passed], failed, runs } = found;
-        let of = |known: bool, value: f64| if known { format!("{value:.4}") } else { "-".to_owned() };
-        let known = found.known();
-        let cells = [name.to_owned(), count.to_string(), of(known[0], held), of(known[1], passed)];
-        let error = of(known == [true; 2], found.error() / found.middle());
-        let cells: Vec<String> = cells.into_iter().chain([error, runs.to_string(), failed.to_string()]).collect();
-        say(cells.join("  "));
-        table.push(cells);
+        let of = |value: f64| if value.is_finite() { format!("{value:.4}") } else { "-".to_owned() };
+        let ([held, passed], error) = (ends.map(of), of((ends[1] - ends[0]) / (ends[0] + ends[1])));
+        table.row(format_args!("{name} | {count} | {held} | {passed} | {error} | {runs} | {failed}"));
     }
     Ok(table)
 }

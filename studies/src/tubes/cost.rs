@@ -29,8 +29,8 @@ pub(super) fn cost() -> Result<Table> {
     );
     let pools = [1, 2].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());
     let [Ok(one), Ok(two)] = pools else { bail!("no threads to be had") };
-    let header = ["region", "droplets", "nodes", "ms", "over the plane's", "two threads"];
-    let mut table = Table::new("Cost of an evaluation, activity -2, viscosities 100", &header);
+    let header = "region | droplets | nodes | ms | over the plane's | two threads";
+    let mut table = Table::new("Cost of an evaluation, activity -2, viscosities 100", header);
     let regions = [("plane", Region::Plane), ("space", Region::Space), ("tube of radius 1.5", Region::tube(1.5))];
     for (droplets, nodes) in [1, 4].into_iter().flat_map(|droplets| NODES.map(|nodes| (droplets, nodes))) {
         let built = regions.map(|(_, region)| build(region, droplets, nodes));

@@ -14,19 +14,15 @@ const LONG: f64 = 200.0;
 const SWIM: f64 = 80.0;
 
 /// Growth of waves, long runs of a pair of walls, a droplet between two walls.
-pub(super) fn active_walls(quick: bool) -> Tables {
-    let mut tables = vec![growth()?];
-    if !quick {
-        tables.extend([patterns()?, swimmers()?]);
-    }
-    Ok(tables)
+pub(super) fn active_walls() -> Tables {
+    Ok(vec![growth()?, patterns()?, swimmers()?])
 }
 
 fn growth() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Matrix of growth of waves on flat interfaces, error over the largest entry, and of the relaxation of the \
          shape alone",
-        &["geometry", "viscosities", "waves", "64 cells a wave", "128", "256", "shape"],
+        "geometry | viscosities | waves | 64 cells a wave | 128 | 256 | shape",
     );
     let channel = |width: f64| Region::Channel { length: PERIOD, width, drive: Drive::ZeroGradient };
     let high = Region::Box { lengths: [PERIOD, 30.0] };
@@ -35,18 +31,11 @@ fn growth() -> Result<Table, StudyError> {
     let (same, opposite) = ([[1.0, -1.0], [1.0, 1.0]], [[-1.0, 1.0], [1.0, 1.0]]);
     let pair = [(-0.8, -PERIOD, 3.0), (0.8, PERIOD, 3.0)];
     let thickness = 1.6;
+    let between = |end: StratumEnd| [inner(end), wall(3.0, 1.2)];
     type Geometry<'a> = (&'a str, &'a str, Region, &'a [(f64, f64, f64)], &'a [[f64; 2]], usize, [Stratum; 2]);
     let geometries: [Geometry<'_>; 7] = [
         ("half-spaces", "1, 1", high, &[(0.3, PERIOD, 1.0)], &single, 1, [half_space(1.0); 2]),
-        (
-            "half-spaces",
-            "1, 10",
-            channel(24.0),
-            &[(0.0, PERIOD, 10.0)],
-            &single,
-            1,
-            [half_space(1.0), half_space(10.0)],
-        ),
+        ("half-spaces", "1, 10", channel(24.0), &[(0.0, PERIOD, 10.0)], &single, 1, [1.0, 10.0].map(half_space)),
         ("channel, middle", "1, 1", channel(2.0), &[(0.0, PERIOD, 1.0)], &single, 1, [wall(1.0, 1.0); 2]),
         ("channel, aside", "1, 5", channel(2.0), &[(0.3, PERIOD, 5.0)], &single, 1, [wall(1.0, 1.3), wall(5.0, 0.7)]),
         (
@@ -58,24 +47,8 @@ fn growth() -> Result<Table, StudyError> {
             2,
             [wall(1.0, 0.4), wall(0.1, 1.6)],
         ),
-        (
-            "pair, same",
-            "3, 1, 3",
-            channel(4.0),
-            &pair,
-            &same,
-            1,
-            [inner(StratumEnd::Same { thickness }), wall(3.0, 1.2)],
-        ),
-        (
-            "pair, opposite",
-            "3, 1, 3",
-            channel(4.0),
-            &pair,
-            &opposite,
-            1,
-            [inner(StratumEnd::Opposite { thickness }), wall(3.0, 1.2)],
-        ),
+        ("pair, same", "3, 1, 3", channel(4.0), &pair, &same, 1, between(StratumEnd::Same { thickness })),
+        ("pair, opposite", "3, 1, 3", channel(4.0), &pair, &opposite, 1, between(StratumEnd::Opposite { thickness })),
     ];
     for (name, viscosities, region, interfaces, signs, waves, [below, above]) in geometries {
         let flat = Flat { region, exterior: 1.0, interfaces, signs, waves };
@@ -84,10 +57,10 @@ fn growth() -> Result<Table, StudyError> {
         let [coarse, middle, fine] = found;
         let errors = [&coarse?, &middle?, &fine?].map(|found| (difference(*found, exact), found[1][1]));
         let shape = (errors[0].1 / exact[1][1] - 1.0).abs();
-        let mut row = vec![name.to_owned(), viscosities.to_owned(), waves.to_string()];
-        row.extend(errors.iter().map(|(error, _)| format!("{error:.1e}")));
-        row.push(format!("{shape:.0e}"));
-        table.push(row);
+        let [coarse, middle, fine] = errors.map(|(error, _)| error);
+        table.row(format_args!(
+            "{name} | {viscosities} | {waves} | {coarse:.1e} | {middle:.1e} | {fine:.1e} | {shape:.0e}"
+        ));
     }
     Ok(table)
 }
@@ -112,16 +85,7 @@ fn patterns() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Two active walls 3 R0 apart in a box of 6 x 6 R0 to t = 200: the upper one in the end, and changes since the \
          start",
-        &[
-            "activity",
-            "nodes",
-            "largest c/c0",
-            "height of the longest wave",
-            "drift",
-            "flux",
-            "particles",
-            "mean height",
-        ],
+        "activity | nodes | largest c/c0 | height of the longest wave | drift | flux | particles | mean height",
     );
     for (activity, nodes) in [(-0.5, 32), (-0.5, 48), (-1.0, 32), (-1.0, 48), (-2.0, 32), (-2.0, 48)] {
         let Built { mut scene, interfaces, .. } = walls(activity, 0.05, 3.0, nodes).build()?;
@@ -136,16 +100,13 @@ fn patterns() -> Result<Table, StudyError> {
         let moved = phase(&seen.concentration_modes) - earlier;
         let drift = (moved - PERIOD * (moved / PERIOD).round()) / (0.1 * LONG);
         let most = seen.concentration_range.map_or(f64::NAN, |[most, _]| most / 100.0);
-        table.push([
-            activity.to_string(),
-            nodes.to_string(),
-            format!("{most:.4}"),
-            format!("{:.5}", seen.height_modes.amplitude(1)),
-            format!("{drift:.1e}"),
-            format!("{:.1e}", seen.flux),
-            format!("{:.0e}", (seen.particle_number / before.particle_number - 1.0).abs()),
-            format!("{:.0e}", (seen.height - before.height).abs()),
-        ]);
+        table.row(format_args!(
+            "{activity} | {nodes} | {most:.4} | {:.5} | {drift:.1e} | {:.1e} | {:.0e} | {:.0e}",
+            seen.height_modes.amplitude(1),
+            seen.flux,
+            (seen.particle_number / before.particle_number - 1.0).abs(),
+            (seen.height - before.height).abs()
+        ));
     }
     Ok(table)
 }
@@ -153,7 +114,7 @@ fn patterns() -> Result<Table, StudyError> {
 fn swimmers() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "A droplet between two active walls 3 R0 apart in a box of 6 x 6 R0: mean speed along them from t = 40 to 80",
-        &["droplet", "wall activity", "speed at 32 nodes", "speed at 48 nodes"],
+        "droplet | wall activity | speed at 32 nodes | speed at 48 nodes",
     );
     for (name, droplet) in [("activity -2", DropletSetup::active(-2.0)), ("passive", DropletSetup::passive(10.0))] {
         for activity in [0.0, -0.25, -0.5, -0.75, -1.0] {

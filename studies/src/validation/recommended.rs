@@ -24,7 +24,7 @@ const SPACINGS: &[f64] = &[0.2, 0.15, 0.1, 0.075, 0.05];
 const CHANNEL_SPACINGS: &[f64] = &[0.2, 0.1, 0.0625, 0.05];
 
 /// The scenes of a kind: name, and description, with places of droplets in units of the grid spacing.
-fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
+fn scenes(kind: SceneKind) -> Vec<(String, Setup)> {
     let method = Method::default();
     match kind {
         SceneKind::Box => {
@@ -45,7 +45,7 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
                 setup.droplets[0].centre = [0.0, across];
                 (format!("activity {activity}, heading {angle}, {across} h off the axis"), setup)
             };
-            all[..if quick { 1 } else { all.len() }].iter().map(one).collect()
+            all.iter().map(one).collect()
         }
         SceneKind::ViscosityContrast => {
             let all = [(10.0, 0.0), (10.0, 0.4), (1.0, 0.0), (1.0, 0.4)];
@@ -54,7 +54,7 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
                 let setup = Setup { viscosity, droplets: vec![droplet], ..Setup::default() };
                 (format!("viscosity 100 in {viscosity}, heading {angle}"), reference(setup, -1.0))
             };
-            all[..if quick { 0 } else { all.len() }].iter().map(one).collect()
+            all.iter().map(one).collect()
         }
         SceneKind::Channel => {
             let all = [(2.0, -2.0), (3.0, -2.0), (2.0, -4.0)];
@@ -63,13 +63,13 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
                 let droplets = vec![DropletSetup::active(activity)];
                 (format!("width {width}, activity {activity}"), Setup { region, droplets, ..Setup::default() })
             };
-            all[..if quick { 0 } else { all.len() }].iter().map(one).collect()
+            all.iter().map(one).collect()
         }
     }
 }
 
 /// The settings of a kind of scenes, from coarse to fine, and their steps.
-fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
+fn settings(kind: SceneKind) -> Vec<(String, Method, StepSize)> {
     let step = StepSize::default();
     let integral = |&(nodes, elements): &(usize, usize)| {
         (format!("{nodes} nodes, {elements} elements"), Method::Integral(IntegralMethod { nodes, elements }), step)
@@ -81,27 +81,25 @@ fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
         SceneKind::ViscosityContrast => &[],
         SceneKind::Channel => CHANNEL_SPACINGS,
     };
-    let count = if quick { 2 } else { usize::MAX };
-    let mut all: Vec<_> =
-        INTEGRALS.iter().take(count).map(integral).chain(spacings.iter().take(count).map(grid)).collect();
-    if kind == SceneKind::Box && !quick {
+    let mut all: Vec<_> = INTEGRALS.iter().map(integral).chain(spacings.iter().map(grid)).collect();
+    if kind == SceneKind::Box {
         // The error of the time step is far below that of the grid at ten times the preset's step.
         all.push(("preset, h = 0.05".to_owned(), Method::Grid(GridMethod::thesis()), StepSize::Fixed(0.01)));
     }
     all
 }
 
-pub(crate) fn recommended(quick: bool) -> Tables {
+pub(crate) fn recommended() -> Tables {
     let mut table = Table::new(
         &format!(
             "Errors of the speed in % between t = {} and {}, against boundary integrals with 96 nodes and 512 cells: \
              of its mean, and the largest at any time",
             WINDOW[0], WINDOW[1]
         ),
-        &["kind", "settings", "scene", "of the mean", "largest"],
+        "kind | settings | scene | of the mean | largest",
     );
     for kind in [SceneKind::Box, SceneKind::ViscosityContrast, SceneKind::Channel] {
-        for (name, scene) in scenes(kind, quick) {
+        for (name, scene) in scenes(kind) {
             let late = |setup: &Setup| {
                 let speeds = course(setup, EVERY, WINDOW[1])?.speeds;
                 let first = (WINDOW[0] / EVERY) as usize;
@@ -109,7 +107,7 @@ pub(crate) fn recommended(quick: bool) -> Tables {
             };
             let exact = late(&Setup { method: without_grid(96, 512).method, step: EXACT, ..scene.clone() })?;
             let mean = |speeds: &[f64]| speeds.iter().sum::<f64>() / speeds.len() as f64;
-            for (settings, method, step) in settings(kind, quick) {
+            for (settings, method, step) in settings(kind) {
                 let mut setup = Setup { method, step, ..scene.clone() };
                 if let Method::Grid(grid) = method {
                     setup.droplets[0].centre[1] *= grid.spacing;
@@ -129,7 +127,7 @@ pub(crate) fn recommended(quick: bool) -> Tables {
                     Err(error) => (format!("ends: {error}"), String::new()),
                 };
                 eprintln!("{kind:?} {settings}; {name}: {of_mean} {largest}");
-                table.push([format!("{kind:?}"), settings, name.clone(), of_mean, largest]);
+                table.row(format_args!("{kind:?} | {settings} | {name} | {of_mean} | {largest}"));
             }
         }
     }

@@ -90,8 +90,8 @@ impl Case {
     }
 }
 
-pub(super) fn soft_walls(quick: bool) -> Tables {
-    Ok(vec![resolutions(quick), parts(quick), skins(quick)])
+pub(super) fn soft_walls() -> Tables {
+    Ok(vec![resolutions(), parts(), skins()])
 }
 
 /// Texts of the runs of a case at these resolutions: speeds, the difference of the first two in per cent, seconds.
@@ -109,33 +109,32 @@ fn texts(case: Case, resolutions: &[[f64; 2]]) -> [String; 3] {
     [each(&|[speed, _]| format!("{speed:.5}")), difference(&runs), each(&|[_, seconds]| format!("{seconds:.1}"))]
 }
 
-fn resolutions(quick: bool) -> Table {
-    let wanted = if quick { &RESOLUTIONS[..1] } else { &RESOLUTIONS[..] };
+fn resolutions() -> Table {
     let mut table = Table::new(
         &format!(
-            "Soft walls in a channel of width R0: speeds at t = 5 with spacings h and of the mesh of {wanted:?}; \
+            "Soft walls in a channel of width R0: speeds at t = 5 with spacings h and of the mesh of {RESOLUTIONS:?}; \
              their difference in %, processor time in seconds"
         ),
-        &["E", "activity", "forces on", "speeds", "difference", "seconds"],
+        "E | activity | forces on | speeds | difference | seconds",
     );
     let cases = [(1e3, -4.0), (1e3, -3.0), (1e3, -2.0), (1e4, -4.0)];
-    for (young, activity) in cases.into_iter().take(if quick { 1 } else { cases.len() }) {
+    for (young, activity) in cases {
         for (name, spread) in [("points", false), ("triangles", true)] {
             let case = Case { young, activity, spread, ..USUAL };
             let named = [format!("{young:.0e}"), activity.to_string(), name.to_owned()];
-            table.push(named.into_iter().chain(texts(case, wanted)));
+            table.push(named.into_iter().chain(texts(case, &RESOLUTIONS)));
         }
     }
     table
 }
 
 /// One thing changed at a time.
-fn parts(quick: bool) -> Table {
+fn parts() -> Table {
     let usual = Case { activity: -3.0, ..USUAL };
     let mut table = Table::new(
         "E = 1e3, activity -3, forces on triangles, h = 0.1 and a mesh of 0.2: one thing changed at a time; speed, \
          processor time in seconds",
-        &["changed", "speed", "seconds"],
+        "changed | speed | seconds",
     );
     let cases = [
         ("nothing", usual),
@@ -153,24 +152,24 @@ fn parts(quick: bool) -> Table {
         ("forces on points, h = 0.05, mesh of 0.1", Case { spread: false, spacings: [0.05, 0.1], ..usual }),
         ("forces on points, h = 0.025, mesh of 0.05", Case { spread: false, spacings: [0.025, 0.05], ..usual }),
     ];
-    for (name, case) in cases.into_iter().take(if quick { 1 } else { cases.len() }) {
+    for (name, case) in cases {
         let [speed, _, seconds] = texts(case, &[case.spacings]);
-        table.push([name.to_owned(), speed, seconds]);
+        table.row(format_args!("{name} | {speed} | {seconds}"));
     }
     table
 }
 
 /// To a time when walls without a surface_elasticity have creased.
-fn skins(quick: bool) -> Table {
+fn skins() -> Table {
     let mut table = Table::new(
         &format!(
             "E = 1e3, forces on triangles, and a surface of stretching modulus 300 and bending modulus 1, at t = 30, \
              with spacings h and of the mesh of {SKINNED:?}, by the Runge-Kutta-Chebyshev method; the difference of \
              the first two in %"
         ),
-        &["activity", "surface", "speeds", "difference", "seconds"],
+        "activity | surface | speeds | difference | seconds",
     );
-    for activity in if quick { vec![] } else { vec![-3.0, -4.0] } {
+    for activity in [-3.0, -4.0] {
         for (name, finer) in [("as the mesh", false), ("finer", true)] {
             let case = Case { activity, finer, surface_elasticity: true, time: 30.0, ..USUAL };
             table.push([activity.to_string(), name.to_owned()].into_iter().chain(texts(case, &SKINNED)));

@@ -7,18 +7,18 @@ use motile_tests::validation::{StudyError, Table, order};
 
 use crate::validation::{Tables, per_cent};
 
-pub(crate) fn solids(quick: bool) -> Tables {
-    Ok(vec![stresses()?, forces()?, measured()?, layers(quick)?])
+pub(crate) fn solids() -> Tables {
+    Ok(vec![stresses()?, forces()?, measured()?, layers()?])
 }
 
 fn stresses() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Stress against central differences of the energy, principal stretches 0.5 to 2: largest difference over the \
          stress",
-        &["energy", "error"],
+        "energy | error",
     );
     for (name, energy) in energies()? {
-        table.push([name.to_owned(), format!("{:.1e}", largest_stress_error(energy.as_ref())?)]);
+        table.row(format_args!("{name} | {:.1e}", largest_stress_error(energy.as_ref())?));
     }
     Ok(table)
 }
@@ -27,7 +27,7 @@ fn forces() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Forces under a large rough deformation: sum and torque over the sum of their sizes; under a uniform one: \
          largest force inside over the largest on the boundary",
-        &["law", "mesh", "sum", "torque", "patch test"],
+        "law | mesh | sum | torque | patch test",
     );
     for (mesh, name) in meshes()?.iter().zip(["unstructured ring", "lattice"]) {
         for (law, forces) in laws(mesh)? {
@@ -44,7 +44,7 @@ fn measured() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Moduli of meshes of spacing 0.05 under a strain of 0.001, inner points in equilibrium, over those of the \
          material",
-        &["material", "mesh", "shear modulus", "bulk modulus"],
+        "material | mesh | shear modulus | bulk modulus",
     );
     let samples = [
         (Sample::Lattice, "lattice, wall"),
@@ -61,11 +61,11 @@ fn measured() -> Result<Table, StudyError> {
     Ok(table)
 }
 
-fn layers(quick: bool) -> Result<Table, StudyError> {
-    let spacings: &[f64] = if quick { &[0.2, 0.1, 0.05] } else { &[0.2, 0.1, 0.05, 0.025] };
+fn layers() -> Result<Table, StudyError> {
+    let spacings = [0.2, 0.1, 0.05, 0.025];
     let mut table = Table::new(
         &format!("A sheared layer relaxing below a fluid (Kelvin-Voigt): error of the rate at h = {spacings:?}, %"),
-        &["material", "mesh", "surface", "errors", "order"],
+        "material | mesh | surface | errors | order",
     );
     for (surface, called) in [(Surface::Plain, "plain"), (Surface::Layer, "layer")] {
         for (material, unstructured) in [
@@ -77,13 +77,13 @@ fn layers(quick: bool) -> Result<Table, StudyError> {
             let layer = Layer { material, unstructured, surface };
             let errors = spacings.iter().map(|&h| layer.error(h)).collect::<Result<Vec<_>, _>>()?;
             let list: Vec<String> = errors.iter().map(|&error| per_cent(error)).collect();
-            table.push([
-                name(material).to_owned(),
-                if unstructured { "unstructured" } else { "lattice" }.to_owned(),
-                called.to_owned(),
+            table.row(format_args!(
+                "{} | {} | {called} | {} | {:.2}",
+                name(material),
+                if unstructured { "unstructured" } else { "lattice" },
                 list.join(", "),
-                format!("{:.2}", order(spacings, &errors)),
-            ]);
+                order(&spacings, &errors)
+            ));
         }
     }
     Ok(table)

@@ -7,6 +7,7 @@ use motile_tests::validation::viscoelastic::{Layers, Motion};
 use motile_tests::validation::{StudyError, Table, order};
 
 use super::Tables;
+use crate::book::statistics::mean;
 
 /// Layers of which the others differ in one thing.
 const LAYERS: Layers = Layers { springs: false, layered: false, moduli: [20.0, 60.0], time: 0.5, thickness: 0.6 };
@@ -23,8 +24,8 @@ const MOTIONS: [(&str, Motion); 7] = [
 /// Seeds of the walls.
 const SEEDS: u64 = 20;
 
-pub(super) fn viscoelastic(quick: bool) -> Tables {
-    Ok(vec![spacings(quick)?, steps(quick)?, parameters(quick)?, twitching(quick)?])
+pub(super) fn viscoelastic() -> Tables {
+    Ok(vec![spacings()?, steps()?, parameters()?, twitching()?])
 }
 
 /// Errors as texts, and their order.
@@ -34,23 +35,23 @@ fn with_order(sizes: &[f64], errors: &[f64]) -> [String; 2] {
 }
 
 /// The spacing of the grid.
-fn spacings(quick: bool) -> Result<Table, StudyError> {
-    let spacings: &[f64] = if quick { &[0.2, 0.1] } else { &[0.2, 0.1, 0.05] };
+fn spacings() -> Result<Table, StudyError> {
+    let spacings = [0.2, 0.1, 0.05];
     let mut table = Table::new(
         &format!(
             "Layers of a standard linear solid (Ginf = 20, G1 = 60, tau = 0.5, thickness 0.6) in a fluid of viscosity \
              10 between walls 2 apart, in 200 steps of the time 1 or of a period: largest error of the shear over its \
              largest value, of oscillations of the complex amplitude, at h = {spacings:?}"
         ),
-        &["motion", "material", "surface", "errors", "order"],
+        "motion | material | surface | errors | order",
     );
     for (layered, surface) in [(false, "grid"), (true, "layers")] {
         for (springs, material) in [(false, "neo-Hookean"), (true, "springs")] {
-            for (name, motion) in MOTIONS.into_iter().take(if quick { 1 } else { MOTIONS.len() }) {
+            for (name, motion) in MOTIONS {
                 let layers = Layers { springs, layered, ..LAYERS };
                 let errors = spacings.iter().map(|&h| layers.compare(motion, h, 200));
-                let [errors, order] = with_order(spacings, &errors.collect::<Result<Vec<f64>, _>>()?);
-                table.push([name.to_owned(), material.to_owned(), surface.to_owned(), errors, order]);
+                let [errors, order] = with_order(&spacings, &errors.collect::<Result<Vec<f64>, _>>()?);
+                table.row(format_args!("{name} | {material} | {surface} | {errors} | {order}"));
             }
         }
     }
@@ -58,28 +59,28 @@ fn spacings(quick: bool) -> Result<Table, StudyError> {
 }
 
 /// The time step, which is all that triangles and surfaces that are layers err by.
-fn steps(quick: bool) -> Result<Table, StudyError> {
-    let counts: &[usize] = if quick { &[20, 40] } else { &[20, 40, 80, 160] };
+fn steps() -> Result<Table, StudyError> {
+    let counts = [20, 40, 80, 160];
     let mut table = Table::new(
         &format!("The same by layers and triangles at h = 0.1, in {counts:?} steps of the time 1 or of a period"),
-        &["motion", "errors", "order"],
+        "motion | errors | order",
     );
-    let sizes: Vec<f64> = counts.iter().map(|count| 1.0 / *count as f64).collect();
-    for (name, motion) in MOTIONS.into_iter().take(if quick { 1 } else { MOTIONS.len() }) {
+    let sizes: Vec<f64> = counts.map(|count| 1.0 / count as f64).to_vec();
+    for (name, motion) in MOTIONS {
         let layers = Layers { layered: true, ..LAYERS };
         let errors = counts.iter().map(|&count| layers.compare(motion, 0.1, count));
         let [errors, order] = with_order(&sizes, &errors.collect::<Result<Vec<f64>, _>>()?);
-        table.push([name.to_owned(), errors, order]);
+        table.row(format_args!("{name} | {errors} | {order}"));
     }
     Ok(table)
 }
 
 /// Other relaxation times, moduli and thicknesses: chosen ends, then drawn at random.
-fn parameters(quick: bool) -> Result<Table, StudyError> {
+fn parameters() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "Other parameters, triangles by layers at h = 0.1, in 400 steps of the time 1, 100 of a period: errors; no \
          oscillation where its start lasts for hundreds of periods",
-        &["tau", "Ginf", "G1", "thickness", "relaxation", "sum", "start-up", "creep", "rate w", "oscillation"],
+        "tau | Ginf | G1 | thickness | relaxation | sum | start-up | creep | rate w | oscillation",
     );
     let mut state = 7_u64;
     let mut random = |low: f64, high: f64| {
@@ -95,46 +96,41 @@ fn parameters(quick: bool) -> Result<Table, StudyError> {
         let thickness = 0.1 * random(3.0, 9.0).round();
         (Layers { layered: true, time, moduli, thickness, ..LAYERS }, 10_f64.powf(random(0.0, 1.0)))
     }));
-    cases.truncate(if quick { 1 } else { cases.len() });
     for (layers, rate) in cases {
         let [rest, relaxing] = layers.moduli;
-        let mut errors = Vec::new();
-        for motion in [Motion::Relaxation, Motion::Sum, Motion::StartUp, Motion::Creep] {
-            errors.push(format!("{:.1e}", layers.compare(motion, 0.1, 400)?));
-        }
-        errors.extend(if layers.time < 1.0 {
-            [format!("{rate:.2}"), format!("{:.1e}", layers.compare(Motion::Oscillation(rate), 0.1, 100)?)]
-        } else {
-            [String::new(), String::new()]
-        });
-        let time = format!("{:.3e}", layers.time);
-        let thickness = format!("{:.1}", layers.thickness);
-        let named = [time, format!("{rest:.2}"), format!("{relaxing:.2}"), thickness];
-        table.push(named.into_iter().chain(errors));
+        let errors = [Motion::Relaxation, Motion::Sum, Motion::StartUp, Motion::Creep]
+            .map(|motion| {
+                layers.compare(motion, 0.1, 400).map_or_else(|e| e.to_string(), |error| format!("{error:.1e}"))
+            })
+            .join(" | ");
+        let oscillation = match layers.time < 1.0 {
+            true => format!("{rate:.2} | {:.1e}", layers.compare(Motion::Oscillation(rate), 0.1, 100)?),
+            false => " | ".to_owned(),
+        };
+        let Layers { time, thickness, .. } = layers;
+        table.row(format_args!("{time:.3e} | {rest:.2} | {relaxing:.2} | {thickness:.1} | {errors} | {oscillation}"));
     }
     Ok(table)
 }
 
-fn twitching(quick: bool) -> Result<Table, StudyError> {
+fn twitching() -> Result<Table, StudyError> {
     let mut table = Table::new(
         "A droplet in a channel of width 3 between walls of springs (k = 1e4, 1.5 thick) whose active springs have the \
          tension 5 and the rates 0.5 and 1, from t = 1 to 3, h = 0.2: mean over 20 seeds and its standard error",
-        &["activity", "walls", "speed along", "error along", "speed across", "error across"],
+        "activity | walls | speed along | error along | speed across | error across",
     );
-    let seeds = if quick { 2 } else { SEEDS };
     for activity in [Some(-4.0), None] {
         for tension in [0.0, 5.0] {
-            let count = if tension == 0.0 { 1 } else { seeds };
+            let count = if tension == 0.0 { 1 } else { SEEDS };
             let runs = (0..count).map(|seed| run(activity, tension, seed)).collect::<Result<Vec<_>, _>>()?;
             let statistics = |k: usize| {
-                let mean = runs.iter().map(|run| run[k]).sum::<f64>() / count as f64;
-                let spread: f64 = runs.iter().map(|run| (run[k] - mean).powi(2)).sum();
-                let error = (spread / ((count.max(2) - 1) as f64 * count as f64)).sqrt();
-                [format!("{mean:.6}"), if count > 1 { format!("{error:.6}") } else { String::new() }]
+                let (mean, deviation) = mean(runs.iter().map(|run| run[k]));
+                let error = deviation / (count as f64).sqrt();
+                if count > 1 { format!("{mean:.6} | {error:.6}") } else { format!("{mean:.6} | ") }
             };
-            let names = [activity.map_or("passive".to_owned(), |activity| format!("{activity}"))];
-            let walls = [if tension == 0.0 { "elastic" } else { "twitching" }.to_owned()];
-            table.push(names.into_iter().chain(walls).chain(statistics(0)).chain(statistics(1)));
+            let name = activity.map_or("passive".to_owned(), |activity: f64| activity.to_string());
+            let walls = if tension == 0.0 { "elastic" } else { "twitching" };
+            table.row(format_args!("{name} | {walls} | {} | {}", statistics(0), statistics(1)));
         }
     }
     Ok(table)

@@ -6,22 +6,22 @@ use motile::scene::StepSize;
 use crate::work_precision::settings::{Flow, Settings, Stepper};
 use crate::work_precision::studies::Study;
 
-/// The settings of a study; `full` adds the expensive ones.
-pub(crate) fn settings(study: Study, full: bool) -> Vec<Settings> {
+/// The settings of a study.
+pub(crate) fn settings(study: Study) -> Vec<Settings> {
     let mut list = match study {
         Study::FixedEllipse => fixed(),
         Study::Relaxation => relaxation(),
-        Study::Steady | Study::Strong | Study::Transient => swimmer(study, full),
-        Study::Oblique => oblique(full),
-        Study::Ratio10 | Study::Ratio100 => contrast(full),
-        Study::Channel => channel(full),
+        Study::Steady | Study::Strong | Study::Transient => swimmer(study),
+        Study::Oblique => oblique(),
+        Study::Ratio10 | Study::Ratio100 => contrast(),
+        Study::Channel => channel(),
         Study::ElasticLayer => elastic(),
     };
     if study == Study::Transient {
         // The transient is short: a few long stages say nothing of it, and the finest grids nothing new.
         list.retain(|settings| {
             let fine = matches!(settings.flow, Flow::Grid { h, ratio, .. } if h * ratio < 0.02);
-            settings.stepper == Stepper::Midpoint && (full || !fine)
+            settings.stepper == Stepper::Midpoint && !fine
         });
     }
     // Presets may be among the variations.
@@ -85,13 +85,12 @@ fn integrals(all: &[usize]) -> Vec<Settings> {
     list
 }
 
-fn swimmer(study: Study, full: bool) -> Vec<Settings> {
+fn swimmer(study: Study) -> Vec<Settings> {
     let mut list = integrals(&[16, 24, 32, 48, 64]);
     list.extend(nodes(&[16, 24, 32], 8));
     list.push(Settings::integrals(48, 192).with_step(StepSize::Adaptive { tolerance: 1e-4 }));
     list.push(Settings::integrals(48, 192).with_stepper(Stepper::Chebyshev(16)));
-    let spacings: &[f64] =
-        if full { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05] };
+    let spacings = &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05];
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
@@ -106,16 +105,12 @@ fn swimmer(study: Study, full: bool) -> Vec<Settings> {
         list.push(Settings::thesis(0.1, StepSize::Fixed(1e-3)));
         list.extend([0.2, 0.015, 0.0125].map(|h| Settings::thesis(h, LONG)));
     }
-    if study == Study::Steady && full {
-        list.push(Settings::thesis(0.01, LONG));
-        list.push(Settings::thesis(0.025, StepSize::Fixed(1e-3)));
-    }
     list
 }
 
-fn oblique(full: bool) -> Vec<Settings> {
+fn oblique() -> Vec<Settings> {
     let mut list = integrals(&[16, 24, 32, 48, 64]);
-    let spacings: &[f64] = if full { &[0.2, 0.15, 0.1, 0.075, 0.05, 0.025] } else { &[0.2, 0.15, 0.1, 0.075, 0.05] };
+    let spacings = &[0.2, 0.15, 0.1, 0.075, 0.05];
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
@@ -136,17 +131,17 @@ fn thesis(spacings: &[f64]) -> Vec<Settings> {
     spacings.iter().map(|&h| Settings::thesis(h, LONG)).chain([preset]).collect()
 }
 
-fn contrast(full: bool) -> Vec<Settings> {
+fn contrast() -> Vec<Settings> {
     let mut list = integrals(&[16, 24, 32, 48, 64]);
-    let smeared: &[f64] = if full { &[0.2, 0.1, 0.05] } else { &[0.2, 0.1] };
+    let smeared = &[0.2, 0.1];
     list.extend(grids(smeared, 0.5).map(Settings::uncorrected));
     list.extend(smeared.iter().map(|&h| Settings::thesis(h, LONG)));
     list
 }
 
-fn channel(full: bool) -> Vec<Settings> {
+fn channel() -> Vec<Settings> {
     let mut list = integrals(&[24, 32, 48, 64, 96]);
-    let spacings: &[f64] = if full { &[0.2, 0.1, 0.05, 0.025] } else { &[0.2, 0.1, 0.05] };
+    let spacings = &[0.2, 0.1, 0.05];
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }

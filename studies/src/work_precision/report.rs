@@ -14,28 +14,19 @@ const FAMILIES: [&str; 3] = ["boundary integrals", "grid, corrected", "thesis"];
 
 /// The points on the front of each scene and the presets; the cheapest settings for given errors, and what Cowley's
 /// scheme costs in comparison.
-pub(crate) fn tables(points: &[Point], machine: &str) -> Vec<Table> {
+pub(crate) fn tables(points: &[Point]) -> Vec<Table> {
     let mut pairs: Vec<f64> = points.iter().map(|point| point.summary.number("pair_us")).collect();
     let title = format!(
         "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one \
-         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us; {machine}, one thread",
+         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us, one thread",
         median(&mut pairs)
     );
     let mut table = Table::new(
         &title,
-        &[
-            "scene",
-            "front",
-            "preset",
-            "settings",
-            "method",
-            "error in %",
-            "pairs per time",
-            "seconds per time",
-            "steps per time",
-        ],
+        "scene | front | preset | settings | method | error in % | pairs per time | seconds per time | steps \
+        per time",
     );
-    for study in Study::ALL {
+    for study in Study::all() {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
         section(&mut table, study, &own);
     }
@@ -60,17 +51,18 @@ fn section(table: &mut Table, study: Study, points: &[Point]) {
         points.iter().filter(|point| on_front(point) || point.settings.is_preset().is_some()).collect();
     shown.sort_by(|a, b| a.pairs().total_cmp(&b.pairs()));
     for point in shown {
-        table.push([
-            study.title().to_owned(),
-            if on_front(point) { "yes" } else { "no" }.to_owned(),
-            point.settings.is_preset().unwrap_or_default().to_owned(),
+        table.row(format_args!(
+            "{} | {} | {} | {} | {} | {} | {:.1} | {:.2e} | {:.1}",
+            study.title(),
+            if on_front(point) { "yes" } else { "no" },
+            point.settings.is_preset().unwrap_or_default(),
             point.settings.label(),
-            point.settings.family().to_owned(),
+            point.settings.family(),
             per_cent(point.summary.number("error")),
-            format!("{:.1}", point.pairs()),
-            format!("{:.2e}", point.summary.number("seconds_per_time")),
-            format!("{:.1}", point.summary.number("steps_per_time")),
-        ]);
+            point.pairs(),
+            point.summary.number("seconds_per_time"),
+            point.summary.number("steps_per_time")
+        ));
     }
 }
 
@@ -80,9 +72,9 @@ fn summary(points: &[Point]) -> Table {
         "The cheapest settings whose error and that of all refinements is at most the target; cost in pairs per time \
          and, in brackets, the factor by which the scheme of Cowley costs more for the same error (about: extrapolated \
          from its finest grids)",
-        &["scene", "method", "1 %", "0.3 %", "0.1 %"],
+        "scene | method | 1 % | 0.3 % | 0.1 %",
     );
-    for study in Study::ALL {
+    for study in Study::all() {
         for family in FAMILIES {
             let of = |family: &str| -> Vec<&Point> {
                 points.iter().filter(|point| point.study == study && point.settings.family() == family).collect()

@@ -4,7 +4,6 @@ use motile::ib_core::{AnyKernel, Kernel};
 use motile::scene::StepSize;
 use motile::setup::{GridMethod, IntegralMethod, Method, Setup};
 use motile_cli::run::Summary;
-use serde_json::Value;
 
 /// How velocities come from forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,17 +160,8 @@ impl Settings {
 
     /// The columns of a table.
     pub(crate) fn put(&self, summary: &mut Summary) {
-        let (mut nodes, mut elements, mut spacing, mut markers) = (Value::Null, Value::Null, Value::Null, Value::Null);
-        match self.flow {
-            Flow::Integrals { nodes: n, elements: c } => (nodes, elements) = (n.into(), c.into()),
-            Flow::Grid { h, ratio, .. } => (spacing, markers) = (h.into(), (ratio * h).into()),
-        }
         summary.put("family", self.family(), "");
         summary.put("settings", self.label(), "");
-        summary.put("nodes", nodes, "");
-        summary.put("elements", elements, "");
-        summary.put("h", spacing, "");
-        summary.put("ds", markers, "");
     }
 
     /// True for the preset as it is.

@@ -12,7 +12,7 @@ use motile::ib_core::{AnyKernel, ImmersedBoundary};
 use motile::scene::{Hydrodynamics, MarkerKind, Markers, Scene};
 use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes, solids::slide};
+use motile_tests::validation::{Case, Reference, fixed_shapes, solids::slide};
 
 use crate::work_precision::cost::{Cost, march, repeat};
 use crate::work_precision::settings::{Flow, Preset, Settings};
@@ -70,7 +70,7 @@ fn exact_ellipse(count: usize) -> Result<Markers> {
 
 /// Aspect ratio, less one, of the relaxing ellipse at t = 2.
 pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
-    let all = Reference::read(ReferenceFile::EllipseRelaxation)?;
+    let all = Reference::read("ellipse_relaxation_box6")?;
     let expected = all.select("eta_in", "1").select("t", "2").value("AR_moment")?;
     let curve = Curve::ellipse(1.3, 1.0 / 1.3)?;
     let count = match settings.flow {

@@ -8,7 +8,7 @@ use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::{StepSize, System};
 use motile::setup::{AnyFlow, DropletSetup, ExcludedVolume, Particles, Setup};
-use motile_tests::validation::{Reference, ReferenceFile};
+use motile_tests::validation::Reference;
 
 use crate::work_precision::cost::{Cost, march};
 use crate::work_precision::settings::Settings;
@@ -44,7 +44,7 @@ fn against(setup: &Setup, settings: &Settings, reference: f64) -> Result<(f64, C
 
 /// Speed of the steady swimmer of an activity.
 pub(crate) fn steady(settings: &Settings, activity: f64) -> Result<(f64, Cost)> {
-    let reference = Reference::read(ReferenceFile::SteadySwimmers)?.select("zeta_dmu", &format!("{activity:.1}"));
+    let reference = Reference::read("steady_swimmer_box6")?.select("zeta_dmu", &format!("{activity:.1}"));
     against(&boxed(settings, activity, None), settings, reference.value("speed")?)
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn oblique(settings: &Settings) -> Result<(f64, Cost)> {
 
 /// The swimmer of activity -1, ten times as viscous as the exterior fluid.
 pub(crate) fn ratio_10(settings: &Settings) -> Result<(f64, Cost)> {
-    let reference = Reference::read(ReferenceFile::SteadySwimmerContrast)?.select("zeta_dmu", "-1.0");
+    let reference = Reference::read("steady_swimmer_contrast_box6")?.select("zeta_dmu", "-1.0");
     against(&boxed(settings, -1.0, Some(10.0)), settings, reference.value("speed")?)
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn reference_of_ratio_100() -> Result<f64> {
 
 /// Speed in a narrow channel.
 pub(crate) fn channel(settings: &Settings) -> Result<(f64, Cost)> {
-    let reference = Reference::read(ReferenceFile::ChannelSwimmers)?
+    let reference = Reference::read("channel_steady_swimmer")?
         .select("conv", "p0")
         .select("w", "2")
         .select("zeta_dmu", "-2.0")
@@ -101,7 +101,7 @@ pub(crate) fn channel(settings: &Settings) -> Result<(f64, Cost)> {
 
 /// Largest error of the speed on the way to the steady state.
 pub(crate) fn transient(settings: &Settings) -> Result<(f64, Cost)> {
-    let reference = Reference::read(ReferenceFile::Transient)?;
+    let reference = Reference::read("swimmer_transient_box6_activity_1")?;
     let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
     let setup = boxed(settings, -1.0, None);
     let mut scene = setup.build()?.scene;

@@ -9,16 +9,7 @@ use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::setup::{AnyFlow, GridMethod, IntegralMethod, LayersMethod, Method};
 
 use crate::validation::StudyError;
-use crate::validation::scene::{flow, open_channel};
-
-mod cost;
-mod iterations;
-mod layer;
-mod stresslet;
-
-pub use cost::{Cost, CostScene};
-pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
-pub use layer::{LayerErrors, layer_errors};
+use crate::validation::scene::flow;
 
 /// An ellipse with a tension along it and a viscosity inside, in a fluid of viscosity one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,37 +51,14 @@ impl Droplet {
         Self { phase, ..self }
     }
 
-    /// Scenes with gaps of 0.075, one and a half cells of 0.05: beside the wall of a channel, two droplets, and one
-    /// beside a passive interface. Tensions vary where the gap is.
-    #[must_use]
-    pub fn close_scenes() -> Vec<(&'static str, Region, Vec<Self>)> {
-        let (quarter, x) = (0.25 * TAU, 1.0 + 0.0375);
-        let height = 1.5 - 0.075 - 1.0 / 1.3;
-        let pair = |left: f64, right: f64| {
-            vec![
-                Self::circle(1, left).at(-x, 0.02).turned(quarter),
-                Self::circle(1, right).at(x, -0.01).turned(quarter),
-            ]
-        };
-        let (channel, square) = (open_channel(6.0, 3.0), Region::Box { lengths: [6.0; 2] });
-        let beside = |ratio| Self::ellipse(ratio).at(0.1, height);
-        vec![
-            ("beside a wall, tension along it", channel, vec![beside(100.0)]),
-            ("beside a wall, tension across", channel, vec![beside(100.0).turned(quarter)]),
-            ("off the centre, gap 0.3", channel, vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
-            ("beside a wall, equal viscosities", channel, vec![beside(1.0).turned(quarter)]),
-            ("two droplets, equal viscosities", square, pair(1.0, 1.0)),
-            ("two droplets", square, pair(10.0, 100.0)),
-            ("beside a passive interface", square, pair(100.0, 1.0)),
-        ]
-    }
-
     fn kind(&self, even: bool) -> MarkerKind {
         let viscosity_inside = (self.ratio != 1.0).then_some(self.ratio);
         if even { MarkerKind::Interface { viscosity_inside } } else { MarkerKind::UnevenInterface { viscosity_inside } }
     }
 
-    fn point(&self, t: f64) -> Vec2 {
+    /// The place of the interface at a parameter.
+    #[must_use]
+    pub fn point(&self, t: f64) -> Vec2 {
         Vec2::new(self.centre[0] + self.axes[0] * t.cos(), self.centre[1] + self.axes[1] * t.sin())
     }
 
@@ -103,7 +71,8 @@ impl Droplet {
     }
 
     /// Derivative of tension times tangent by the parameter.
-    fn force(&self, t: f64) -> Vec2 {
+    #[must_use]
+    pub fn force(&self, t: f64) -> Vec2 {
         let [a, b] = self.axes;
         let (sin, cos) = t.sin_cos();
         let tangent = Vec2::new(-a * sin, b * cos);
@@ -227,7 +196,7 @@ impl Exact {
     pub fn smeared_errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
         let mut markers = Markers::new();
         self.droplets.iter().try_for_each(|droplet| droplet.push_even(0.5 * h, &mut markers))?;
-        self.compare(smeared(self.region, h, 1e-6)?, markers)
+        self.compare(smeared(self.region, h)?, markers)
     }
 
     fn compare(&self, mut flow: AnyFlow, mut markers: Markers) -> Result<Vec<Errors>, StudyError> {
@@ -264,8 +233,8 @@ fn layers(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
 }
 
 /// Cowley's way in a region, viscosity one.
-fn smeared(region: Region, h: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
-    flow(region, Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() }), 1.0, tolerance)
+fn smeared(region: Region, h: f64) -> Result<AnyFlow, StudyError> {
+    flow(region, Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() }), 1.0, 1e-6)
 }
 
 /// Velocity of the centroid of a closed polygon from the flux through its sides.

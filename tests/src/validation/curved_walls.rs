@@ -4,12 +4,9 @@ use std::f64::consts::TAU;
 
 use motile::base::{Drive, FlowSample, Region, Vec2};
 use motile::boundary_integrals::{BoundaryIntegral, PeriodicCalculus, RigidWall, Settings, TensionPlacement};
-use motile::elastic_solids::ChannelShape;
 use motile::scene::{Hydrodynamics, MarkerKind, Markers};
-use motile::setup::{Built, DropletSetup, Setup, WallSetup};
 
-use super::scene::{open_channel, without_grid};
-use super::{Reference, ReferenceFile, StudyError};
+use super::{Reference, StudyError};
 
 /// Period of the channel of the reference values, its mean half width and the amplitude of its sides.
 const PERIOD: f64 = 12.0;
@@ -73,8 +70,7 @@ fn ellipse(
 pub fn fixed(droplet: usize, wall: usize) -> Result<CurvedErrors, StudyError> {
     let mut flow = channel(Drive::default(), droplet, wall)?;
     let mut errors = CurvedErrors::default();
-    let (velocities, global) =
-        (Reference::read(ReferenceFile::CurvedWalls)?, Reference::read(ReferenceFile::CurvedWallsGlobal)?);
+    let (velocities, global) = (Reference::read("curved_walls_velocities")?, Reference::read("curved_walls_global")?);
     for (x0, y0, a) in [("0", "0", "1"), ("3", "0.2", "1"), ("6", "0", "1"), ("4.5", "-0.1", "1")]
         .into_iter()
         .chain([("6", "0.1", "1.3"), ("1", "0.3", "1.3")])
@@ -113,24 +109,6 @@ pub fn fixed(droplet: usize, wall: usize) -> Result<CurvedErrors, StudyError> {
     Ok(errors)
 }
 
-/// Speed (length per time) at a time of a swimmer in this channel that started where it is widest, with so many nodes;
-/// four cells of the concentration a node.
-///
-/// # Errors
-/// A scene that cannot be set up, a run that fails.
-pub fn speed(activity: f64, nodes: usize, time: f64) -> Result<f64, StudyError> {
-    let shape = ChannelShape::Sinusoidal { width: 2.0 * HALF_WIDTH, amplitude: AMPLITUDE, waves: 1, phase: 0.0 };
-    let setup = Setup {
-        region: open_channel(PERIOD, WIDTH),
-        walls: WallSetup::channel(&shape, 0.05),
-        droplets: vec![DropletSetup::active(activity)],
-        ..without_grid(nodes, 4 * nodes)
-    };
-    let Built { mut scene, droplets, .. } = setup.build()?;
-    scene.run(time).go()?;
-    Ok(scene.observe(droplets[0])?.speed())
-}
-
 /// Flux through the section at x.
 fn flux(flow: &mut BoundaryIntegral, markers: &Markers, x: f64) -> Result<f64, StudyError> {
     const PIECES: usize = 40;
@@ -164,40 +142,4 @@ pub fn film(width: f64, viscosity_inside: f64, nodes: &[[usize; 2]]) -> Result<V
         Ok(found.iter().zip(&reference).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / largest)
     };
     nodes.iter().map(error).collect()
-}
-
-/// The pressure gradient that drives a unit flux of unit viscosity through a channel between
-/// y = -(1 + amplitude cos(2 pi x/length)) and its mirror image, by layers of so many nodes a wall.
-///
-/// # Errors
-/// A scene that cannot be.
-pub fn gradient(length: f64, amplitude: f64, nodes: usize) -> Result<f64, StudyError> {
-    let half = |x: f64| 1.0 + amplitude * (TAU * x / length).cos();
-    let region = Region::Channel { length, width: 2.0 * (1.5 + amplitude), drive: Drive::Flux(1.0) };
-    let settings = Settings { nodes: 32, tolerance: 1e-13, ..Settings::default() };
-    let walls = [RigidWall::below(length, nodes, |x| -half(x))?, RigidWall::above(length, nodes, half)?];
-    let mut flow = BoundaryIntegral::new(region, 1.0, settings)?.with_walls(&walls)?;
-    // Fluid in fluid, which changes nothing.
-    let mut markers = Markers::new();
-    markers.push_group(32, MarkerKind::UnevenInterface { viscosity_inside: None });
-    for (k, position) in markers.positions_mut().iter_mut().enumerate() {
-        *position = 0.2 * Vec2::from_angle(TAU * k as f64 / 32.0);
-    }
-    Ok(-flow.velocities(&mut markers)?.mean_pressure_gradient[0])
-}
-
-/// Mean pressure gradient to the second power of the amplitude, from the boundary conditions expanded about the
-/// straight sides: with k = 2 pi/length, `3/2 (1 + amplitude^2 (3 k sinh(k)^2/(sinh(k) cosh(k) - k) - 3/2))`.
-#[must_use]
-pub fn small_amplitude(length: f64, amplitude: f64) -> f64 {
-    let k = TAU / length;
-    let (sinh, cosh) = (k.sinh(), k.cosh());
-    1.5 * (1.0 + amplitude * amplitude * (3.0 * k * sinh * sinh / (sinh * cosh - k) - 1.5))
-}
-
-/// Mean pressure gradient in the limit of a long channel: 3/2 times the mean of 1/h^3, h the half width.
-#[must_use]
-pub fn lubrication(amplitude: f64) -> f64 {
-    let square = amplitude * amplitude;
-    1.5 * (1.0 + 0.5 * square) / (1.0 - square).powf(2.5)
 }

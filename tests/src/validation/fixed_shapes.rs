@@ -8,7 +8,7 @@ use motile::ib_core::{ImmersedBoundary, Kernel};
 use motile::scene::{Hydrodynamics, MarkerKind, Markers};
 use motile::stokes_grid::{Grid, PeriodicStokes, StokesSolver};
 
-use crate::validation::{Reference, ReferenceFile, StudyError};
+use crate::validation::{Reference, StudyError};
 
 /// A shape and a tension on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,12 +44,12 @@ impl Case {
     }
 
     fn reference(self) -> Result<Reference, StudyError> {
-        let all = Reference::read(ReferenceFile::FixedShapes)?;
+        let all = Reference::read("fixed_shape_velocities_equal_viscosity")?;
         Ok(self.select(all).select("L", "6").select("kind", "marker"))
     }
 
     /// The rows of a table that belong to the case.
-    pub(crate) fn select(self, table: Reference) -> Reference {
+    pub fn select(self, table: Reference) -> Reference {
         let shape = if self == Self::Circle { "circle" } else { "ellipse" };
         let gamma = if self == Self::EllipseUniform { "const1" } else { "1+0.5cos" };
         table.select("shape", shape).select("gamma", gamma)
@@ -94,7 +94,7 @@ pub fn compare_velocities(velocities: &[Vec2], case: Case) -> Result<Errors, Stu
 }
 
 /// The immersed boundary method with or without the mobility correction.
-pub(crate) fn couple<S: StokesSolver, K: Kernel>(solver: S, kernel: &K, corrected: bool) -> ImmersedBoundary<S, K> {
+pub fn couple<S: StokesSolver, K: Kernel>(solver: S, kernel: &K, corrected: bool) -> ImmersedBoundary<S, K> {
     if corrected {
         ImmersedBoundary::new(solver, kernel.clone())
     } else {
@@ -103,15 +103,20 @@ pub(crate) fn couple<S: StokesSolver, K: Kernel>(solver: S, kernel: &K, correcte
 }
 
 /// Markers on a shape of the reference table, with the forces of its tension.
-pub(crate) struct Shape {
-    pub(crate) markers: Markers,
+#[derive(Debug)]
+pub struct Shape {
+    /// The markers.
+    pub markers: Markers,
     case: Case,
     height: f64,
 }
 
 impl Shape {
     /// The shape with its centre at the height `height`, markers h/2 apart, another viscosity inside if there is one.
-    pub(crate) fn new(case: Case, height: f64, h: f64) -> Result<Self, StudyError> {
+    ///
+    /// # Errors
+    /// A spacing that leaves too few markers.
+    pub fn new(case: Case, height: f64, h: f64) -> Result<Self, StudyError> {
         let a = case.axis();
         let curve = if case == Case::Circle { Curve::circle(1.0)? } else { Curve::ellipse(a, 1.0 / a)? };
         let curve = curve.translated(Vec2::new(0.0, height));
@@ -136,7 +141,10 @@ impl Shape {
     }
 
     /// Errors at the eight markers of `reference`.
-    pub(crate) fn compare(&self, reference: &Reference) -> Result<Errors, StudyError> {
+    ///
+    /// # Errors
+    /// Reference values without these columns.
+    pub fn compare(&self, reference: &Reference) -> Result<Errors, StudyError> {
         let parameters: Vec<f64> = self.markers.positions().iter().map(|&point| self.parameter(point)).collect();
         errors_of(reference, |j| at_parameter(&parameters, self.markers.velocities(), TAU * j as f64 / 8.0))
     }

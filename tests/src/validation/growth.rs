@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use motile::SetupError;
 use motile::active_interface::{
     ActiveDroplet, ContractileTension, Curve, ExcludedVolume, polygon_moments,
     theory::{LinearTheory, RoundDroplet},
@@ -11,6 +10,8 @@ use motile::base::Region;
 use motile::base::Vec2;
 use motile::scene::{Scene, StepSize};
 use motile::setup::{AnyFlow, IntegralMethod, Method, Particles, Setup};
+
+use anyhow::Context;
 
 use crate::validation::StudyError;
 use crate::validation::scene::flow;
@@ -92,34 +93,19 @@ pub fn rate(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
     Ok((16.0 * second - first) / 15.0)
 }
 
-/// The rate (1/time) at which the first mode of the concentration of a droplet of another viscosity grows in its
-/// region: it is slow, so it is watched for longer.
-///
-/// # Errors
-/// Those of a run.
-pub fn polarisation_rate(setup: &Setup) -> Result<f64, StudyError> {
-    let watch = Watch { epsilon: 1e-3, duration: 1.0, steps: 20.0 };
-    measure(setup, Mode::Concentration(1), &watch, || flow(setup.region, setup.method, setup.viscosity, 1e-8))
-}
-
-/// The growth rate in unbounded fluid, by boundary integrals with `nodes` nodes and `cells` cells.
-///
-/// # Errors
-/// Those of a run.
-pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, elements: usize) -> Result<f64, StudyError> {
-    let method = Method::Integral(IntegralMethod { nodes, elements });
-    let watch = Watch { epsilon: 1e-5, duration: 0.1, steps: 100.0 };
-    let setup = Setup { method, ..setup.clone() };
-    measure(&setup, mode, &watch, || flow(Region::Plane, method, setup.viscosity, 1e-11))
-}
-
-/// Rate for infinitely many cells, from `cells` and twice as many: the error of the cells is of second order.
+/// The growth rate in unbounded fluid, by boundary integrals with `nodes` nodes and infinitely many elements: from
+/// `elements` and twice as many, because the error of the elements is of second order.
 ///
 /// # Errors
 /// Those of a run.
 pub fn rate_in_plane_limit(setup: &Setup, mode: Mode, nodes: usize, elements: usize) -> Result<f64, StudyError> {
-    let coarse = rate_in_plane(setup, mode, nodes, elements)?;
-    Ok((4.0 * rate_in_plane(setup, mode, nodes, 2 * elements)? - coarse) / 3.0)
+    let watch = Watch { epsilon: 1e-5, duration: 0.1, steps: 100.0 };
+    let [coarse, fine] = [elements, 2 * elements].map(|elements| {
+        let method = Method::Integral(IntegralMethod { nodes, elements });
+        let setup = Setup { method, ..setup.clone() };
+        measure(&setup, mode, &watch, || flow(Region::Plane, method, setup.viscosity, 1e-11))
+    });
+    Ok((4.0 * fine? - coarse?) / 3.0)
 }
 
 fn measure(
@@ -140,7 +126,7 @@ fn measure(
 }
 
 fn particles(setup: &Setup) -> Result<Particles, StudyError> {
-    setup.droplets[0].particles.ok_or_else(|| StudyError::Reference("a droplet without particles".to_owned()))
+    setup.droplets[0].particles.context("a droplet without particles")
 }
 
 /// The first droplet of a scene, round and uniform but for a small perturbation, without excluded volume.
@@ -158,10 +144,7 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
         Method::Grid(grid) => 4 * (curve.perimeter() / (2.0 * grid.spacing)).round() as usize,
         Method::Layers(layers) => layers.elements,
         Method::Integral(integral) => integral.elements,
-        other => {
-            let (key, value) = ("method".to_owned(), other.kind().name().to_owned());
-            return Err(SetupError::Value { key, value, remedy: "give one of known resolution".to_owned() }.into());
-        }
+        other => anyhow::bail!("no number of markers by the method {}", other.kind().name()),
     };
     let step = TAU / count as f64;
     let numbers = (0..count)

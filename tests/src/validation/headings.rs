@@ -17,35 +17,6 @@ pub struct Course {
     pub speeds: Vec<f64>,
 }
 
-/// Largest differences between two courses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deviation {
-    /// Relative, of the speed; with the sign it has.
-    pub speed: f64,
-    /// Of the direction (radians); with the sign it has.
-    pub heading: f64,
-}
-
-impl Course {
-    /// Largest excess of this course over `other`.
-    #[must_use]
-    pub fn beyond(&self, other: &Self) -> Deviation {
-        let largest = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most })
-        };
-        Deviation {
-            speed: largest(&mut self.speeds.iter().zip(&other.speeds).map(|(a, b)| a / b - 1.0)),
-            heading: largest(&mut self.headings.iter().zip(&other.headings).map(|(a, b)| a - b)),
-        }
-    }
-
-    /// How far the direction turned between the first and the last time (radians).
-    #[must_use]
-    pub fn turned(&self) -> f64 {
-        self.headings.last().zip(self.headings.first()).map_or(0.0, |(last, first)| last - first)
-    }
-}
-
 /// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) by a method, starting at `angle`
 /// (radians) from the x axis at a place between the points of a grid.
 #[must_use]

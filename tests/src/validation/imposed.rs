@@ -8,7 +8,7 @@ use motile::setup::{
     ShellSetup,
 };
 
-use crate::validation::{Reference, ReferenceFile, StudyError};
+use crate::validation::{Reference, StudyError};
 
 /// Shear at a unit rate.
 pub const SHEAR: FlowSetup =
@@ -21,7 +21,7 @@ pub const EXTENSION: FlowSetup = FlowSetup { shear: 0.0, extension: 1.0, ..SHEAR
 /// # Errors
 /// No such case or quantity.
 pub fn reference(case: &str, quantity: &str) -> Result<f64, StudyError> {
-    Reference::read(ReferenceFile::ImposedFlows)?.select("case", case).select("quantity", quantity).value("value")
+    Reference::read("imposed_flows")?.select("case", case).select("quantity", quantity).value("value")
 }
 
 /// The plane, of unit viscosity, with a flow and without bodies, in fixed steps.
@@ -90,7 +90,7 @@ pub fn seen_at(setup: &Setup, times: &[f64]) -> Result<Vec<Seen>, StudyError> {
         let deformation = match (droplets.first(), shells.first()) {
             (Some(&droplet), _) => system.deformation(droplet)?,
             (None, Some(&shell)) => system.deformation(shell)?,
-            (None, None) => return Err(StudyError::Reference("a scene without a drop or capsule".to_owned())),
+            (None, None) => anyhow::bail!("a scene without a drop or capsule"),
         };
         let stresslet = system.stresslets()?.first().copied().unwrap_or_default();
         Ok(Seen { deformation, stresslet, strains })

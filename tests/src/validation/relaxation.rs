@@ -5,7 +5,7 @@ use motile::ib_core::{BSpline, ImmersedBoundary};
 use motile::scene::{Scene, StepSize};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 
-use crate::validation::{Reference, ReferenceFile, StudyError};
+use crate::validation::{Reference, StudyError};
 
 /// Result of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Relaxation {
 /// # Errors
 /// Those of a run.
 pub fn run(h: f64, dt: f64) -> Result<Relaxation, StudyError> {
-    let all = Reference::read(ReferenceFile::EllipseRelaxation)?;
+    let all = Reference::read("ellipse_relaxation_box6")?;
     let reference = all.select("eta_in", "1").select("t", "2");
     let expected = reference.value("AR_moment")?;
     let cells = (6.0 / h).round() as usize;

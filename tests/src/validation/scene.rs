@@ -67,3 +67,14 @@ pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> R
         _ => Ok(Setup { region, method, viscosity, droplets: Vec::new(), ..Setup::default() }.flow()?),
     }
 }
+
+/// A solver in a channel of a length and a width.
+///
+/// # Errors
+/// Those of a grid and its drive.
+pub fn channel_solver(lengths: [f64; 2], h: f64, drive: Drive, viscosity: f64) -> Result<ChannelStokes, StudyError> {
+    let [nx, ny] = lengths.map(|length| (length / h).round() as usize);
+    let mut solver = ChannelStokes::new(Grid::channel(nx, ny, h)?, viscosity)?;
+    solver.set_drive(drive)?;
+    Ok(solver)
+}

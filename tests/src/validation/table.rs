@@ -1,14 +1,14 @@
-//! Tables of measurements, in Markdown and as CSV.
+//! Tables of measurements.
 
 use std::fmt;
 
-/// A table with a title, printed as Markdown: what stands behind a colon in the title is a sentence below the heading.
+/// A table with a title.
 ///
 /// ```
 /// use motile_tests::validation::Table;
 ///
-/// let mut table = Table::new("Errors", &["h", "error in %"]);
-/// table.push(["0.1", "0.13, of the mean"]);
+/// let mut table = Table::new("Errors", "h | error in %");
+/// table.row(format_args!("{} | {:.2}, of the mean", 0.1, 0.134));
 /// assert_eq!(table.csv(), "# Errors\nh,error in %\n0.1,\"0.13, of the mean\"\n");
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -19,13 +19,18 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table.
+    /// An empty table, its columns separated by ` | `.
     #[must_use]
-    pub fn new(title: &str, header: &[&str]) -> Self {
-        Self { title: title.to_owned(), header: header.iter().map(ToString::to_string).collect(), rows: Vec::new() }
+    pub fn new(title: &str, columns: &str) -> Self {
+        Self { title: title.to_owned(), header: cells(columns), rows: Vec::new() }
     }
 
-    /// Adds a row.
+    /// Adds a row, its cells separated by ` | `.
+    pub fn row(&mut self, text: fmt::Arguments<'_>) {
+        self.rows.push(cells(&text.to_string()));
+    }
+
+    /// Adds a row from its cells.
     pub fn push<S: Into<String>>(&mut self, row: impl IntoIterator<Item = S>) {
         self.rows.push(row.into_iter().map(Into::into).collect());
     }
@@ -45,37 +50,11 @@ impl Table {
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (heading, values) = self.title.split_once(": ").unwrap_or((&self.title, ""));
-        writeln!(f, "### {heading}\n")?;
-        let mut letters = values.chars();
-        if let Some(first) = letters.next() {
-            writeln!(f, "{}\n", wrapped(&format!("{}{}.", first.to_uppercase(), letters.as_str())))?;
-        }
-        writeln!(f, "| {} |", self.header.join(" | "))?;
-        writeln!(f, "|{}", "---|".repeat(self.header.len()))?;
-        for row in &self.rows {
-            writeln!(f, "| {} |", row.join(" | "))?;
-        }
-        Ok(())
+        writeln!(f, "{}", self.title)?;
+        std::iter::once(&self.header).chain(&self.rows).try_for_each(|row| writeln!(f, "{}", row.join(" | ")))
     }
 }
 
-/// A text in lines of at most 120 columns.
-fn wrapped(text: &str) -> String {
-    let mut lines = String::new();
-    let mut column = 0;
-    for word in text.split(' ') {
-        let length = word.chars().count();
-        let separator = if column == 0 {
-            ""
-        } else if column + 1 + length > 120 {
-            "\n"
-        } else {
-            " "
-        };
-        column = if separator == " " { column + 1 + length } else { length };
-        lines += separator;
-        lines += word;
-    }
-    lines
+fn cells(text: &str) -> Vec<String> {
+    text.split(" | ").map(|cell| cell.trim().to_owned()).collect()
 }

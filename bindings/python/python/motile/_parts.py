@@ -61,6 +61,6 @@ def droplet(activity: float | None = -2.0, *, particles: Mapping[str, Any] | Non
     """
     if activity is None:
         if particles:
-            raise TypeError("a passive droplet has no particles: give an activity, or leave particles out")
+            raise TypeError("a passive droplet has no particles. Use an activity, or leave particles out")
         return {**more, "particles": "none"}
     return {**more, "particles": {"activity": activity, **(particles or {})}}

@@ -44,7 +44,7 @@ class Track(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         if name not in self.names:
-            raise KeyError(f"{name}: the table has {', '.join(self.names)}")
+            raise KeyError(f"the table has no column {name}. Use one of {', '.join(self.names)}")
         if name == "time":
             return self.time
         column = self.as_array[:, :, self.names.index(name)]
@@ -88,8 +88,8 @@ def _numbers(given: npt.ArrayLike, key: str) -> Array:
         found = np.asarray(given)
         return found.astype(float, casting="unsafe" if found.dtype == object else "same_kind", copy=False)
     except (TypeError, ValueError) as error:
-        remedy = "give an array of real numbers"
-        raise Error(f"{key}: {error}; {remedy}", key=key, remedy=remedy) from error
+        remedy = "Use an array of real numbers"
+        raise Error(f"{key}: {error}. {remedy}", key=key, remedy=remedy) from error
 
 
 class Droplet:
@@ -135,20 +135,20 @@ class Droplet:
             if up_to is None:
                 largest = float(np.max(self.concentration, initial=0.0))
                 if self.concentration.size and not largest > 0:
-                    remedy = "give up_to, the largest concentration of the table"
-                    raise Error(f"there are no particles on the interface: {remedy}", key="up_to", remedy=remedy)
+                    remedy = "Set up_to, the largest concentration of the table"
+                    raise Error(f"there are no particles on the interface yet, so the table needs a range. {remedy}", key="up_to", remedy=remedy)
                 up_to = 8.0 * largest or 1.0
             c = np.linspace(0.0, up_to, points)
             gamma = _numbers(law(c), "tension")
             if gamma.shape not in ((), c.shape):
-                remedy = "give one tension for each concentration"
-                raise Error(f"the law gives shape {gamma.shape} for {c.shape}: {remedy}", key="tension", remedy=remedy)
+                remedy = "Return one tension for each concentration"
+                raise Error(f"the law returns an array of shape {gamma.shape} for concentrations of shape {c.shape}. {remedy}", key="tension", remedy=remedy)
             gamma = np.broadcast_to(gamma, c.shape)
         else:
             parts = [_numbers(part, "tension").ravel() for part in law]
             if len(parts) != 2:
-                remedy = "give concentrations and tensions"
-                raise Error(f"the table of a tension has {len(parts)} parts: {remedy}", key="tension", remedy=remedy)
+                remedy = "Use two: concentrations and tensions"
+                raise Error(f"the table of a tension has {len(parts)} parts. {remedy}", key="tension", remedy=remedy)
             c, gamma = parts
         self._scene.set_tension(self.index, c.tolist(), gamma.tolist(), smooth)
 
@@ -237,8 +237,8 @@ class Scene:
         if every is not None:
             start = self.time
             if not every > 0 or until - start > _MOST_REPORTS * every:
-                remedy = f"give a time above 0, at most {_MOST_REPORTS:.0e} of which make the run"
-                raise Error(f"every is {every}: {remedy}", key="every", value=str(every), remedy=remedy)
+                remedy = f"Use a time above 0 that fits into the run at most {_MOST_REPORTS:.0e} times"
+                raise Error(f"every = {every}. {remedy}", key="every", value=str(every), remedy=remedy)
             reached = int(np.floor(start / every + 1e-9))
             if abs(start - reached * every) <= 1e-9 * every and start < until:
                 yield start
@@ -273,8 +273,8 @@ class Scene:
     def _sample(self, points: npt.ArrayLike) -> tuple[Array, Array, Array]:
         places = _numbers(points, "points")
         if places.ndim == 0 or places.shape[-1] != 2:
-            remedy = "give an array whose last dimension is 2"
-            raise Error(f"points have shape {places.shape}: {remedy}", key="points", remedy=remedy)
+            remedy = "Use an array whose last dimension is 2"
+            raise Error(f"points have shape {places.shape}. {remedy}", key="points", remedy=remedy)
         shape = places.shape[:-1]
         velocity, pressure, gradient = self._scene.sample(np.ascontiguousarray(places.reshape(-1, 2)))
         return velocity.reshape(*shape, 2), pressure.reshape(shape), gradient.reshape(*shape, 2, 2)

@@ -85,7 +85,7 @@ def sweep(
         every = until / 100
     for key, time in {"until": until, "every": every}.items():
         if not 0 < time < float("inf"):
-            remedy = "give a positive finite time"
+            remedy = "use a positive finite time"
             raise Error(f"{key} = {time}: {remedy}", key=key, value=str(time), remedy=remedy)
     combinations = [dict(zip(changes, values)) for values in itertools.product(*changes.values())]
     # All are checked before the first run.
@@ -129,8 +129,8 @@ def _run(work: tuple[str, float, float, str | None]) -> tuple[tuple[list[str], A
                     stacklevel=2,
                 )
             except (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile) as broken:
-                remedy = "remove it, and it is run again"
-                raise Error(f"{place} is no result of a sweep: {remedy}", remedy=remedy) from broken
+                remedy = "Remove it to run it again"
+                raise Error(f"{place} is not a result of a sweep. {remedy}", remedy=remedy) from broken
     error = None
     names, values = ["time"], np.empty((0, 0, 1))
     try:

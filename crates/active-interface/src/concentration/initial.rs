@@ -33,38 +33,39 @@ enum Kind {
 const MODES: usize = 8;
 
 impl InitialConcentration {
-    /// The polarised state of Cowley, eq. (2.46): c = c0 (1 - cos(theta - heading)), with theta the polar angle
+    /// Creates the polarised state of Cowley, eq. (2.46): c = c0 (1 - cos(theta - heading)), with theta the polar angle
     /// about the centroid. The concentration is highest at the rear, so that a contractile droplet swims in the
     /// direction `heading` (radians); `mean` is c0 (particles per length).
     ///
-    /// The particle number of a segment is the integral over its polar angles; all numbers are then scaled by one
+    /// The particle number of a segment is the integral over its polar angles. All numbers are then scaled by one
     /// factor so that their total is c0 times the perimeter of the polygon (on a circle with equidistant markers the
-    /// factor is 1 but for round-off).
+    /// factor is 1 except for round-off).
     ///
     /// # Errors
-    /// A mean that is not positive, a heading that is not finite.
+    /// Returns an error for a mean that is not positive, a heading that is not finite.
     pub fn polarised(mean: f64, heading: f64) -> Result<Self, InterfaceError> {
         let mean = positive("the mean concentration", mean)?;
         Ok(Self(Kind::Polarised { mean, heading: finite("the heading", heading)? }))
     }
 
-    /// The uniform state with a small perturbation, c = c0 (1 + amplitude p(s)), where p is a sum of the first eight
-    /// Fourier modes in the arc length with random weights and phases, |p| <= 1 and of mean zero. `mean` is c0
+    /// Creates the uniform state with a small perturbation, c = c0 (1 + amplitude p(s)), where p is a sum of the first
+    /// eight Fourier modes in the arc length with random weights and phases, |p| <= 1 and of mean zero. `mean` is c0
     /// (particles per length), `amplitude` lies in [0, 1).
     ///
     /// A seed determines the function of the arc length, on every machine and at every number of markers. The total is
     /// c0 times the perimeter of the polygon.
     ///
     /// # Errors
-    /// A mean that is not positive, an amplitude outside [0, 1).
+    /// Returns an error for a mean that is not positive, an amplitude outside [0, 1).
     pub fn perturbed(mean: f64, amplitude: f64, seed: u64) -> Result<Self, InterfaceError> {
         let mean = positive("the mean concentration", mean)?;
         within("the amplitude of the perturbation", amplitude, 0.0, 1.0 - f64::EPSILON)?;
         Ok(Self(Kind::Perturbed { mean, amplitude, seed, axisymmetric: false }))
     }
 
-    /// Makes a perturbation that of a body of revolution whose first marker is on the axis y = 0: only the parts of its
-    /// modes remain that are even about this marker, and the mean is that over the surface. Other concentrations stay.
+    /// Turns a perturbation into one of a body of revolution whose first marker is on the axis y = 0. Only the parts of
+    /// its modes remain that are even about this marker, and the mean is the mean over the surface. Other
+    /// concentrations stay.
     #[must_use]
     pub fn axisymmetric(mut self) -> Self {
         if let Kind::Perturbed { axisymmetric, .. } = &mut self.0 {
@@ -73,44 +74,46 @@ impl InitialConcentration {
         self
     }
 
-    /// The uniform state with the mean concentration c0 (particles per length).
+    /// Creates the uniform state with the mean concentration c0 (particles per length).
     ///
     /// # Errors
-    /// A mean that is not positive.
+    /// Returns an error for a mean that is not positive.
     pub fn uniform(mean: f64) -> Result<Self, InterfaceError> {
         Self::perturbed(mean, 0.0, 0)
     }
 
-    /// A concentration (particles per length) as a function of the polar angle about the centroid, from -pi to pi, for
-    /// curves on which it is single-valued. Averaged over each segment by Simpson's rule and not scaled.
+    /// Returns a concentration (particles per length) as a function of the polar angle about the centroid, from -pi to
+    /// pi, for curves on which it is single-valued. Averaged over each segment by Simpson's rule and not scaled.
     pub fn by_polar_angle(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self(Kind::PolarAngle(Function::new(concentration)))
     }
 
-    /// A concentration (particles per length) as a function of the arc length from the first marker over the
+    /// Returns a concentration (particles per length) as a function of the arc length from the first marker over the
     /// perimeter, from 0 to 1. Averaged over each segment by Simpson's rule and not scaled.
     pub fn by_arc_fraction(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self(Kind::ArcFraction(Function::new(concentration)))
     }
 
-    /// The particle numbers of the segments of the closed polygon through `markers` (counter-clockwise), segment k from
-    /// marker k to the next.
+    /// Returns the particle numbers of the segments of the closed polygon through `markers` (counter-clockwise),
+    /// segment k from marker k to the next.
     ///
     /// # Errors
-    /// Fewer than three markers, markers that are not finite or enclose no area; a concentration that is not finite
-    /// or negative somewhere.
+    /// Returns an error for fewer than three markers, markers that are not finite or enclose no area; a concentration
+    /// that is not finite or negative somewhere.
     pub fn particle_numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, InterfaceError> {
         let centre = crate::curve::polygon_moments(markers)?.centroid;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
         self.numbers(markers, &lengths, centre)
     }
 
-    /// The particle numbers of the segments through `markers`, one period of an interface that continues `advance`
-    /// further along x (length). Fractions of the arc length are those of the period.
+    /// Returns the particle numbers of the segments through `markers`, one period of an interface that continues
+    /// `advance` further along x (length). Fractions of the arc length refer to the period.
     ///
     /// # Errors
-    /// A concentration by the polar angle, which there is none of; fewer than eight markers, markers that are not
-    /// finite or do not close across the period; a concentration that is not finite or negative somewhere.
+    /// Returns an error for:
+    /// * a concentration by the polar angle, which there is none of,
+    /// * fewer than eight markers, markers that are not finite or do not close across the period,
+    /// * a concentration that is not finite or negative somewhere.
     pub fn particle_numbers_over(&self, markers: &[Vec2], advance: f64) -> Result<Vec<f64>, InterfaceError> {
         if let Kind::Polarised { .. } | Kind::PolarAngle(_) = self.0 {
             return Err(InterfaceError::no_polar_angle());
@@ -212,13 +215,13 @@ fn perturbed(lengths: &[f64], amplitude: f64, seed: u64, even: bool) -> Vec<f64>
 pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// The generator of that seed.
+    /// Creates the generator of that seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next number in (0, 1], a multiple of 2^-53.
+    /// Returns the next number in (0, 1], a multiple of 2^-53.
     pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;

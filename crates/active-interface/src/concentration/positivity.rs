@@ -33,8 +33,8 @@ impl Repair {
 /// `missing` and `shares` are working arrays, as long as the numbers.
 ///
 /// # Errors
-/// Numbers that are not finite, and a total that is negative, so that there is not enough to take from. The numbers are
-/// then as they were.
+/// Returns an error for numbers that are not finite, and a total that is negative, so that there is not enough to take
+/// from. The numbers are then as they were.
 pub(crate) fn repair_positivity(
     numbers: &mut [f64],
     [missing, shares]: [&mut [f64]; 2],

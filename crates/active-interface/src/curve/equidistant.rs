@@ -12,12 +12,12 @@ const ROUND_OFFS: f64 = 16.0;
 /// Sweeps without improvement after which a difference that round-off explains is taken.
 const STALLED: usize = 5;
 
-/// Equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length): `count` of them,
-/// from `point(0)` on, with equal chords to 1e-12 of their length (or to the round-off of the coordinates and of the
-/// parameter, if that is more). If there are none on a curve that may have corners, because a corner is sharper than
-/// their distance, they are at equal arc lengths.
+/// Returns the equidistant points of the curve `point(t)`, t in [0, 1], closed or advancing by `advance` (length):
+/// `count` of them, from `point(0)` on. Chords are equal to 1e-12 of their length (or to the round-off of the
+/// coordinates and of the parameter, if that is more). If there are none on a curve that may have corners, because a
+/// corner is sharper than their distance, they are at equal arc lengths.
 ///
-/// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
+/// The first guess is equal arc length in a table. Then each parameter is moved by the deficit of the chords before it
 /// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
 pub(crate) fn equidistant(
     point: impl Fn(f64) -> Vec2,
@@ -94,6 +94,6 @@ pub(crate) fn equidistant(
         what: "the search for equidistant markers",
         residual: best,
         tolerance: attainable,
-        remedy: "use more markers or a curve with less sharp corners",
+        remedy: "Use more markers or a curve with less sharp corners",
     })
 }

@@ -6,7 +6,7 @@ use super::spline::PeriodicSpline;
 use crate::InterfaceError;
 
 /// Largest ratio of neighbouring sides that a spline goes through without points between: beyond it the longer side
-/// bulges by a part of its own length, not of the shorter one.
+/// bulges by a fraction of its own length, not of the length of its neighbour.
 const MOST_UNEVEN: f64 = 3.0;
 /// Largest distances of the curve from a side, over the shortest of the side and its two neighbours; later ones are
 /// tried if the curve crosses itself. That of a circle from its octagon is 0.1.
@@ -20,9 +20,9 @@ const SAMPLES: u32 = 8;
 
 /// A smooth curve through points, closed or periodic, near their polygon.
 ///
-/// It is the cubic spline through the points and, where that leaves the polygon, through the middles of sides as well:
-/// next to a side of a third of its length and less, and next to sharp corners. Through points that are even enough it
-/// is the spline through them alone.
+/// It is the cubic spline through the points and, where that leaves the polygon, through the middles of sides as well.
+/// It does so next to a side of a third of its length and less, and next to sharp corners. Through points that are even
+/// enough it is the spline through them alone.
 #[derive(Debug, Clone)]
 pub(crate) struct NearPolygon {
     pub(crate) spline: PeriodicSpline,
@@ -33,13 +33,13 @@ pub(crate) struct NearPolygon {
 }
 
 impl NearPolygon {
-    /// The curve through at least three points, no two successive ones the same, that advances by `advance` in a period
-    /// (length; zero for a closed one), and for which `crossing` finds no crossing: of several, the one that has least
-    /// points between.
+    /// Returns the curve through at least three points, no two successive ones the same, that advances by `advance` in
+    /// a period (length; zero for a closed one), and for which `crossing` finds no crossing. If there are several such
+    /// curves, it is the one with the fewest points between.
     ///
     /// # Errors
-    /// Points that coincide; those of `crossing`; [`InterfaceError::SelfCrossing`] by the numbers of the points;
-    /// a curve that leaves the polygon.
+    /// Returns an error for points that coincide; the errors of `crossing`; [`InterfaceError::SelfCrossing`] by the
+    /// numbers of the points; a curve that leaves the polygon.
     pub(crate) fn new(
         points: &[Vec2],
         advance: Vec2,
@@ -57,7 +57,7 @@ impl NearPolygon {
         Err(InterfaceError::crossing_points(first, second))
     }
 
-    /// The curve within that part of the sides from the polygon.
+    /// Creates the curve within that part of the sides from the polygon.
     fn within(points: &[Vec2], advance: Vec2, part: f64) -> Result<Self, InterfaceError> {
         let count = points.len();
         let end = |k: usize| if k + 1 < count { points[k + 1] } else { points[0] + advance };
@@ -107,7 +107,8 @@ impl NearPolygon {
         Err(InterfaceError::strays(sides.first().copied().unwrap_or_default()))
     }
 
-    /// Side of the polygon, by its first point, that the curve follows at the fraction `t` in [0, 1] of the parameter.
+    /// Returns the side of the polygon, by its first point, that the curve follows at the fraction `t` in [0, 1] of the
+    /// parameter.
     pub(crate) fn side(&self, t: f64) -> usize {
         self.sides[self.spline.piece_at(t)]
     }

@@ -18,12 +18,13 @@ use crate::InterfaceError;
 /// Samples on which a curve is checked.
 const SAMPLES: usize = 2048;
 
-/// Equidistant markers of one period of the curve
-/// `y = height + sum over k of a_k cos(2 pi k x/L) + b_k sin(2 pi k x/L)`, k from 1, over the advance of plus or minus
-/// the period L (length), from x = -advance/2 on. Their polygon encloses the area of the curve.
+/// Returns the equidistant markers of one period of the curve `y = height + sum over k of a_k cos(2 pi k x/L) + b_k
+/// sin(2 pi k x/L)`, k from 1, over the advance of plus or minus the period L (length), from x = -advance/2 on. Their
+/// polygon encloses the area of the curve.
 ///
 /// # Errors
-/// An advance that is zero, numbers that are not finite, fewer than eight or more than a million markers.
+/// Returns an error for an advance that is zero, numbers that are not finite, fewer than eight or more than a million
+/// markers.
 pub fn wave(
     height: f64,
     advance: f64,
@@ -50,22 +51,25 @@ pub fn wave(
     Ok(markers)
 }
 
-/// Equidistant markers of the smooth curve through the points of one period (length), which continues `advance` further
-/// along x (length): a cubic spline near the polygon, as [`Curve::through_points`](crate::Curve::through_points).
+/// Returns the equidistant markers of the smooth curve through the points of one period (length), which continues
+/// `advance` further along x (length): a cubic spline near the polygon, as
+/// [`Curve::through_points`](crate::Curve::through_points).
 ///
 /// # Errors
-/// An advance that is zero; fewer than eight points, points that are not finite, coincide or do not close across the
-/// period, a crossing; fewer than eight or more than a million markers.
+/// Returns an error for:
+/// * an advance that is zero,
+/// * fewer than eight points, points that are not finite, coincide or do not close across the period, a crossing,
+/// * fewer than eight or more than a million markers.
 pub fn line_through(points: &[Vec2], advance: f64, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
     within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
     let curve = near_line(points, advance)?;
     equidistant(|t| curve.spline.point(t), Vec2::new(advance, 0.0), count, true)
 }
 
-/// Largest distance of the curve of [`line_through`] from the polygon through its points (length).
+/// Returns the largest distance of the curve of [`line_through`] from the polygon through its points (length).
 ///
 /// # Errors
-/// Those of [`line_through`].
+/// Returns the errors of [`line_through`].
 pub fn line_distance_from_polygon(points: &[Vec2], advance: f64) -> Result<f64, InterfaceError> {
     Ok(near_line(points, advance)?.distance)
 }
@@ -79,8 +83,8 @@ fn near_line(points: &[Vec2], advance: f64) -> Result<NearPolygon, InterfaceErro
     })
 }
 
-/// Area (length squared) between y = 0 and one period of the polygon that continues `advance` further along x, positive
-/// where the left side of the polygon is between them; the area of the closed polygon where that is zero.
+/// Returns the area (length squared) between y = 0 and one period of the polygon that continues `advance` further along
+/// x, positive where the left side of the polygon is between them. The area of the closed polygon where that is zero.
 pub(crate) fn area(markers: &[Vec2], advance: f64) -> f64 {
     let (Some(first), Some(last)) = (markers.first(), markers.last()) else { return 0.0 };
     if advance == 0.0 {

@@ -29,7 +29,7 @@ pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
     edges(points).map(|(a, b)| (b - a).length()).sum()
 }
 
-/// Area moments as exact sums over the triangles that the first point makes with the edges.
+/// Returns the area moments as exact sums over the triangles that the first point makes with the edges.
 pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
     let origin = points.first().copied().unwrap_or_default();
     let (area, centre) = area_and_arm(points);
@@ -55,28 +55,29 @@ fn check(points: &[Vec2]) -> Result<(), InterfaceError> {
     Ok(all_points_finite("the points of the polygon", points)?)
 }
 
-/// Signed area of the polygon through the points (length squared), exact; positive for counter-clockwise order.
+/// Returns the signed area of the polygon through the points (length squared), exact; positive for counter-clockwise
+/// order.
 ///
 /// # Errors
-/// Fewer than three points, points that are not finite.
+/// Returns an error for fewer than three points, points that are not finite.
 pub fn polygon_area(points: &[Vec2]) -> Result<f64, InterfaceError> {
     check(points)?;
     Ok(raw_area(points))
 }
 
-/// Perimeter of the closed polygon through the points (length).
+/// Returns the perimeter of the closed polygon through the points (length).
 ///
 /// # Errors
-/// Fewer than three points, points that are not finite.
+/// Returns an error for fewer than three points, points that are not finite.
 pub fn polygon_perimeter(points: &[Vec2]) -> Result<f64, InterfaceError> {
     check(points)?;
     Ok(raw_perimeter(points))
 }
 
-/// Area, centroid and second moments of the area inside the polygon, exact.
+/// Returns the area, centroid and second moments of the area inside the polygon, exact.
 ///
 /// # Errors
-/// Fewer than three points, points that are not finite, no area.
+/// Returns an error for fewer than three points, points that are not finite, no area.
 pub fn polygon_moments(points: &[Vec2]) -> Result<AreaMoments, InterfaceError> {
     check(points)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));

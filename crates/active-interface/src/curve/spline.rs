@@ -17,8 +17,8 @@ pub(crate) struct PeriodicSpline {
 }
 
 impl PeriodicSpline {
-    /// The spline through at least three points, no two successive ones the same, advancing by `advance` in a period
-    /// (length; zero for a closed one).
+    /// Creates the spline through at least three points, no two successive ones the same, advancing by `advance` in a
+    /// period (length; zero for a closed one).
     pub(crate) fn new(given: &[Vec2], advance: Vec2) -> Result<Self, InterfaceError> {
         let m = given.len();
         let mut points = given.to_vec();
@@ -48,7 +48,7 @@ impl PeriodicSpline {
         Ok(Self { points, bends, knots })
     }
 
-    /// Position and its derivative by the parameter on piece k, at the fraction x of the piece.
+    /// Returns the position and its derivative by the parameter on piece k, at the fraction x of the piece.
     pub(crate) fn piece(&self, k: usize, x: f64) -> (Vec2, Vec2) {
         let m = self.bends.len();
         let h = self.knots[k + 1] - self.knots[k];
@@ -60,24 +60,24 @@ impl PeriodicSpline {
         (position, derivative)
     }
 
-    /// Length of the chord of piece k (length).
+    /// Returns the length of the chord of piece k (length).
     pub(crate) fn chord(&self, k: usize) -> f64 {
         self.knots[k + 1] - self.knots[k]
     }
 
-    /// The piece at the fraction `t` in [0, 1] of the parameter.
+    /// Returns the piece at the fraction `t` in [0, 1] of the parameter.
     pub(crate) fn piece_at(&self, t: f64) -> usize {
         let m = self.bends.len();
         self.knots[1..m].partition_point(|&knot| knot <= t * self.knots[m])
     }
 
-    /// The point at the fraction `t` in [0, 1] of the parameter.
+    /// Returns the point at the fraction `t` in [0, 1] of the parameter.
     pub(crate) fn point(&self, t: f64) -> Vec2 {
         let (u, k) = (t * self.knots[self.bends.len()], self.piece_at(t));
         self.piece(k, (u - self.knots[k]) / (self.knots[k + 1] - self.knots[k])).0
     }
 
-    /// Signed area: three-point Gauss quadrature, exact for the pieces' polynomials.
+    /// Returns the signed area: three-point Gauss quadrature, exact for the pieces' polynomials.
     pub(crate) fn area(&self) -> f64 {
         let origin = self.points[0];
         let offset = 0.5 * 0.6f64.sqrt();

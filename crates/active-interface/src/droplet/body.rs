@@ -14,7 +14,7 @@ use crate::{
     observables::{Convention, InterfaceState, Observables, observe},
 };
 
-/// Least radius of a droplet on a grid, in grid spacings: the speed is then about a per cent off.
+/// Minimum radius of a droplet on a grid, in grid spacings: the speed is then off by about 1 %.
 const LEAST_RADIUS: f64 = 5.0;
 
 impl Body for ActiveDroplet {
@@ -121,8 +121,8 @@ impl Body for ActiveDroplet {
         self.interface.step_limits(view, limits);
     }
 
-    /// Of the number inside that of all particles, so that an error inside counts as the same error of all segments
-    /// together does.
+    /// For the number inside, the error of the number of all particles, so that an error inside counts as the same
+    /// error of all segments together does.
     fn write_scales(&self, scales: &mut [f64]) {
         let (interface, inside) = scales.split_at_mut(self.interface.state_len());
         self.interface.write_scales(interface);
@@ -159,14 +159,14 @@ impl Body for ActiveDroplet {
                 _ => "more nodes and elements",
             };
             let message =
-                format!("its stresslet, {magnitude:.2e}, may err by {error:.1e} (force times length): use {remedy}");
+                format!("its stresslet, {magnitude:.2e}, may be off by {error:.1e} (force times length). Use {remedy}");
             ("stresslet not resolved", excess, message)
         });
         let own = coarse.into_iter().chain(stresslet).map(|doubt| self.interface.warning(doubt));
         Body::warnings(&self.interface, view).into_iter().chain(own).collect()
     }
 
-    /// Saved state of the interface, the number inside after its state.
+    /// Returns the saved state of the interface, the number inside after its state.
     fn save(&self) -> SavedState {
         let mut saved = self.interface.save();
         if let Some(pool) = &self.pool {
@@ -194,7 +194,7 @@ impl Body for ActiveDroplet {
 impl Observe for ActiveDroplet {
     type Observables = Observables;
 
-    /// All observables ([`observe`]) in the far-field convention; for another one see [`InterfaceState::of`].
+    /// Returns all observables ([`observe`]) in the far-field convention; for another one see [`InterfaceState::of`].
     fn observables(&self, view: &FluidView, flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
         Ok(observe(&InterfaceState::new(self, view, flow), Convention::FarField)?)
     }

@@ -11,9 +11,10 @@ use crate::curve::polygon::edges;
 use crate::interface::grid_spacing;
 
 /// Errors over gamma R, gamma the mean tension and R the radius, measured (`tests/physics/stresslets.rs`): of first
-/// order in h/R with uncorrected velocities. With the correction of second order: in units of the squared number
-/// `R max|V_t - W|/D` by which the concentration is carried against its diffusion, which sets how steep it is, more so
-/// where a gap to an image is narrow, by R over half of it; beside walls in units of (R/gap)^3. Up to a largest value.
+/// order in h/R with uncorrected velocities. With the correction of second order: in units of the squared number `R
+/// max|V_t - W|/D` by which the concentration is carried against its diffusion, which sets how steep it is. The number
+/// is larger if a gap to an image is narrow, by R over half of it; next to walls in units of (R/gap)^3. Up to a largest
+/// value.
 const UNCORRECTED: f64 = 1.7;
 const STEEP: f64 = 0.007;
 const BESIDE_IMAGES: f64 = 0.3;
@@ -25,13 +26,13 @@ const OF_NODES: f64 = 4.0;
 const OF_ELEMENTS: f64 = 1.5;
 /// Waves of the tension that are looked at, from the shortest that nodes carry on.
 const WAVES: usize = 8;
-/// By layers beside solids: in units of the number of [`STEEP`] squared and of (h/R)^1.5, the order that was found with
-/// gaps of 0.16 R to elastic walls.
+/// By layers next to solids: in units of the number of [`STEEP`] squared and of (h/R)^1.5, the order that was found
+/// with gaps of 0.16 R to elastic walls.
 const OF_SOLIDS: f64 = 0.004;
-/// Part of the stresslet that its error may be without a warning.
+/// Fraction of the stresslet that its error may be without a warning.
 const TOLERATED: f64 = 0.01;
 /// Stresslet over gamma R below which errors are compared with this instead, on grids and without: a stresslet that
-/// changes its sign has no relative error then. Without a grid the error that is told is up to five times too large in
+/// changes its sign has no relative error then. Without a grid, the reported error is up to five times too large in
 /// wide regions.
 const SMALLEST: [f64; 2] = [0.05, 0.1];
 
@@ -47,11 +48,11 @@ pub(super) struct StressletError {
 }
 
 impl ActiveDroplet {
-    /// Error of the stresslet in the flow of `view`; `None` in three dimensions, and for droplets without particles,
-    /// whose shape and forces relax to none.
+    /// Returns the error of the stresslet in the flow of `view`; `None` in three dimensions, and for droplets without
+    /// particles, whose shape and forces relax to none.
     ///
     /// The stresslet `-integral gamma (tt - 1/2) ds` is what remains of a mean tension that is an order of magnitude
-    /// larger: its error is that of the shape times the mean tension, and speeds do not show it.
+    /// larger: its error is the error of the shape times the mean tension, and speeds do not show it.
     pub(super) fn stresslet_error(&self, view: &FluidView) -> Option<StressletError> {
         if !self.interface.carries() || self.interface.is_axisymmetric() {
             return None;
@@ -84,7 +85,7 @@ impl ActiveDroplet {
         Some(StressletError { magnitude, error, excess: error / tolerated })
     }
 
-    /// Error over gamma R on a grid of that spacing.
+    /// Returns the error over gamma R on a grid of that spacing.
     fn part_on_grid(&self, view: &FluidView, spacing: f64, radius: f64, steepness: f64) -> f64 {
         let cells = spacing / radius;
         if view.second_order {
@@ -109,7 +110,8 @@ impl ActiveDroplet {
     }
 }
 
-/// Root mean square of the amplitudes of the waves of values along an interface that so many nodes do not carry.
+/// Returns the root mean square of the amplitudes of the waves of values along an interface that so many nodes do not
+/// carry.
 fn cut_off(values: &[f64], nodes: usize) -> f64 {
     let count = values.len();
     let first = (nodes / 2).min(count / 2);

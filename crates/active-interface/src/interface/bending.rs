@@ -18,7 +18,7 @@ impl Bending {
         Ok(Self { modulus, reference, forces: CurveForces::new(count)? })
     }
 
-    /// Energy `B/2 INT (kappa - kappa0)^2 ds` (force times length) of the curve through the markers.
+    /// Returns the energy `B/2 INT (kappa - kappa0)^2 ds` (force times length) of the curve through the markers.
     pub(super) fn energy(&self, markers: &[Vec2], advance: f64) -> Result<f64, InputError> {
         let mut curve = self.forces.clone();
         curve.move_to_over(markers, Vec2::new(advance, 0.0))?;
@@ -38,7 +38,8 @@ impl Bending {
         curve.add(pull, forces)
     }
 
-    /// Tension (force) that makes a flat interface relax as fast as the bending does at a wave number (1/length).
+    /// Returns the tension (force) that makes a flat interface relax as fast as the bending does at a wave number
+    /// (1/length).
     pub(super) fn tension(&self, wave: f64) -> f64 {
         self.modulus * (wave * wave + 0.5 * self.reference * self.reference)
     }

@@ -10,10 +10,10 @@ use motile_scene::{
 use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, geometry::Geometry, geometry::outward};
 use crate::{InterfaceError, concentration::Repair, curve::polygon::raw_area};
 
-/// Multiples of the mean concentration at which the tension is compared to tell one law from another.
+/// Multiples of the mean concentration at which the tension is compared to distinguish laws.
 const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
-/// Part of all particles in one segment above which they have collapsed: more than the eighth that each segment of the
-/// coarsest interface has when all are equal.
+/// Fraction of all particles in one segment above which they have collapsed: more than the eighth that each segment of
+/// the coarsest interface has when all are equal.
 const COLLAPSED: f64 = 0.15;
 
 /// Stretch of an elastic interface below which a step is an error.
@@ -55,7 +55,7 @@ impl Body for ActiveInterface {
         Ok(self.all_forces(view, forces)?)
     }
 
-    /// Two coordinates a marker, and a particle number a segment where there are particles.
+    /// Returns two coordinates per marker, and a particle number per segment if there are particles.
     fn state_len(&self) -> usize {
         2 * self.markers().len() + self.state.numbers.len()
     }
@@ -143,7 +143,7 @@ impl Body for ActiveInterface {
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
 
-    /// Viscosity, tension law, diffusion and bending, and the number of markers at the start.
+    /// Returns the viscosity, tension law, diffusion and bending, and the number of markers at the start.
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = Vec::new();
         let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
@@ -210,17 +210,18 @@ impl Body for ActiveInterface {
 }
 
 impl ActiveInterface {
-    /// Entries of the state for a marker.
+    /// Returns the entries of the state for a marker.
     pub(crate) fn per_marker(&self) -> usize {
         if self.carries() { 3 } else { 2 }
     }
 
-    /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
+    /// Returns the mean of the viscosities on both sides, on which the speed of an interface depends (stress times
+    /// time).
     fn mean_viscosity(&self, view: &FluidView) -> f64 {
         self.law.viscosity_inside.map_or(view.viscosity, |inside| 0.5 * (inside + view.viscosity))
     }
 
-    /// A doubt, as cause, excess and message, as a warning of this body.
+    /// Returns a doubt, as cause, excess and message, as a warning of this body.
     pub(crate) fn warning(&self, (cause, excess, message): (&'static str, f64, String)) -> Warning {
         Warning { body: self.name.clone(), cause: cause.into(), excess, message }
     }
@@ -241,9 +242,9 @@ impl ActiveInterface {
         self.check_stretch()
     }
 
-    /// Present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed, unless that
-    /// of the smooth curve is held, else of the curve through the markers; volume of a body of revolution (length
-    /// cubed).
+    /// Returns the present area (length squared), as [`ActiveInterface::initial_area`]: of the polygon if it is closed,
+    /// unless the area of the smooth curve is held, else of the curve through the markers. For a body of revolution, it
+    /// is the volume (length cubed).
     pub(crate) fn area(&self) -> f64 {
         if self.state.shape.axisymmetric {
             return self.geometry().volume(self.markers());
@@ -261,8 +262,8 @@ impl ActiveInterface {
         -columns.map(|((marker, tangent), weight)| marker.y * tangent.x * weight).sum::<f64>()
     }
 
-    /// True for a closed smooth curve whose area is restored after each step: that of the polygon through as many
-    /// markers changes with the shape.
+    /// Returns true for a closed smooth curve whose area is restored after each step. It is the area of the polygon
+    /// through as many markers changes with the shape.
     pub(super) fn keeps_smooth_area(&self) -> bool {
         self.law.keeps_area && self.scheme.spectral.is_some() && self.advance() == 0.0
     }
@@ -317,14 +318,14 @@ impl ActiveInterface {
         Ok(())
     }
 
-    /// Radius of the circle or sphere of the size at the start (length).
+    /// Returns the radius of the circle or sphere of the size at the start (length).
     pub(super) fn radius_at_start(&self) -> f64 {
         let size = self.account.area / PI;
         if self.state.shape.axisymmetric { (0.75 * size).cbrt() } else { size.sqrt() }
     }
 
     /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second
-    /// time for the quadratic part), or scales a body of revolution to its volume: that adds no waves which the flow
+    /// time for the quadratic part), or scales a body of revolution to its volume. This adds no waves that the flow
     /// does not see, and keeps equal spacing.
     fn restore_area(&mut self) {
         if self.state.shape.axisymmetric {

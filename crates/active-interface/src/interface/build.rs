@@ -17,16 +17,16 @@ use crate::{
 };
 
 impl Account {
-    /// Bounds unless a user gives others. An area that is 5 per cent off makes speeds wrong by per cents. Transport
-    /// keeps the number of particles to round-off, some 1e-16 a step.
+    /// Default bounds. An area that is off by 5 % puts speeds off by a few percent. Transport keeps the number of
+    /// particles to round-off, about 1e-16 per step.
     const BOUNDS: [f64; 2] = [0.05, 1e-8];
 }
 
 impl ActiveInterface {
-    /// An interface that is periodic along x, from the markers of one period (equally spaced), the advance along x to
-    /// the next image of the first marker (length; plus or minus the period of the region), the particle numbers of the
-    /// segments that follow the markers, the tension law and the particles' diffusion constant along the interface
-    /// (length squared per time). Its inside is to the left: above it where the advance is positive.
+    /// Creates an interface that is periodic along x, from the markers of one period (equally spaced), the advance
+    /// along x to the next image of the first marker (length; plus or minus the period of the region), the particle
+    /// numbers of the segments that follow the markers, the tension law and the particles' diffusion constant along the
+    /// interface (length squared per time). Its inside is to the left: above it where the advance is positive.
     ///
     /// ```
     /// use active_interface::{ActiveInterface, ContractileTension, wave};
@@ -42,9 +42,12 @@ impl ActiveInterface {
     /// ```
     ///
     /// # Errors
-    /// An advance that is zero or not finite; fewer than eight markers, lists of different length, positions that are
-    /// not finite, coincide, are spaced by more than a factor of four unevenly, do not close across the period, or
-    /// whose curve crosses itself or its image; negative or non-finite numbers, a negative diffusion constant.
+    /// Returns an error for:
+    /// * an advance that is zero or not finite,
+    /// * fewer than eight markers, lists of different length, positions that are not finite, coincide, are spaced by
+    ///   more than a factor of four unevenly, do not close across the period, or whose curve crosses itself or its
+    ///   image,
+    /// * negative or non-finite numbers, a negative diffusion constant.
     pub fn periodic(
         markers: &[Vec2],
         advance: f64,
@@ -56,22 +59,22 @@ impl ActiveInterface {
         Self::build(markers.to_vec(), advance, numbers, Arc::new(tension), Some(diffusion))
     }
 
-    /// An interface that is periodic along x ([`ActiveInterface::periodic`]) without particles, of constant tension
-    /// (force).
+    /// Creates an interface that is periodic along x ([`ActiveInterface::periodic`]) without particles, of constant
+    /// tension (force).
     ///
     /// # Errors
-    /// Those of [`ActiveInterface::periodic`], and a tension that is negative or not finite.
+    /// Returns the errors of [`ActiveInterface::periodic`], and a tension that is negative or not finite.
     pub fn periodic_passive(markers: &[Vec2], advance: f64, tension: f64) -> Result<Self, InterfaceError> {
         check_period(markers, advance)?;
         let tension = Arc::new(crate::ConstantTension::new(tension)?);
         Self::build(markers.to_vec(), advance, Vec::new(), tension, None)
     }
 
-    /// The interface through checked markers, closed where it does not advance; without particles where there is no
-    /// diffusion constant of theirs.
+    /// Creates the interface through checked markers, closed where it does not advance; without particles if there is
+    /// no diffusion constant of theirs.
     ///
     /// # Errors
-    /// Lists of different length, negative or non-finite numbers, a negative diffusion constant.
+    /// Returns an error for lists of different length, negative or non-finite numbers, a negative diffusion constant.
     pub(crate) fn build(
         markers: Vec<Vec2>,
         advance: f64,
@@ -159,24 +162,24 @@ impl ActiveInterface {
     }
 
     /// Restores the initial area after each step, by an equal normal displacement of all markers (off by default: the
-    /// motion keeps the area but for the error of the time step).
+    /// motion keeps the area up to the error of the time step).
     #[must_use]
     pub fn with_area_constraint(mut self, on: bool) -> Self {
         self.law.keeps_area = on;
         self
     }
 
-    /// Makes an elastic membrane of an interface that is periodic along x, at rest in its present shape, with the
-    /// moduli of stretching E_s (force) and bending B (force times length squared): its energy is
-    /// `INT E_s/2 (lambda - 1)^2 + B/2 (kappa - kappa0)^2 dS` over its reference length, lambda the stretch and kappa
-    /// the curvature, and its forces, besides those of the tension, are minus the gradient of that by the markers. Its
-    /// points are the markers, which move with the fluid ([`Motion::WithFluid`]), and carry the particles along.
+    /// Turns an interface that is periodic along x into an elastic membrane, at rest in its present shape, with the
+    /// moduli of stretching E_s (force) and bending B (force times length squared). Its energy is `INT E_s/2 (lambda -
+    /// 1)^2 + B/2 (kappa - kappa0)^2 dS` over its reference length, lambda the stretch and kappa the curvature, and its
+    /// forces, in addition to the tension, are minus the gradient of this energy by the markers. Its points are the
+    /// markers, which move with the fluid ([`Motion::WithFluid`]), and carry the particles along.
     ///
-    /// On a flat membrane between two fluids a wave of the displacement along it decays at the rate
-    /// `E_s k/(2 (eta_1 + eta_2))`, one of the height at `(gamma k + B k^3)/(2 (eta_1 + eta_2))`.
+    /// On a flat membrane between two fluids, a wave of the displacement along it decays at the rate `E_s k/(2 (eta_1 +
+    /// eta_2))`, one of the height at `(gamma k + B k^3)/(2 (eta_1 + eta_2))`.
     ///
     /// # Errors
-    /// A closed interface, moduli that are negative or not finite.
+    /// Returns an error for a closed interface, moduli that are negative or not finite.
     pub fn with_elasticity(mut self, stretching: f64, bending: f64) -> Result<Self, InterfaceError> {
         if self.advance() == 0.0 {
             return Err(InterfaceError::closed_membrane());
@@ -187,7 +190,8 @@ impl ActiveInterface {
         Ok(self)
     }
 
-    /// Elastic energy of the shape whose forces were last written (force times length); zero without elasticity.
+    /// Returns the elastic energy of the shape whose forces were last written (force times length); zero without
+    /// elasticity.
     #[must_use]
     pub fn elastic_energy(&self) -> f64 {
         self.law.elasticity.as_ref().map_or(0.0, Membrane::energy)
@@ -197,7 +201,7 @@ impl ActiveInterface {
     /// an error (5e-2 and 1e-8 by default; infinity for none).
     ///
     /// # Errors
-    /// A bound that is negative or not a number.
+    /// Returns an error for a bound that is negative or not a number.
     pub fn with_bounds(mut self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
         for (name, value) in [("the bound on the area", area), ("the bound on the particles", particles)] {
             if value.is_nan() || value < 0.0 {
@@ -214,8 +218,8 @@ impl ActiveInterface {
     /// truncation of the motion to the modes of the flow does not keep it.
     ///
     /// # Errors
-    /// An odd number of markers, markers that are not the mirror image of one another, particle numbers that are not
-    /// those of the mirror image, markers that move with the fluid.
+    /// Returns an error for an odd number of markers, markers that are not the mirror image of one another, particle
+    /// numbers that differ from the mirror image, markers that move with the fluid.
     pub fn axisymmetric(mut self) -> Result<Self, InterfaceError> {
         let (markers, count) = (self.markers(), self.markers().len());
         let differs = |k: &usize| {
@@ -258,7 +262,7 @@ impl ActiveInterface {
         Ok(self)
     }
 
-    /// True for a body of revolution in three dimensions.
+    /// Returns true for a body of revolution in three dimensions.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         self.state.shape.axisymmetric
@@ -279,10 +283,10 @@ impl ActiveInterface {
         self
     }
 
-    /// Gives the fluid inside another viscosity (stress times time) than that outside.
+    /// Gives the fluid inside another viscosity (stress times time) than the fluid outside.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite.
+    /// Returns an error for a viscosity that is not positive and finite.
     pub fn with_viscosity_inside(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
         self.law.viscosity_inside = Some(positive("the viscosity inside", viscosity)?);
         Ok(self)
@@ -291,12 +295,12 @@ impl ActiveInterface {
     /// Makes the interface resist bending, with the energy `B/2 INT (kappa - kappa0)^2 ds` over its present length
     /// (Helfrich, "Elastic properties of lipid bilayers: theory and possible experiments"), kappa its curvature
     /// (1/length; positive for a circle). The forces are minus the gradient of this energy by the markers, with the
-    /// derivatives of the Fourier series through them. On a circle of radius R a mode k then relaxes as if the tension
+    /// derivatives of the Fourier series through them. On a circle of radius R, a mode k then relaxes as if the tension
     /// were larger by `B (k^2 - 3/2)/R^2 + B kappa0^2/2`.
     ///
     /// # Errors
-    /// A modulus B (force times length squared) that is negative or not finite, a reference curvature kappa0 (1/length)
-    /// that is not finite.
+    /// Returns an error for a modulus B (force times length squared) that is negative or not finite, a reference
+    /// curvature kappa0 (1/length) that is not finite.
     pub fn with_bending(mut self, modulus: f64, reference_curvature: f64) -> Result<Self, InterfaceError> {
         not_negative("the bending modulus", modulus)?;
         finite("the reference curvature", reference_curvature)?;
@@ -307,93 +311,95 @@ impl ActiveInterface {
         Ok(self)
     }
 
-    /// Energy of bending (force times length), 0 without.
+    /// Returns the energy of bending (force times length), 0 without.
     ///
     /// # Errors
-    /// Markers that were inserted or removed since the start ([`Motion::WithFluid`]), which interfaces with bending do
-    /// not allow.
+    /// Returns an error for markers that were inserted or removed since the start ([`Motion::WithFluid`]), which
+    /// interfaces with bending do not allow.
     pub fn bending_energy(&self) -> Result<f64, InterfaceError> {
         Ok(self.law.bending.as_ref().map_or(Ok(0.0), |bending| bending.energy(self.markers(), self.advance()))?)
     }
 
-    /// Switches off the check that the particles on the interface are conserved: for exchange with another body, such
-    /// as one that fills the droplet, which keeps the sum.
+    /// Switches off the check that the particles on the interface are conserved. Use this if they are exchanged with
+    /// another body that keeps the sum, such as one that fills the droplet.
     #[must_use]
     pub fn with_open_number(mut self) -> Self {
         self.account.bounds[1] = f64::INFINITY;
         self
     }
 
-    /// Marker positions (length), counter-clockwise, not wrapped into a periodic box.
+    /// Returns the marker positions (length), counter-clockwise, not wrapped into a periodic box.
     #[must_use]
     pub fn markers(&self) -> &[Vec2] {
         &self.state.shape.markers
     }
 
-    /// Velocities of the markers (length per time) as of the last [`motile_scene::Body::rate`]: along the normal those
-    /// of the fluid.
+    /// Returns the velocities of the markers (length per time) as of the last [`motile_scene::Body::rate`]: along the
+    /// normal the velocities of the fluid.
     #[must_use]
     pub fn marker_motion(&self) -> &[Vec2] {
         &self.derived.motions
     }
 
-    /// Particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive interface.
+    /// Returns the particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive
+    /// interface.
     #[must_use]
     pub fn particle_numbers(&self) -> &[f64] {
         &self.state.numbers
     }
 
-    /// Concentrations on the segments (particles per length).
+    /// Returns the concentrations on the segments (particles per length).
     #[must_use]
     pub fn concentrations(&self) -> &[f64] {
         &self.derived.concentrations
     }
 
-    /// Tensions of the segments (force).
+    /// Returns the tensions of the segments (force).
     #[must_use]
     pub fn tensions(&self) -> &[f64] {
         &self.derived.tensions
     }
 
-    /// Lengths of the segments (length).
+    /// Returns the lengths of the segments (length).
     #[must_use]
     pub fn element_lengths(&self) -> &[f64] {
         &self.state.shape.geometry.lengths
     }
 
-    /// Advance along x from the first marker to its next image (length), zero for a closed interface.
+    /// Returns the advance along x from the first marker to its next image (length), zero for a closed interface.
     #[must_use]
     pub fn advance(&self) -> f64 {
         self.state.shape.advance
     }
 
-    /// Area of the polygon at the start (length squared), of a body of revolution its volume (length cubed); of an
-    /// interface that is periodic along x the area between it and y = 0 in one period, positive where its inside is
-    /// between them.
+    /// Returns the area of the polygon at the start (length squared), of a body of revolution its volume (length
+    /// cubed); of an interface that is periodic along x the area between it and y = 0 in one period, positive where its
+    /// inside is between them.
     #[must_use]
     pub fn initial_area(&self) -> f64 {
         self.account.area
     }
 
-    /// Diffusion constant of the particles (length squared per time).
+    /// Returns the diffusion constant of the particles (length squared per time).
     #[must_use]
     pub fn diffusion(&self) -> f64 {
         self.law.diffusion
     }
 
-    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the exterior fluid.
+    /// Returns the viscosity of the fluid inside (stress times time), `None` if it is the viscosity of the exterior
+    /// fluid.
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.law.viscosity_inside
     }
 
-    /// Repairs of negative particle numbers since the start.
+    /// Returns how often negative particle numbers were repaired since the start.
     #[must_use]
     pub fn repair(&self) -> Repair {
         self.account.kept.repair
     }
 
-    /// Numbers of markers inserted and removed since the start ([`Motion::WithFluid`]).
+    /// Returns the numbers of markers inserted and removed since the start ([`Motion::WithFluid`]).
     #[must_use]
     pub fn redistributed(&self) -> (usize, usize) {
         let kept = self.account.kept;

@@ -10,13 +10,14 @@ const STRONGEST: f64 = 0.5;
 /// Most passes a step: more, of steps that long, would smooth the shape itself.
 const MOST_PASSES: f64 = 20.0;
 
-/// Filter that relaxes modes of the markers shorter than the kernel (docs/method.md). The kernel's transform
-/// vanishes at the wave number 2 pi / h, so that tension does not act on them while the converging surface flow
-/// amplifies them.
+/// Filter that relaxes modes of the markers shorter than the kernel (docs/explanation/time-stepping.md). The kernel's
+/// transform vanishes at the wave number 2 pi / h, so that tension does not act on them while the converging surface
+/// flow amplifies them.
 ///
 /// With the short-wave part `e = (1 - S)^2 X` of the positions, `S = (1 - l^2 d_ss)^-1`, l = h/2, each marker moves by
-/// `-a (e . n) n`, `a = dt gamma / (2 eta h)`, in as many passes as make a at most a half in each, so that the decay
-/// over a time does not depend on the length of steps. The area that this would change is restored evenly.
+/// `-a (e . n) n`, `a = dt gamma / (2 eta h)`, in as many passes. There are as many passes as make a at most a half in
+/// each, so that the decay over a time does not depend on the length of steps. The area that this would change is
+/// restored evenly.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ShortWaveFilter {
     once: Vec<Vec2>,

@@ -40,7 +40,8 @@ pub(crate) struct Rings {
 }
 
 impl Rings {
-    /// Factors of the trapezoidal rule's weights for so many markers that integrate sines from 0 to pi exactly.
+    /// Returns the factors of the trapezoidal rule's weights for so many markers that integrate sines from 0 to pi
+    /// exactly.
     pub(crate) fn quadrature(count: usize) -> Vec<f64> {
         let half = count / 2;
         let waves: Vec<f64> = (0..count).map(|k| (std::f64::consts::PI * k as f64 / half as f64).sin()).collect();
@@ -62,7 +63,7 @@ impl Geometry {
         self.weights.resize(count, 0.0);
     }
 
-    /// The geometry of the polygon through the markers, which continues `advance` further along x (length).
+    /// Returns the geometry of the polygon through the markers, which continues `advance` further along x (length).
     pub(crate) fn update(&mut self, markers: &[Vec2], advance: f64) {
         let (count, period) = (markers.len(), Vec2::new(advance, 0.0));
         self.resize(count);
@@ -82,43 +83,44 @@ impl Geometry {
         }
     }
 
-    /// Cells of particles.
+    /// Returns the cells of particles.
     pub(crate) fn cells(&self) -> Cells<'_> {
         let Self { lengths, rings, .. } = self;
         let sizes = if rings.areas.is_empty() { lengths } else { &rings.areas };
         Cells { sizes, lengths, faces: &rings.circles }
     }
 
-    /// Weights of the markers in an integral over the interface (length, or length squared).
+    /// Returns the weights of the markers in an integral over the interface (length, or length squared).
     fn all_weights(&self) -> &[f64] {
         if self.rings.weights.is_empty() { &self.weights } else { &self.rings.weights }
     }
 
-    /// Volume of a body of revolution through these markers (length cubed).
+    /// Returns the volume of a body of revolution through these markers (length cubed).
     pub(crate) fn volume(&self, markers: &[Vec2]) -> f64 {
         let parts = markers.iter().zip(&self.tangents).zip(self.all_weights());
         parts.map(|((x, tau), weight)| weight * (x - markers[0]).dot(outward(*tau)) / 3.0).sum()
     }
 
-    /// Length of the interface, or area of a surface of revolution by the markers' weights.
+    /// Returns the length of the interface, or area of a surface of revolution by the markers' weights.
     pub(crate) fn total_weight(&self) -> f64 {
         self.all_weights().iter().sum()
     }
 
-    /// Mean length of the segments (length).
+    /// Returns the mean length of the segments (length).
     pub(crate) fn mean_length(&self) -> f64 {
         self.perimeter / self.lengths.len() as f64
     }
 }
 
-/// Outward unit normal of a counter-clockwise curve with this unit tangent.
+/// Returns the outward unit normal of a counter-clockwise curve with this unit tangent.
 #[inline]
 pub(crate) fn outward(tangent: Vec2) -> Vec2 {
     Vec2::new(tangent.y, -tangent.x)
 }
 
-/// Rate at which a flow moves markers around or away (1/time): the root mean square of their velocities over the
-/// radius of a circle of the same perimeter. Spacing becomes unequal by errors of that motion, a translation included.
+/// Returns the rate at which a flow moves markers around or away (1/time). It is the root mean square of their
+/// velocities over the radius of a circle of the same perimeter. Spacing becomes unequal by errors of that motion, a
+/// translation included.
 pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
     let square = velocities.iter().map(|velocity| velocity.length_squared()).sum::<f64>() / velocities.len() as f64;
     square.sqrt() * std::f64::consts::TAU / geometry.perimeter
@@ -155,7 +157,8 @@ pub(super) fn add_tangential_motion(
     }
 }
 
-/// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md):
+/// Returns the velocities of markers that follow the interface normally and stay equally spaced
+/// (docs/explanation/time-stepping.md):
 ///
 /// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
 /// * tangential velocity W with `W_{k+1} - W_k = mean(q) - q_k + rho (mean(l) - l_k)`, where

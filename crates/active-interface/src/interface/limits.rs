@@ -10,36 +10,35 @@ use crate::Tension;
 use crate::concentration::{Flux, element_peclet};
 
 /// Element Peclet number `ds max|V_t - W| / D` (no dimension) above which the edge of the concentration is not
-/// resolved, on however fine a grid: speeds may be off by a per cent (measured by the study `warnings`).
+/// resolved, on however fine a grid: speeds may be off by 1 % (measured by the study `warnings`).
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
-/// Nodes of a swimmer's shape below which its speed is off by more than 1 %: at activities of -2, -3 and -4,
-/// with 600 cells, by -1.8, -1.6 and -0.5 per cent with 16 nodes, and by -0.1, 0 and -0.6 with 24.
+/// Nodes of a swimmer's shape below which its speed is off by more than 1 %. At activities of -2, -3 and -4, with 600
+/// cells, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0 and -0.6 with 24.
 const LEAST_NODES: usize = 24;
-/// Error of the speed of swimmers with the upwind flux, in per cent: 2.9 to 6.6 with 192 cells at activities of -2 to
-/// -4.
+/// Error of the speed of swimmers with the upwind flux, in %: 2.9 to 6.6 with 192 cells at activities of -2 to -4.
 const UPWIND_ERROR: f64 = 3.5;
 
-/// Grid spacing h (length) that the motion of an interface sees; `None` where the flow resolves the interface by modes,
-/// as boundary integrals and layers do, whether or not there is a grid for other bodies.
+/// Returns the grid spacing h (length) that the motion of an interface sees. It is `None` if the flow resolves the
+/// interface by modes, as boundary integrals and layers do, whether or not there is a grid for other bodies.
 pub(crate) fn grid_spacing(view: &FluidView) -> Option<f64> {
     view.spacing.filter(|_| view.shape_modes.is_none())
 }
 
-/// Length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the
-/// largest resolved wave number q. The stiffness of the interface is q/4, the rate of a flat interface of unit tension
-/// and viscosity, which makes that length a half over the stiffness.
+/// Returns the length below which the flow no longer responds to forces along an interface. It is the grid spacing, or
+/// 2/q for the largest resolved wave number q. The stiffness of the interface is q/4, the rate of a flat interface of
+/// unit tension and viscosity, which makes that length a half over the stiffness.
 pub(super) fn finest_response(view: &FluidView) -> f64 {
     grid_spacing(view).unwrap_or(0.5 / view.interface_stiffness)
 }
 
-/// Multiple of the mean concentration beyond which a tension law is not looked at: that of all particles on one of a
-/// thousand segments.
+/// Multiple of the mean concentration beyond which a tension law is not looked at: the concentration of all particles
+/// on one of a thousand segments.
 const MOST_CONCENTRATED: f64 = 1024.0;
 
-/// True for a tension that grows in proportion to the concentration, or faster, up to the largest one looked at: then
-/// the flow that the particles drive grows as fast as the diffusion that spreads them, however densely they lie. Its
-/// mean slopes between concentrations at ratios of two are compared.
+/// Returns true for a tension that grows in proportion to the concentration, or faster, up to the largest one looked
+/// at. Then the flow that the particles drive grows as fast as the diffusion that spreads them, however densely they
+/// lie. Its mean slopes between concentrations at ratios of two are compared.
 fn grows_without_bound(tension: &dyn Tension, mean: f64) -> bool {
     let slope = |c: f64| (tension.value(c) - tension.value(0.5 * c)) / (0.5 * c);
     let last = slope(MOST_CONCENTRATED * mean);
@@ -48,9 +47,10 @@ fn grows_without_bound(tension: &dyn Tension, mean: f64) -> bool {
 }
 
 impl ActiveInterface {
-    /// Element Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the velocity of the
-    /// fluid along the interface relative to the markers, ds the length of the segments. 0 without particles, infinite
-    /// for particles that do not diffuse. Above 0.35 the edge of the concentration is not resolved.
+    /// Returns the element Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the
+    /// velocity of the fluid along the interface relative to the markers, ds the length of the segments. 0 without
+    /// particles, infinite for particles that do not diffuse. Above 0.35, the edge of the concentration is not
+    /// resolved.
     #[must_use]
     pub fn element_peclet(&self) -> f64 {
         if self.carries() {
@@ -64,7 +64,8 @@ impl ActiveInterface {
         self.derived.tensions.iter().fold(0.0_f64, |a, &b| a.max(b))
     }
 
-    /// Largest wave number of the shape (1/length): that of the flow, or on a grid that of the markers.
+    /// Returns the largest wave number of the shape (1/length). It is the largest one of the flow, or on a grid of the
+    /// markers.
     fn shortest_wave(&self, view: &FluidView) -> f64 {
         match view.shape_modes {
             Some(_) => 4.0 * view.interface_stiffness,
@@ -72,7 +73,7 @@ impl ActiveInterface {
         }
     }
 
-    /// Unit of the rate at which unequal spacing relaxes (1/time), see [`Motion::Equidistributed`].
+    /// Returns the unit of the rate at which unequal spacing relaxes (1/time), see [`Motion::Equidistributed`].
     pub(super) fn spacing_rate(&self, viscosity: f64) -> f64 {
         let radius = self.geometry().perimeter / TAU;
         if self.carries() {
@@ -81,7 +82,8 @@ impl ActiveInterface {
         0.2 * self.largest_tension() / (viscosity * radius)
     }
 
-    /// Largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to 2/a.
+    /// Returns the largest stable steps of the explicit midpoint rule, which is stable for decay at the rate a up to
+    /// 2/a.
     pub(super) fn add_step_limits(&self, view: &FluidView, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
         let (bending, reason) = match &self.law.bending {
             None => (0.0, "the surface tension"),
@@ -130,8 +132,8 @@ impl ActiveInterface {
         }
     }
 
-    /// Mean concentration at the start (particles per length, or area in three dimensions), on a circle or sphere of
-    /// the size at the start, or on a straight line.
+    /// Returns the mean concentration at the start (particles per length, or area in three dimensions), on a circle or
+    /// sphere of the size at the start, or on a straight line.
     pub(super) fn mean_concentration(&self) -> f64 {
         let length = match self.advance().abs() {
             0.0 => {
@@ -143,7 +145,8 @@ impl ActiveInterface {
         self.account.number / length
     }
 
-    /// Warning of a tension law that lets the particles collapse towards a point: its own, or one of its values.
+    /// Returns the warning of a tension law that lets the particles collapse towards a point: its own, or one of its
+    /// values.
     pub(super) fn collapse(&self) -> Option<String> {
         let tension = self.law.tension.as_ref();
         tension.warning().or_else(|| {
@@ -152,15 +155,15 @@ impl ActiveInterface {
                 let most = MOST_CONCENTRATED * mean;
                 format!(
                     "the tension still grows in proportion to the concentration at {most:.2e}, {MOST_CONCENTRATED} \
-                     times the mean one, so that the particles collapse towards a point: use a law that levels off \
+                     times the mean one, so that the particles collapse towards a point. Use a law that levels off \
                      (an excluded volume does)"
                 )
             })
         })
     }
 
-    /// Doubt about a negative tension: waves of an interface under compression grow faster the shorter they are, unless
-    /// its bending holds the shortest of them.
+    /// Returns the doubt about a negative tension: waves of an interface under compression grow faster the shorter they
+    /// are, unless its bending holds the shortest of them.
     fn negative_tension(&self, view: &FluidView) -> Option<(&'static str, f64, String)> {
         let tensions = &self.derived.tensions;
         let count = tensions.len();
@@ -203,7 +206,7 @@ impl ActiveInterface {
         Some(("tension negative", if excess.is_nan() { f64::INFINITY } else { excess }, message))
     }
 
-    /// Doubts about the present state, as cause, excess and message.
+    /// Returns the doubts about the present state, as cause, excess and message.
     pub(super) fn doubts(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
         let law = self.collapse().map(|message| ("tension without a plateau", f64::INFINITY, message));
         let negative = self.negative_tension(view);
@@ -214,7 +217,7 @@ impl ActiveInterface {
                 let cells = (self.geometry().perimeter / spacing).ceil();
                 format!("use {cells} cells (markers) instead of {}, {spacing:.2e} apart", self.geometry().lengths.len())
             } else {
-                "give the particles a diffusion constant".to_owned()
+                "use a positive diffusion constant".to_owned()
             };
             let [text, limit] = told_apart([peclet, PECLET_LIMIT]);
             let message = format!(

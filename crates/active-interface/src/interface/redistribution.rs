@@ -49,7 +49,8 @@ pub(crate) fn redistribute(
     (inserted, removed)
 }
 
-/// Point half way (in chord length) between the two middle ones of four points, on the cubic through all of them.
+/// Returns the point half way (in chord length) between the two middle ones of four points, on the cubic through all of
+/// them.
 fn midpoint(points: [Vec2; 4]) -> Vec2 {
     let mut at = [0.0; 4];
     for i in 1..4 {

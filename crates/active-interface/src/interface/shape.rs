@@ -20,7 +20,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Tells whether the markers are at these positions (x and y of each), bit by bit.
+    /// Returns true if the markers are at exactly these positions (x and y of each).
     pub(crate) fn is_at(&self, positions: &[f64]) -> bool {
         let same = |marker: &Vec2, pair: &[f64]| {
             [marker.x.to_bits(), marker.y.to_bits()] == [pair[0], pair[1]].map(f64::to_bits)
@@ -38,7 +38,7 @@ impl Shape {
         }
     }
 
-    /// Computes the geometry of the smooth curve where there is one for as many markers, else that of the polygon.
+    /// Computes the geometry of the smooth curve if there is one for as many markers, else the geometry of the polygon.
     pub(crate) fn update(&mut self, spectral: Option<&mut SpectralCurve>) {
         self.evaluations += 1;
         match spectral.filter(|spectral| spectral.len() == self.markers.len()) {

@@ -9,9 +9,9 @@ use num_complex::Complex64;
 use super::geometry::{Geometry, Rings, add_tangential_motion, write_normal_motion};
 
 /// Fourier series along a closed curve of M markers, marker k at the parameter alpha = 2 pi k / M, or along one period
-/// of a curve that is periodic along x, whose steady advance is not part of the series.
+/// of a curve that is periodic along x. The steady advance of such a curve is not part of the series.
 ///
-/// Where the flow itself is spectrally accurate, the chords of the polygon would be the largest error of a scene: their
+/// If the flow itself is spectrally accurate, the chords of the polygon would be the largest error of a scene: their
 /// lengths, directions and normals are of second order in the spacing. Here all of them come from X_alpha.
 #[derive(Debug, Clone)]
 pub(crate) struct SpectralCurve {
@@ -31,7 +31,7 @@ fn vector(z: Complex64) -> Vec2 {
     Vec2::new(z.re, z.im)
 }
 
-/// Integral of exp(i wave alpha) over a segment from alpha = 0 on.
+/// Returns the integral of exp(i wave alpha) over a segment from alpha = 0 on.
 fn segment_integral(wave: f64, spacing: f64) -> Complex64 {
     if wave == 0.0 { spacing.into() } else { (Complex64::cis(wave * spacing) - 1.0) / Complex64::new(0.0, wave) }
 }
@@ -127,8 +127,8 @@ impl SpectralCurve {
         }
     }
 
-    /// Forces of the tensions of segments on a surface of revolution (force), those on halves of rings: `pi INT g
-    /// dalpha` over a marker's piece with `g_x = d(gamma y tau_x)/dalpha`, `g_y = d(gamma y tau_y)/dalpha - gamma
+    /// Returns the forces of the tensions of segments on a surface of revolution (force), those on halves of rings: `pi
+    /// INT g dalpha` over a marker's piece with `g_x = d(gamma y tau_x)/dalpha`, `g_y = d(gamma y tau_y)/dalpha - gamma
     /// |X_alpha|`, mirrored below the axis, as densities at the markers times the spacing.
     pub(crate) fn ring_forces(&mut self, geometry: &Geometry, tensions: &[f64], forces: &mut [Vec2]) {
         let (count, spacing) = (self.len(), TAU / self.len() as f64);
@@ -161,19 +161,20 @@ impl SpectralCurve {
         }
     }
 
-    /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density
-    /// at the marker times the spacing, a factor of `x / sin x`, x = pi m / M, for mode m; their sum stays zero.
+    /// Turns forces that are integrals of a density from the middle of one segment to the middle of the next into the
+    /// density at the marker times the spacing, a factor of `x / sin x`, x = pi m / M, for mode m. Their sum stays
+    /// zero.
     pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
         let _ = self.vectors.analyse_vectors(forces);
         self.vectors.multiply_each(&self.sharpening);
         let _ = self.vectors.write_vectors(forces);
     }
 
-    /// Velocities of equally spaced markers as in [`super::geometry::equidistribute`], with derivatives and integrals
-    /// along the smooth curve.
+    /// Returns the velocities of equally spaced markers as in [`super::geometry::equidistribute`], with derivatives and
+    /// integrals along the smooth curve.
     ///
-    /// A translation by `carried` (length per time) is left out of them, and added to the motion: it would be the same
-    /// in exact arithmetic, but the products of its parts with normals and tangents alias where nothing truncates them.
+    /// A translation by `carried` (length per time) is left out of them, and added to the motion. It would be the same
+    /// in exact arithmetic, but the products of its parts with normals and tangents alias if nothing truncates them.
     pub(crate) fn equidistribute(
         &mut self,
         geometry: &Geometry,

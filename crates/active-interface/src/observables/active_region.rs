@@ -22,19 +22,20 @@ pub struct ActiveRegion {
     pub end: f64,
     /// Length of the region (length).
     pub length: f64,
-    /// Active fraction: length of the region over that of the whole interface (no dimension).
+    /// Active fraction: length of the region over the length of the whole interface (no dimension).
     pub fraction: f64,
 }
 
-/// Active region of an interface with the segment lengths `lengths` (length) and the particle numbers `numbers`,
-/// segment k from marker k to the next; `None` where the concentration is uniform to round-off.
+/// Returns the active region of an interface with the segment lengths `lengths` (length) and the particle numbers
+/// `numbers`, segment k from marker k to the next; `None` if the concentration is uniform to round-off.
 ///
 /// dc/ds is taken at the markers, by a difference that is right to fourth order for averages over segments, and its
 /// extrema are located between them on the polynomial through five values. Segments should be equally long, to a few
-/// per cent.
+/// percent.
 ///
 /// # Errors
-/// Slices of different length, fewer than eight segments, numbers that are not finite, lengths that are not positive.
+/// Returns an error for slices of different length, fewer than eight segments, numbers that are not finite, lengths
+/// that are not positive.
 pub fn active_region(lengths: &[f64], numbers: &[f64]) -> Result<Option<ActiveRegion>, InterfaceError> {
     at_least("segments", lengths.len(), 8)?;
     same_length("numbers", lengths.len(), numbers.len())?;
@@ -71,7 +72,7 @@ pub fn active_region(lengths: &[f64], numbers: &[f64]) -> Result<Option<ActiveRe
     Ok(Some(ActiveRegion { start, end, length: span, fraction: span / perimeter }))
 }
 
-/// Place of the extremum next to 0, between -1 and 1, of the polynomial through five values at -2, ..., 2.
+/// Returns the place of the extremum next to 0, between -1 and 1, of the polynomial through five values at -2, ..., 2.
 fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
     // f(x) = c + p x + q x^2 + r x^3 + s x^4
     let p = (a - 8.0 * b + 8.0 * d - e) / 12.0;
@@ -100,13 +101,14 @@ fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
     x
 }
 
-/// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to the region by least
-/// squares, positive where it bulges outwards, negative where it is dented (Cowley, section 2.3.4).
+/// Returns the signed curvature (1/length) of the active region of an interface. It is the curvature of the circle
+/// fitted to the region by least squares, positive where it bulges outwards, negative where it is dented (Cowley,
+/// section 2.3.4).
 ///
 /// Points of the region are weighted by arc length; its ends are interpolated between markers.
 ///
 /// # Errors
-/// Fewer than eight markers, markers that are not finite, a region too short to fit a circle to.
+/// Returns an error for fewer than eight markers, markers that are not finite, a region too short to fit a circle to.
 pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, InterfaceError> {
     at_least("markers", markers.len(), 8)?;
     all_points_finite("the markers", markers)?;
@@ -138,7 +140,7 @@ pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, 
     fitted_curvature(&points, &weights)
 }
 
-/// Point at an arc length, on the cubic through the two markers on either side.
+/// Returns the point at an arc length, on the cubic through the two markers on either side.
 fn interpolate(markers: &[Vec2], arcs: &[f64], arc: f64) -> Vec2 {
     let m = markers.len();
     let arc = arc.rem_euclid(arcs[m]);

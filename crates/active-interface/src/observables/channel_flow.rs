@@ -10,27 +10,28 @@ use crate::{
     observables::{InterfaceState, centroid_velocity},
 };
 
-/// Pressure drop along a channel of the length `length` (length), from its left to its right end (force per length in
-/// two dimensions): `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
+/// Returns the pressure drop along a channel of the length `length` (length), from its left to its right end (force per
+/// length in two dimensions). It is `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow
+/// reports.
 ///
-/// It is positive where pressure drives the fluid to the right, and zero where the pressure is periodic, as in Cowley's
-/// channel; in a closed channel (no net flux) a swimmer has to push against it.
+/// It is positive where pressure drives the fluid to the right, and zero if the pressure is periodic, as in Cowley's
+/// channel. In a closed channel (no net flux), a swimmer has to push against it.
 ///
 /// # Errors
-/// A length that is not positive and finite, a report whose gradient is not finite.
+/// Returns an error for a length that is not positive and finite, a report whose gradient is not finite.
 pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, InterfaceError> {
     let gradient = finite("the mean pressure gradient", report.mean_pressure_gradient[0])?;
     Ok(-gradient * positive("the length of the channel", length)?)
 }
 
-/// Net flux through a channel (area per time): the integral of the velocity u along it from wall to wall at `x`
-/// (length). In an incompressible fluid it does not depend on x, but for the error of the quadrature.
+/// Returns the net flux through a channel (area per time). It is the integral of the velocity u along it from wall to
+/// wall at `x` (length). In an incompressible fluid it does not depend on x, except for the error of the quadrature.
 ///
-/// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
-/// of second order in h), by 16 Gauss points between one interface and the next where there is none.
+/// u is integrated exactly as it is sampled if there is a grid (linearly between the rows of the grid; the error is of
+/// second order in h), by 16 Gauss points between one interface and the next if there is none.
 ///
 /// # Errors
-/// A fluid without walls, those of an evaluation and of sampling.
+/// Returns an error for a fluid without walls, the errors of an evaluation and of sampling.
 pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64, SceneError> {
     let (view, time) = (system.hydrodynamics().fluid_view(), system.time());
     let [bottom, top] = walls(&view, time)?;
@@ -46,8 +47,8 @@ pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64,
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct GapFlow {
-    /// Velocity of the droplet along the channel (length per time); that of the imposed flow at its centroid if the
-    /// droplet is at rest in it to round-off.
+    /// Velocity of the droplet along the channel (length per time); the velocity of the imposed flow at its centroid if
+    /// the droplet is at rest in it to round-off.
     pub velocity: f64,
     /// Velocity of the droplet along the channel relative to the imposed flow at its centroid (length per time); zero
     /// if the droplet is at rest in it to round-off.
@@ -63,23 +64,23 @@ pub struct GapFlow {
 }
 
 impl GapFlow {
-    /// Net flux along the channel (area per time), through gaps and droplet together.
+    /// Returns the net flux along the channel (area per time), through gaps and droplet together.
     #[must_use]
     pub fn net(&self) -> f64 {
         self.gaps[0] + self.inside + self.gaps[1]
     }
 
-    /// Fluxes through the gaps in the frame of the droplet (area per time): `q - V d` with the flux q in the frame of
-    /// the walls, the velocity V of the droplet and the height d of the gap.
+    /// Returns the fluxes through the gaps in the frame of the droplet (area per time): `q - V d` with the flux q in
+    /// the frame of the walls, the velocity V of the droplet and the height d of the gap.
     #[must_use]
     pub fn relative_gaps(&self) -> [f64; 2] {
         [0, 1].map(|i| self.gaps[i] - self.velocity * self.gap_heights[i])
     }
 
-    /// Retrograde flow: flux of the fluid that passes the droplet backwards through both gaps, in the frame of the
-    /// droplet (area per time); negative for a droplet that the fluid overtakes, `None` for a droplet at rest.
-    /// Backwards is against the motion of the droplet relative to the imposed flow at its centroid, so that it does not
-    /// depend on the frame in which walls slide.
+    /// Returns the retrograde flow: flux of the fluid that passes the droplet backwards through both gaps, in the frame
+    /// of the droplet (area per time). It is negative for a droplet that the fluid overtakes, and `None` for a droplet
+    /// at rest. Backwards is against the motion of the droplet relative to the imposed flow at its centroid, so that it
+    /// does not depend on the frame in which walls slide.
     ///
     /// In a steady state it is `|V| w - Q` at every cross-section, w the width of the channel and Q the net flux in the
     /// droplet's direction.
@@ -90,15 +91,15 @@ impl GapFlow {
     }
 }
 
-/// Fluxes along a channel through the vertical line at the centroid of a droplet: the velocity u along the channel
-/// integrated below, inside and above it.
+/// Returns the fluxes along a channel through the vertical line at the centroid of a droplet: the velocity u along the
+/// channel integrated below, inside and above it.
 ///
 /// The line is close to the widest cross-section of a swimmer on the centre line. A gap that is closed has the height
 /// zero. Other bodies on the line count as fluid. u is integrated as by [`net_flux`]; the error is of second order in h
 /// as long as the gaps are some cells wide.
 ///
 /// # Errors
-/// A fluid without walls, a handle of another scene, those of an evaluation and of sampling.
+/// Returns an error for a fluid without walls, a handle of another scene, the errors of an evaluation and of sampling.
 pub fn gap_flow<H: Hydrodynamics>(
     system: &mut System<H>,
     droplet: Handle<ActiveDroplet>,
@@ -145,7 +146,7 @@ fn walls(view: &FluidView, time: f64) -> Result<[f64; 2], SceneError> {
     view.domain.walls.ok_or_else(|| SceneError::Flow { time, source: source() })
 }
 
-/// Lowest and highest point of the polygon at `x`; infinite and exchanged where it does not reach there.
+/// Returns the lowest and highest point of the polygon at `x`; infinite and exchanged where it does not reach there.
 fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
     edges(markers)
         .filter(|(a, b)| (a.x < x) != (b.x < x))
@@ -153,8 +154,8 @@ fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
 }
 
-/// Heights of kinks of the velocity along the vertical line at `x`, in order: of the rows of a grid, half a cell off
-/// the walls, between which it is linear, or of all interfaces where there is none.
+/// Returns the heights of kinks of the velocity along the vertical line at `x`, in order: of the rows of a grid, half a
+/// cell off the walls, between which it is linear, or of all interfaces if there is no grid.
 fn kinks<H: Hydrodynamics>(system: &mut System<H>, view: &FluidView, x: f64) -> Result<Vec<f64>, SceneError> {
     let [bottom, top] = walls(view, system.time())?;
     if let Some(h) = view.spacing {
@@ -172,9 +173,9 @@ fn kinks<H: Hydrodynamics>(system: &mut System<H>, view: &FluidView, x: f64) -> 
     Ok(heights)
 }
 
-/// Gauss points between two kinks where there is no grid.
+/// Gauss points between two kinks if there is no grid.
 const POINTS: usize = 16;
-/// Part of the channel's width below which a kink is at the end of a section.
+/// Fraction of the channel's width below which a kink is at the end of a section.
 const AT_END: f64 = 1e-9;
 
 /// Points on a vertical line, and their weights, section by section.
@@ -204,7 +205,7 @@ impl Line {
         Self { points }
     }
 
-    /// The integrals of u over the N sections, at `x`.
+    /// Returns the integrals of u over the N sections, at `x`.
     fn integrals<const N: usize, H: Hydrodynamics>(
         &self,
         system: &mut System<H>,

@@ -9,15 +9,16 @@ use motile_base::{
 use super::least_squares::NormalEquations;
 use crate::InterfaceError;
 
-/// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points
-/// of an open arc: positive where the arc turns to the left, as a convex interface in counter-clockwise order does,
-/// negative where it turns to the right, zero for points on a line.
+/// Returns the signed curvature (1/length) of the circle with the minimum sum of squared distances, times `weights`,
+/// from the points of an open arc: positive where the arc turns to the left, as a convex interface in counter-clockwise
+/// order does, negative where it turns to the right, zero for points on a line.
 ///
-/// The circle A r^2 + B x + C y + D = 0 with B^2 + C^2 - 4 A D = 1 includes straight lines (A = 0), its curvature is 2
-/// A; Gauss-Newton iterations start from the turning of the arc about its middle.
+/// The circle A r^2 + B x + C y + D = 0 with B^2 + C^2 - 4 A D = 1 includes straight lines (A = 0), and its curvature
+/// is 2 A; Gauss-Newton iterations start from the turning of the arc about its middle.
 ///
 /// # Errors
-/// Fewer than three points, points that are not finite, points that determine no circle, no convergence.
+/// Returns an error for fewer than three points, points that are not finite, points that determine no circle, no
+/// convergence.
 pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, InterfaceError> {
     at_least("points of an arc", points.len(), 3)?;
     all_points_finite("the points of the arc", points)?;
@@ -88,12 +89,12 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         what: "the fit of a circle",
         residual: cost,
         tolerance: 1e-13,
-        remedy: "use points that lie closer to an arc",
+        remedy: "Use points that lie closer to an arc",
     })
 }
 
-/// Curvature (1/length) at which the tension of an interface balances the stresses of both fluids, Cowley (2.61) and
-/// (3.8):
+/// Returns the curvature (1/length) at which the tension of an interface balances the stresses of both fluids, Cowley
+/// (2.61) and (3.8):
 ///
 /// `kappa = n . (sigma_out - sigma_in) . n / gamma,   sigma = eta (grad u + grad u^T) - p`
 ///
@@ -102,7 +103,8 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
 /// the difference measures errors of pressure and gradients.
 ///
 /// # Errors
-/// A tension that is zero or not finite, viscosities that are not positive, flows or a normal that are not finite.
+/// Returns an error for a tension that is zero or not finite, viscosities that are not positive, flows or a normal that
+/// are not finite.
 pub fn stress_curvature(
     sides: [FlowSample; 2],
     viscosities: [f64; 2],

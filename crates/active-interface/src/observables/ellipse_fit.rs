@@ -9,7 +9,7 @@ use crate::{
     curve::{polygon::AreaMoments, polygon_moments},
 };
 
-/// An ellipse with its axes along those of a frame.
+/// An ellipse with its axes along the axes of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct EllipseFit {
@@ -24,27 +24,27 @@ pub struct EllipseFit {
 }
 
 impl EllipseFit {
-    /// Aspect ratio a/b, a along the motion (no dimension; Cowley, section 2.3.4).
+    /// Returns the aspect ratio a/b, a along the motion (no dimension; Cowley, section 2.3.4).
     #[must_use]
     pub fn aspect_ratio(&self) -> f64 {
         self.along / self.across
     }
 }
 
-/// Least squares ellipse through the markers, with its axes along and across the first axis of `frame`.
+/// Returns the least squares ellipse through the markers, with its axes along and across the first axis of `frame`.
 ///
 /// Half axes a, b and centre (x0, y0) minimise the sum of (rho_k - 1)^2 ds_k with rho = sqrt((x-x0)^2/a^2 +
 /// (y-y0)^2/b^2), the distance from the ellipse towards its centre in units of the radius there, by Gauss-Newton
 /// iterations. Exact for ellipses whatever the number of markers.
 ///
 /// # Errors
-/// Fewer than four markers, markers that are not finite or enclose no area, no convergence.
+/// Returns an error for fewer than four markers, markers that are not finite or enclose no area, no convergence.
 pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, InterfaceError> {
     at_least("markers", markers.len(), 4)?;
     raw_ellipse(markers, &polygon_moments(markers)?, frame)
 }
 
-/// Least squares ellipse through markers whose polygon has these moments.
+/// Returns the least squares ellipse through markers whose polygon has these moments.
 pub(super) fn raw_ellipse(
     markers: &[Vec2],
     moments: &AreaMoments,
@@ -100,7 +100,7 @@ pub(super) fn raw_ellipse(
         what: "the fit of an ellipse",
         residual: last,
         tolerance: 1e-13,
-        remedy: "use a shape that is closer to an ellipse",
+        remedy: "Use a shape that is closer to an ellipse",
     })
 }
 

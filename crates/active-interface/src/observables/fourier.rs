@@ -23,7 +23,7 @@ pub struct FourierModes {
 }
 
 impl FourierModes {
-    /// Amplitude sqrt(a_k^2 + b_k^2) of mode `k`, 0 for modes that were not computed; for k = 0 the mean.
+    /// Returns the amplitude sqrt(a_k^2 + b_k^2) of mode `k`, 0 for modes that were not computed; for k = 0 the mean.
     #[must_use]
     pub fn amplitude(&self, k: usize) -> f64 {
         match k.checked_sub(1) {
@@ -35,8 +35,8 @@ impl FourierModes {
         }
     }
 
-    /// Coefficients of samples (unit vector at the polar angle, weight in integrals over it, value): the waves are
-    /// powers of the unit vector as a complex number.
+    /// Creates coefficients of samples (unit vector at the polar angle, weight in integrals over it, value): the waves
+    /// are powers of the unit vector as a complex number.
     pub(super) fn sum(count: usize, samples: impl Iterator<Item = (Vec2, f64, f64)>) -> Self {
         let mut modes = Self { mean: 0.0, cosines: vec![0.0; count], sines: vec![0.0; count] };
         for (Vec2 { x, y }, weight, value) in samples {
@@ -53,13 +53,14 @@ impl FourierModes {
     }
 }
 
-/// First `count` Fourier modes of the shape r(theta) (length) about the origin of `frame`, theta from its first axis.
+/// Returns the first `count` Fourier modes of the shape r(theta) (length) about the origin of `frame`, theta from its
+/// first axis.
 ///
 /// Integrals over the polar angle by the sum over markers: spectrally accurate on a circle with equidistant
 /// markers, second order in the marker spacing otherwise. Meant for shapes on which r is single-valued.
 ///
 /// # Errors
-/// Fewer than three markers, markers that are not finite or enclose no area.
+/// Returns an error for fewer than three markers, markers that are not finite or enclose no area.
 pub fn shape_modes(markers: &[Vec2], frame: &Frame, count: usize) -> Result<FourierModes, InterfaceError> {
     polygon_moments(markers)?;
     Ok(raw_shape_modes(&PolarMarkers::new(markers, frame), count))
@@ -83,14 +84,15 @@ pub(super) fn check_concentration(markers: &[Vec2], numbers: &[f64]) -> Result<(
     Ok(())
 }
 
-/// First `count` Fourier modes of the concentration (particles per length) as a function of the polar angle about the
-/// origin of `frame`, theta from its first axis; `numbers` are the particle numbers of the segments.
+/// Returns the first `count` Fourier modes of the concentration (particles per length) as a function of the polar angle
+/// about the origin of `frame`, theta from its first axis. The `numbers` are the particle numbers of the segments.
 ///
 /// The averages over the segments are turned into values mode by mode, so that on a circle with equidistant markers
 /// the modes are exact; second order in the marker spacing otherwise.
 ///
 /// # Errors
-/// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
+/// Returns an error for slices of different length, fewer than three markers, values that are not finite, no area,
+/// segments without length.
 pub fn concentration_modes(
     markers: &[Vec2],
     numbers: &[f64],
@@ -102,7 +104,7 @@ pub fn concentration_modes(
     Ok(raw_concentration_modes(&PolarMarkers::new(markers, frame), numbers, &lengths, count))
 }
 
-/// Modes of numbers of particles on segments of these lengths (length).
+/// Returns the modes of numbers of particles on segments of these lengths (length).
 pub(super) fn raw_concentration_modes(
     polar: &PolarMarkers,
     numbers: &[f64],

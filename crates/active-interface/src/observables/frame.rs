@@ -13,19 +13,19 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Frame with this origin (length) and the first axis at the angle `heading` to x (radians).
+    /// Creates a frame with this origin (length) and the first axis at the angle `heading` to x (radians).
     ///
     /// # Errors
-    /// Values that are not finite.
+    /// Returns an error for values that are not finite.
     pub fn new(centre: Vec2, heading: f64) -> Result<Self, InterfaceError> {
         all_points_finite("the origin of the frame", &[centre])?;
         let (sin, cos) = finite("the heading", heading)?.sin_cos();
         Ok(Self { centre, direction: Vec2::new(cos, sin) })
     }
 
-    /// Frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time). A droplet
-    /// that moves no faster than `rest` (length per time; see [`InterfaceState::rest_speed`]) has no direction, so its
-    /// axes are x and y.
+    /// Creates a frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time). A
+    /// droplet that moves no faster than `rest` (length per time; see [`InterfaceState::rest_speed`]) has no direction,
+    /// so its axes are x and y.
     ///
     /// # Errors
     /// Returns an error if a value is not finite.
@@ -38,36 +38,36 @@ impl Frame {
         Ok(Self::along(centre, moves.then_some(velocity)))
     }
 
-    /// Frame about `centre` (length) along a motion, or along x and y without one.
+    /// Creates a frame about `centre` (length) along a motion, or along x and y without one.
     pub(super) fn along(centre: Vec2, motion: Option<Vec2>) -> Self {
         Self { centre, direction: motion.and_then(Vec2::try_normalize).unwrap_or(Vec2::X) }
     }
 
-    /// Origin (length).
+    /// Returns the origin (length).
     #[must_use]
     pub fn centre(&self) -> Vec2 {
         self.centre
     }
 
-    /// First axis (no dimension, of length 1).
+    /// Returns the first axis (no dimension, of length 1).
     #[must_use]
     pub fn direction(&self) -> Vec2 {
         self.direction
     }
 
-    /// Angle of the first axis to x (radians, from -pi to pi).
+    /// Returns the angle of the first axis to x (radians, from -pi to pi).
     #[must_use]
     pub fn heading(&self) -> f64 {
         self.direction.y.atan2(self.direction.x)
     }
 
-    /// Components of the vector `v` along the axes.
+    /// Returns the components of the vector `v` along the axes.
     #[must_use]
     pub fn components(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.direction.dot(v), self.direction.perp_dot(v))
     }
 
-    /// Coordinates of the point `p` in the frame (length).
+    /// Returns the coordinates of the point `p` in the frame (length).
     #[must_use]
     pub fn coordinates(&self, p: Vec2) -> Vec2 {
         self.components(p - self.centre)
@@ -83,20 +83,20 @@ pub(crate) fn half_chords(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
         .map(move |k| (markers[if k + 1 == m { 0 } else { k + 1 }] - markers[if k == 0 { m - 1 } else { k - 1 }]) * 0.5)
 }
 
-/// Outward normal of each marker times its weight (length).
+/// Returns the outward normal of each marker times its weight (length).
 pub(crate) fn weighted_normals(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
     half_chords(markers).map(|d| Vec2::new(d.y, -d.x))
 }
 
-/// Velocity of the centroid of the area inside the markers, from the flux of area through the interface,
+/// Returns the velocity of the centroid of the area inside the markers, from the flux of area through the interface,
 /// ```text
 /// V = (1/A) sum over k of (X_k - X_c) (v_k . n_k ds_k)
 /// ```
-/// with `velocities` v_k those of the fluid, or of the markers, at the markers (length per time): velocities along the
-/// interface do not count. Exact for a uniform velocity, second order in the marker spacing otherwise.
+/// with `velocities` v_k the velocities of the fluid, or of the markers, at the markers (length per time): velocities
+/// along the interface do not count. Exact for a uniform velocity, second order in the marker spacing otherwise.
 ///
 /// # Errors
-/// Slices of different length, fewer than three markers, values that are not finite, no area.
+/// Returns an error for slices of different length, fewer than three markers, values that are not finite, no area.
 pub fn centroid_velocity(markers: &[Vec2], velocities: &[Vec2]) -> Result<Vec2, InterfaceError> {
     same_length("velocities", markers.len(), velocities.len())?;
     let moments = polygon_moments(markers)?;
@@ -112,11 +112,12 @@ pub(crate) fn raw_centroid_velocity(markers: &[Vec2], velocities: &[Vec2], momen
     flux / moments.area
 }
 
-/// Aspect ratio a/b from the second moments of area, sqrt(I_xx / I_yy), a along the first axis of the frame and b
-/// across it (no dimension): that of the ellipse with the same moments. Exact for the polygon through the markers.
+/// Returns the aspect ratio a/b from the second moments of area, sqrt(I_xx / I_yy), a along the first axis of the frame
+/// and b across it (no dimension). It is the ratio of the ellipse with the same moments. Exact for the polygon through
+/// the markers.
 ///
 /// # Errors
-/// Moments that no simple polygon has.
+/// Returns an error for moments that no simple polygon has.
 pub(crate) fn aspect_ratio_of(moments: &AreaMoments, frame: &Frame) -> Result<f64, InterfaceError> {
     let (c, s) = (frame.direction.x, frame.direction.y);
     let along = c * c * moments.xx + 2.0 * s * c * moments.xy + s * s * moments.yy;

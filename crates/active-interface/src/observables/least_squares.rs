@@ -22,8 +22,8 @@ impl<const N: usize> NormalEquations<N> {
         }
     }
 
-    /// The step s with the diagonal of M raised by the part `damping`, by elimination with partial pivoting; `None`
-    /// for a singular matrix or a step that is not finite.
+    /// Returns the step s with the diagonal of M raised by the part `damping`, by elimination with partial pivoting;
+    /// `None` for a singular matrix or a step that is not finite.
     pub(super) fn step(&self, damping: f64) -> Option<[f64; N]> {
         // Only the upper half has been summed.
         let entry = |i: usize, j: usize| self.matrix[i.min(j)][i.max(j)] * if i == j { 1.0 + damping } else { 1.0 };

@@ -10,7 +10,7 @@ use motile_scene::Enclosed;
 use super::frame::{Frame, weighted_normals};
 use crate::InterfaceError;
 
-/// Sign of the viscous term in the force moments of a droplet whose viscosity differs from that of the exterior fluid.
+/// Sign of the viscous term in the force moments of a droplet whose viscosity differs from the exterior one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Convention {
     /// The sign that matches the flow far away for the force F as in Cowley, eq. (2.5): + (eta_ext - eta_in). (For
@@ -22,7 +22,7 @@ pub enum Convention {
 }
 
 impl Convention {
-    /// Factor of the viscous term between viscosities inside and outside (stress times time).
+    /// Returns the factor of the viscous term between viscosities inside and outside (stress times time).
     pub(super) fn factor(self, [inside, outside]: [f64; 2]) -> Result<f64, InputError> {
         let difference = finite("the viscosity outside", outside)? - finite("the viscosity inside", inside)?;
         Ok(if self == Self::FarField { difference } else { -difference })
@@ -42,7 +42,7 @@ impl Convention {
 ///
 /// Those of a droplet are the moments of everything in it: bodies inside add the sums over their own markers, with
 /// eta_ext the viscosity of the fluid that they lie in, and rigid ones the dipole of what keeps them rigid. Then F_ij
-/// is, but for a pressure, the force dipole of a closed curve around all of it, `INT eta (v n + n v) - (sigma n) r ds`
+/// is, up to a pressure, the force dipole of a closed curve around all of it, `INT eta (v n + n v) - (sigma n) r ds`
 /// (Batchelor, J. Fluid Mech. 41, 545 (1970)).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
@@ -58,8 +58,8 @@ pub struct ForceMoments {
 }
 
 impl ForceMoments {
-    /// The stresslet S_ij (force times length), the symmetric part of F_ij without trace, eq. (2.52). S_xx > 0 is a
-    /// pusher.
+    /// Returns the stresslet S_ij (force times length), the symmetric part of F_ij without trace, eq. (2.52). S_xx > 0
+    /// is a pusher.
     #[must_use]
     pub fn stresslet(&self) -> [[f64; 2]; 2] {
         let [[xx, xy], [yx, yy]] = self.dipole;
@@ -68,7 +68,7 @@ impl ForceMoments {
         [[along * (xx - yy), off], [off, across * (xx - yy)]]
     }
 
-    /// The stresslet S_ij in the axes x and y (force times length), of moments in the axes of `frame`.
+    /// Returns the stresslet S_ij in the axes x and y (force times length), of moments in the axes of `frame`.
     #[must_use]
     pub fn stresslet_in_laboratory(&self, frame: &Frame) -> [[f64; 2]; 2] {
         let stresslet = self.stresslet();
@@ -108,7 +108,7 @@ impl ForceMoments {
         Ok(())
     }
 
-    /// Adds the sums over markers, `factor` being that of the viscous term (stress times time).
+    /// Adds the sums over markers, `factor` being the factor of the viscous term (stress times time).
     fn add(&mut self, markers: &[Vec2], forces: &[Vec2], velocities: &[Vec2], factor: f64, frame: &Frame) {
         for (((&marker, &force), &velocity), normal) in
             markers.iter().zip(forces).zip(velocities).zip(weighted_normals(markers))
@@ -128,8 +128,8 @@ impl ForceMoments {
         }
     }
 
-    /// Symmetric part S_ijk of F_ijk (force times length squared), the mean over the six orders of the indices, eq.
-    /// (2.54); `None` as [`ForceMoments::quadrupole`].
+    /// Returns the symmetric part S_ijk of F_ijk (force times length squared), the mean over the six orders of the
+    /// indices, eq. (2.54); `None` as [`ForceMoments::quadrupole`].
     #[must_use]
     pub fn symmetric_quadrupole(&self) -> Option<[[[f64; 2]; 2]; 2]> {
         let f = self.quadrupole.as_ref()?;
@@ -138,8 +138,8 @@ impl ForceMoments {
         Some(build(|i, j, k| sum(i, j, k) / 6.0))
     }
 
-    /// Part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to the source
-    /// dipole. The totally antisymmetric part A_ijk is zero in two dimensions.
+    /// Returns the part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to
+    /// the source dipole. The totally antisymmetric part A_ijk is zero in two dimensions.
     #[must_use]
     pub fn mixed_quadrupole(&self) -> Option<[[[f64; 2]; 2]; 2]> {
         let (all, symmetric) = (self.quadrupole?, self.symmetric_quadrupole()?);
@@ -151,14 +151,14 @@ fn build(entry: impl Fn(usize, usize, usize) -> f64) -> [[[f64; 2]; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|k| entry(i, j, k))))
 }
 
-/// Force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
+/// Returns the force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
 ///
-/// `forces` act on the fluid at the markers (force, not force per length), `velocities` are those of the fluid there
-/// (length per time, in the frame of the fluid far away; they matter for unequal viscosities only), `viscosities` those
-/// inside and outside (stress times time).
+/// `forces` act on the fluid at the markers (force, not force per length), `velocities` are the velocities of the fluid
+/// there (length per time, in the frame of the fluid far away; they matter for unequal viscosities only), `viscosities`
+/// the viscosities inside and outside (stress times time).
 ///
 /// # Errors
-/// Slices of different length, fewer than three markers, values that are not finite.
+/// Returns an error for slices of different length, fewer than three markers, values that are not finite.
 pub fn force_moments(
     markers: &[Vec2],
     forces: &[Vec2],

@@ -27,7 +27,7 @@ pub struct PeriodicObservables {
     /// the length of the interface from its first marker on along x, and the place x1 of that marker. The angle of a
     /// flat interface is the angle of the height modes, wherever the first marker has drifted. Zero without particles.
     pub concentration_modes: FourierModes,
-    /// Flux of particles along x (1/time), its mean over the period, in the frame of the laboratory: a pattern at rest
+    /// Flux of particles along x (1/time), its mean over the period, in the frame of the laboratory. A pattern at rest
     /// in fluid that moves as a whole has the flux of its particles with the fluid.
     pub flux: f64,
     /// Mean velocity of the fluid on the interface (length per time).
@@ -53,8 +53,8 @@ const CONCENTRATION_MODES: [[&str; 2]; MODES] = [
 ];
 
 impl PeriodicObservables {
-    /// Names and values of all entries, in the order of the columns of a table; those of modes are the coefficients of
-    /// cos and sin. Values that do not exist are `None`.
+    /// Returns the names and values of all entries, in the order of the columns of a table. The entries of modes are
+    /// the coefficients of cos and sin. Values that do not exist are `None`.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let [maximum, minimum] = [0, 1].map(|i| self.concentration_range.map(|range| range[i]));

@@ -38,7 +38,7 @@ impl PolarMarkers {
         Self(list)
     }
 
-    /// The markers, each with its weight in integrals over the polar angle.
+    /// Returns the markers, each with its weight in integrals over the polar angle.
     pub(super) fn weighted(&self) -> impl Iterator<Item = (Polar, f64)> {
         let before = self.0.last().map_or(0.0, |last| last.turn);
         self.0.iter().scan(before, |before, polar| {
@@ -48,7 +48,8 @@ impl PolarMarkers {
         })
     }
 
-    /// Unit vectors towards the middles of the segments, in polar angle, and the angles that the segments take.
+    /// Returns the unit vectors towards the middles of the segments, in polar angle, and the angles that the segments
+    /// take.
     pub(super) fn segments(&self) -> impl Iterator<Item = (Vec2, f64)> {
         self.0.iter().map(|&Polar { direction: Vec2 { x, y }, turn, .. }| {
             let (sin, cos) = (0.5 * turn).sin_cos();

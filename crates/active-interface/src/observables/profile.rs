@@ -19,11 +19,12 @@ pub struct ConcentrationProfile {
     pub perimeter: f64,
 }
 
-/// Profile of the concentration (Cowley, figure 2.4). The front is the point where the first axis of `frame` leaves the
-/// droplet, or the marker furthest along that axis where the axis does not meet the interface.
+/// Returns the profile of the concentration (Cowley, figure 2.4). The front is the point where the first axis of
+/// `frame` leaves the droplet, or the marker furthest along that axis where the axis does not meet the interface.
 ///
 /// # Errors
-/// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
+/// Returns an error for slices of different length, fewer than three markers, values that are not finite, no area,
+/// segments without length.
 pub fn concentration_profile(
     markers: &[Vec2],
     numbers: &[f64],

@@ -9,10 +9,10 @@ use crate::InterfaceError;
 use crate::interface::geometry::{Geometry, Rings, outward};
 use crate::interface::spectral::SpectralCurve;
 
-/// Geometry of the smooth surface whose meridian, with its mirror image, goes through these markers.
+/// Returns the geometry of the smooth surface whose meridian, with its mirror image, goes through these markers.
 ///
 /// # Errors
-/// More markers than a Fourier transform takes.
+/// Returns an error for more markers than a Fourier transform takes.
 pub(super) fn surface(markers: &[Vec2]) -> Result<Geometry, InputError> {
     let (mut curve, mut geometry) = (SpectralCurve::new(markers.len())?, Geometry::default());
     curve.update(markers, 0.0, &mut geometry);

@@ -22,6 +22,7 @@ pub enum VelocityFrame {
 /// Coefficients of the azimuthal velocity v_theta = B1 sin(theta) + (B2/2) sin(2 theta), Cowley, eq. (2.63).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
+#[doc(alias("squirmer", "pusher", "puller"))]
 pub struct SquirmerFit {
     /// B1 (length per time), positive for a droplet that swims along the first axis of its frame.
     pub b1: f64,
@@ -30,7 +31,7 @@ pub struct SquirmerFit {
 }
 
 impl SquirmerFit {
-    /// The fit with B1 = 0 if it is no faster than a droplet at rest (length per time).
+    /// Returns the fit with B1 = 0 if it is no faster than a droplet at rest (length per time).
     pub(super) fn beyond(self, rest: f64) -> Self {
         Self { b1: if self.b1.abs() > rest { self.b1 } else { 0.0 }, ..self }
     }
@@ -42,15 +43,16 @@ impl SquirmerFit {
     }
 }
 
-/// Squirmer coefficients B1 and B2: projections of the azimuthal velocity on the interface on sin(theta) and
-/// sin(2 theta)/2, uniformly in the polar angle theta about the centroid, measured from the first axis of `frame`
-/// (whose origin must be the centroid).
+/// Returns the squirmer coefficients B1 and B2: projections of the azimuthal velocity on the interface on sin(theta)
+/// and sin(2 theta)/2, uniformly in the polar angle theta about the centroid. The angle is measured from the first axis
+/// of `frame`, whose origin must be the centroid.
 ///
-/// `velocities` are those of the fluid at the markers (length per time) in the laboratory frame. Second order in the
-/// marker spacing; spectrally accurate on a circle with equidistant markers.
+/// `velocities` are the velocities of the fluid at the markers (length per time) in the laboratory frame. Second order
+/// in the marker spacing; spectrally accurate on a circle with equidistant markers.
 ///
 /// # Errors
-/// Slices of different length, fewer than three markers, values that are not finite, no area.
+/// Returns an error for slices of different length, fewer than three markers, values that are not finite, no area.
+#[doc(alias("squirmer", "pusher", "puller", "beta"))]
 pub fn squirmer_coefficients(
     markers: &[Vec2],
     velocities: &[Vec2],
@@ -67,7 +69,7 @@ pub fn squirmer_coefficients(
     Ok(raw_squirmer(&PolarMarkers::new(markers, frame), velocities, drift, frame))
 }
 
-/// Squirmer coefficients of the velocities less `drift` (length per time).
+/// Returns the squirmer coefficients of the velocities less `drift` (length per time).
 pub(super) fn raw_squirmer(polar: &PolarMarkers, velocities: &[Vec2], drift: Vec2, frame: &Frame) -> SquirmerFit {
     let mut fit = SquirmerFit::default();
     for ((Polar { direction, .. }, weight), velocity) in polar.weighted().zip(velocities) {

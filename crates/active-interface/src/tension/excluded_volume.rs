@@ -7,12 +7,13 @@ use crate::InterfaceError;
 
 /// The excluded-volume term Pi(c) of the tension (Cowley, eq. 2.39), a function of the concentration c.
 ///
-/// Pi has the dimension of a tension, its slope B = dPi/dc (Cowley, eq. 2.40) that of tension times length (tension per
-/// concentration), as the activity. Values are checked where a [`ContractileTension`](crate::ContractileTension) is
+/// Pi has the dimension of a tension, its slope B = dPi/dc (Cowley, eq. 2.40) the unit of tension times length (tension
+/// per concentration), as the activity. Values are checked where a [`ContractileTension`](crate::ContractileTension) is
 /// made of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
+#[doc(alias("surface pressure", "crowding"))]
 pub enum ExcludedVolume {
     /// Pi = 0.
     None,
@@ -115,8 +116,8 @@ impl Law {
         }
     }
 
-    /// Concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays
-    /// below it. At the activity `-pull` the tension has its maximum there: particles gather to about that
+    /// Returns the concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where
+    /// B stays below it. At the activity `-pull` the tension has its maximum there: particles gather to about that
     /// concentration, somewhat beyond it where the flow presses them.
     pub(super) fn plateau(self, pull: f64) -> Option<f64> {
         if pull <= self.slope(0.0) {

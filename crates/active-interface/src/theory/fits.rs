@@ -1,6 +1,6 @@
 //! Formulas that Cowley fitted to simulations, in units of the droplet's radius R0 and at c0 = 100/R0.
 //!
-//! These are fits and no theory: the book (`docs/book`, figures 3.1, 3.2, 3.12 and 4.4) tells how far converged results
+//! These are fits and no theory: the book (`docs/book`, figures 3.1, 3.2, 3.12 and 4.4) shows how far converged results
 //! bear them out.
 
 use motile_base::{finite, not_negative, positive};
@@ -10,7 +10,8 @@ use crate::InterfaceError;
 /// Length in the exponentials of (3.7) and (3.9) (R0).
 const LENGTH: f64 = 10.0;
 
-/// Speed (R0 per time) of a droplet as wide as its channel, from the `length` l of the channel (R0), Cowley (3.7):
+/// Returns the speed (R0 per time) of a droplet as wide as its channel, from the `length` l of the channel (R0), Cowley
+/// (3.7):
 ///
 /// `|v| = 10 |zeta dmu|/eta exp(-l/10) + |zeta dmu|/eta`
 ///
@@ -22,22 +23,23 @@ const LENGTH: f64 = 10.0;
 /// ```
 ///
 /// # Errors
-/// An activity that is not finite, a viscosity that is not positive and finite, a negative length.
+/// Returns an error for an activity that is not finite, a viscosity that is not positive and finite, a negative length.
 pub fn speed_over_length(activity: f64, viscosity: f64, length: f64) -> Result<f64, InterfaceError> {
     let unit = finite("the activity", activity)?.abs() / positive("the viscosity", viscosity)?;
     let decay = (-not_negative("the length of the channel", length)? / LENGTH).exp();
     Ok(LENGTH * unit * decay + unit)
 }
 
-/// Amplitude of a droplet's swings across a channel (R0), from the channel's `[length, width]` and the droplet's half
-/// height b, `half_height` (all in R0), Cowley (3.9):
+/// Returns the amplitude of a droplet's swings across a channel (R0), from the channel's `[length, width]` and the
+/// droplet's half height b, `half_height` (all in R0), Cowley (3.9):
 ///
 /// `A = alpha (w/2 - b) (1 - exp(-(l - l0)/10))`
 ///
 /// from the length l0, `onset`, on; zero before. Cowley has alpha = 0.6 and l0 = 18.
 ///
 /// # Errors
-/// Lengths that are negative or not finite, a droplet higher than the channel, an alpha that is not finite.
+/// Returns an error for lengths that are negative or not finite, a droplet higher than the channel, an alpha that is
+/// not finite.
 pub fn amplitude_over_length(
     [length, width]: [f64; 2],
     half_height: f64,
@@ -50,15 +52,15 @@ pub fn amplitude_over_length(
     Ok(finite("alpha", alpha)? * room * (1.0 - (-beyond.max(0.0) / LENGTH).exp()))
 }
 
-/// Speed of a droplet between elastic walls of the spring constant k, between its speed in unbounded fluid and that
-/// between rigid walls (all three length per time), Cowley (4.3):
+/// Returns the speed of a droplet between elastic walls of the spring constant k, between its speed in unbounded fluid
+/// and that between rigid walls (all three length per time), Cowley (4.3):
 ///
 /// `|v| = (|v|_unconfined - |v|_rigid) exp(-k/b) + |v|_rigid`
 ///
 /// with a fitted width b in the unit of k.
 ///
 /// # Errors
-/// Speeds that are not finite, a negative k, a b that is not positive and finite.
+/// Returns an error for speeds that are not finite, a negative k, or a b that is not positive and finite.
 pub fn speed_over_stiffness(unconfined: f64, rigid: f64, k: f64, b: f64) -> Result<f64, InterfaceError> {
     let (unconfined, rigid) = (finite("the speed in unbounded fluid", unconfined)?, finite("the speed", rigid)?);
     let decay = (-not_negative("the spring constant", k)? / positive("the width of the exponential", b)?).exp();

@@ -29,7 +29,7 @@ pub struct Stratum {
     pub end: StratumEnd,
 }
 
-/// Far side of a layer of fluid beside a flat interface.
+/// Far side of a layer of fluid next to a flat interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StratumEnd {
@@ -41,7 +41,7 @@ pub enum StratumEnd {
         thickness: f64,
     },
     /// Another such interface, with the same concentration above every place: the mirror image in the middle of the
-    /// layer, so that the shape of one is minus that of the other.
+    /// layer, so that the shape of one is minus the shape of the other.
     Same {
         /// Thickness of the layer (length).
         thickness: f64,
@@ -54,8 +54,8 @@ pub enum StratumEnd {
 }
 
 impl Stratum {
-    /// Resistance Z of the fluid below an interface to the velocity `(u sin kx, v cos kx)` of the interface (stress
-    /// times time over length): the force per length on the fluid is `Z (u, v)`, times sin kx and cos kx.
+    /// Returns the resistance Z of the fluid below an interface to the velocity `(u sin kx, v cos kx)` of the interface
+    /// (stress times time over length). The force per length on the fluid is `Z (u, v)`, times sin kx and cos kx.
     ///
     /// With s = k times the thickness, `2 k eta [[A, C], [C, B]]`, where
     /// ```text
@@ -96,11 +96,11 @@ impl Stratum {
 }
 
 impl FlatInterface {
-    /// Mobility M of the interface between fluids (length over stress times time): forces per length `(f sin kx, g cos
-    /// kx)` on the fluid move it at `M (f, g)`, times sin kx and cos kx.
+    /// Returns the mobility M of the interface between fluids (length over stress times time): forces per length `(f
+    /// sin kx, g cos kx)` on the fluid move it at `M (f, g)`, times sin kx and cos kx.
     ///
     /// # Errors
-    /// A wave number, viscosity or thickness that is not positive and finite.
+    /// Returns an error for a wave number, viscosity or thickness that is not positive and finite.
     pub fn mobility(&self, below: Stratum, above: Stratum) -> Result<[[f64; 2]; 2], InterfaceError> {
         let k = positive("the wave number", self.wave_number)?;
         let ([[a, b], [_, d]], [[e, f], [_, h]]) = (below.resistance(k)?, above.resistance(k)?);
@@ -110,8 +110,9 @@ impl FlatInterface {
         Ok([[yy / determinant, off], [off, xx / determinant]])
     }
 
-    /// Matrix G of the growth of a wave, `d/dt (c, h) = G (c, h)` with the concentration `c0 + c cos kx` (particles per
-    /// length) and the height `h cos kx` (length): with the mobility M, zeta the activity and gamma the tension,
+    /// Returns the matrix G of the growth of a wave, `d/dt (c, h) = G (c, h)` with the concentration `c0 + c cos kx`
+    /// (particles per length) and the height `h cos kx` (length): with the mobility M, zeta the activity and gamma the
+    /// tension,
     ///
     /// ```text
     /// G = [[-zeta c0 k^2 Mxx - D k^2, gamma c0 k^3 Mxy], [zeta k Mxy, -gamma k^2 Myy]]
@@ -133,8 +134,8 @@ impl FlatInterface {
     /// ```
     ///
     /// # Errors
-    /// Those of [`FlatInterface::mobility`]; a concentration that is not positive, a negative diffusivity, numbers that
-    /// are not finite.
+    /// Returns the errors of [`FlatInterface::mobility`]; a concentration that is not positive, a negative diffusivity,
+    /// numbers that are not finite.
     pub fn growth_matrix(&self, below: Stratum, above: Stratum) -> Result<[[f64; 2]; 2], InterfaceError> {
         let [[xx, xy], [_, yy]] = self.mobility(below, above)?;
         let Self { wave_number: k, tension, activity, concentration: c0, diffusivity } = *self;

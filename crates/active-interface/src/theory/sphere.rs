@@ -24,18 +24,18 @@ use crate::InterfaceError;
 pub struct Sphere(RoundDroplet);
 
 impl Sphere {
-    /// Theory of this droplet.
+    /// Creates a theory of this droplet.
     ///
     /// # Errors
-    /// Those of [`LinearTheory::new`](super::LinearTheory::new).
+    /// Returns the errors of [`LinearTheory::new`](super::LinearTheory::new).
     pub fn new(droplet: RoundDroplet) -> Result<Self, InterfaceError> {
         super::LinearTheory::new(droplet).map(|_| Self(droplet))
     }
 
-    /// Rates of change (1/time) of the amplitudes a of the radius (length) and b of the concentration (particles per
-    /// area) of a spherical harmonic of degree l, as `[[aa, ab], [ba, bb]]`, `da/dt = aa a + ab b`; they are those of
-    /// all orders m. With `S = eta_in + eta_out`, G the tension, g its slope by the concentration,
-    /// `N = (2 l^2 S - 2 eta_in + eta_out)(2 l (l + 2) S + 3 eta_in)` and `P = (l + 2) eta_out + (l - 1) eta_in`
+    /// Returns the rates of change (1/time) of the amplitudes a of the radius (length) and b of the concentration
+    /// (particles per area) of a spherical harmonic of degree l, as `[[aa, ab], [ba, bb]]`, `da/dt = aa a + ab b`. They
+    /// hold for all orders m. With `S = eta_in + eta_out`, G the tension, g its slope by the concentration, `N = (2 l^2
+    /// S - 2 eta_in + eta_out)(2 l (l + 2) S + 3 eta_in)` and `P = (l + 2) eta_out + (l - 1) eta_in`
     ///
     /// ```text
     /// aa = -G (l-1) l (l+1) (l+2) (2l+1) S/(R0 N)          ab = -g l (l+1) P/N
@@ -44,7 +44,7 @@ impl Sphere {
     /// ```
     ///
     /// # Errors
-    /// A degree of zero.
+    /// Returns an error for a degree of zero.
     pub fn growth_matrix(&self, degree: u32) -> Result<[[f64; 2]; 2], InterfaceError> {
         at_least("the degree of a spherical harmonic", degree as usize, 1)?;
         let RoundDroplet { radius, viscosity_inside: i, viscosity_outside: e, tension, concentration, .. } = self.0;
@@ -64,15 +64,15 @@ impl Sphere {
         ])
     }
 
-    /// Activity (force times length) below which the droplet at rest is unstable to l = 1:
-    /// `-D (3 eta_in + 2 eta_out)/(R0 c0)`.
+    /// Returns the activity (force times length) below which the droplet at rest is unstable to l = 1: `-D (3 eta_in +
+    /// 2 eta_out)/(R0 c0)`.
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
         let RoundDroplet { radius, viscosity_inside, viscosity_outside, concentration, diffusivity, .. } = self.0;
         -diffusivity * (3.0 * viscosity_inside + 2.0 * viscosity_outside) / (radius * concentration)
     }
 
-    /// Activity over the threshold (no dimension) of the swimmer of small amplitude with the concentration
+    /// Returns the activity over the threshold (no dimension) of the swimmer of small amplitude with the concentration
     /// `c0 + b1 cos(theta) + ...`, to the second order of b1 (particles per area), for a tension so large that the
     /// droplet stays a sphere and linear in the concentration:
     ///
@@ -84,7 +84,7 @@ impl Sphere {
     /// 0.6, so that swimming sets in subcritically at any viscosities; in two dimensions all ratios are 1.
     ///
     /// # Errors
-    /// An amplitude that is not finite.
+    /// Returns an error for an amplitude that is not finite.
     pub fn onset(&self, first_mode: f64) -> Result<f64, InterfaceError> {
         let amplitude = finite("the first mode of the concentration", first_mode)? / self.0.concentration;
         let (i, e) = (self.0.viscosity_inside, self.0.viscosity_outside);
@@ -92,36 +92,36 @@ impl Sphere {
         Ok(1.0 - (3.0 * ratio - 1.0) / (15.0 * (1.0 - ratio)) * amplitude * amplitude)
     }
 
-    /// Velocity (length per time) along theta = pi of the droplet with the concentration `c0 + c1 cos(theta)`: that of
-    /// [`marangoni_speed`].
+    /// Returns the velocity (length per time) along theta = pi of the droplet with the concentration `c0 + c1
+    /// cos(theta)`. It is the velocity of [`marangoni_speed`].
     ///
     /// # Errors
-    /// An amplitude that is not finite.
+    /// Returns an error for an amplitude that is not finite.
     pub fn swimming_speed(&self, first_mode: f64) -> Result<f64, InterfaceError> {
         let amplitude = finite("the first mode of the concentration", first_mode)?;
         marangoni_speed(-self.0.activity * amplitude, [self.0.viscosity_inside, self.0.viscosity_outside])
     }
 }
 
-/// Velocity (length per time) along theta = pi of a spherical droplet with the tension `gamma0 + g cos(theta)`, g in
-/// force per length, in fluid of another viscosity (stress times time, inside first):
-/// `2 g/(3 (2 eta_out + 3 eta_in))` (Young, Goldstein and Block, The motion of bubbles in a vertical temperature
-/// gradient, 1959).
+/// Returns the velocity (length per time) along theta = pi of a spherical droplet with the tension `gamma0 + g
+/// cos(theta)`, g in force per length, in fluid of another viscosity (stress times time, inside first): `2 g/(3 (2
+/// eta_out + 3 eta_in))` (Young, Goldstein and Block, The motion of bubbles in a vertical temperature gradient, 1959).
 ///
 /// # Errors
-/// Viscosities that are not positive and finite, a tension that is not finite.
+/// Returns an error for viscosities that are not positive and finite, a tension that is not finite.
+#[doc(alias("Marangoni", "thermocapillary", "bubble"))]
 pub fn marangoni_speed(difference: f64, [inside, outside]: [f64; 2]) -> Result<f64, InterfaceError> {
     positive("the viscosity inside", inside)?;
     positive("the viscosity outside", outside)?;
     Ok(2.0 * finite("the difference of tensions", difference)? / (3.0 * (2.0 * outside + 3.0 * inside)))
 }
 
-/// Velocity (length per time) of a spherical droplet of clean interface under a force, such as its weight (Hadamard and
-/// Rybczynski, 1911): `F (eta_in + eta_out)/(2 pi R0 eta_out (2 eta_out + 3 eta_in))`.
+/// Returns the velocity (length per time) of a spherical droplet of clean interface under a force, such as its weight
+/// (Hadamard and Rybczynski, 1911): `F (eta_in + eta_out)/(2 pi R0 eta_out (2 eta_out + 3 eta_in))`.
 ///
 /// # Errors
-/// A radius or viscosities (stress times time, inside first) that are not positive and finite, a force that is not
-/// finite.
+/// Returns an error for a radius or viscosities (stress times time, inside first) that are not positive and finite, a
+/// force that is not finite.
 pub fn settling_speed(force: f64, radius: f64, [inside, outside]: [f64; 2]) -> Result<f64, InterfaceError> {
     positive("the radius", radius)?;
     positive("the viscosity inside", inside)?;
@@ -130,13 +130,13 @@ pub fn settling_speed(force: f64, radius: f64, [inside, outside]: [f64; 2]) -> R
     Ok(finite("the force", force)? * (inside + outside) / resistance)
 }
 
-/// Drag on a rigid sphere along the axis of a closed tube over that in unbounded fluid, for a radius of the sphere over
-/// that of the tube up to 0.6, to 1e-4 at 0.1, 2e-4 at 0.3, 1.4e-2 at 0.5 (Haberman and Sayre, Motion of rigid and
-/// fluid spheres in stationary and moving liquids inside cylindrical tubes, 1958, their approximation); tighter tubes
+/// Returns the drag on a rigid sphere along the axis of a closed tube over the drag in unbounded fluid, for a radius of
+/// the sphere up to 0.6 tube radii, to 1e-4 at 0.1, 2e-4 at 0.3, 1.4e-2 at 0.5 (Haberman and Sayre, Motion of rigid and
+/// fluid spheres in stationary and moving liquids inside cylindrical tubes, 1958, their approximation). Tighter tubes
 /// and more digits are computed by `stokes_boundary_integrals::axisymmetric`.
 ///
 /// # Errors
-/// A ratio below 0 or above 0.6.
+/// Returns an error for a ratio below 0 or above 0.6.
 pub fn tube_drag(ratio: f64) -> Result<f64, InterfaceError> {
     let x = within("the radius of the sphere over that of the tube", ratio, 0.0, 0.6)?;
     let bottom = 1.0 - 2.1050 * x + 2.0865 * x.powi(3) - 1.7068 * x.powi(5) + 0.72603 * x.powi(6);

@@ -8,7 +8,7 @@ use crate::observables::{SquirmerFit, VelocityFrame};
 /// The two-dimensional squirmer: a circle on which the fluid moves with v_r = 0 and v_theta = B1 sin(theta) + (B2/2)
 /// sin(2 theta) in its own frame (Cowley, eq. 2.63), without a force on it, filled with fluid that moves along.
 ///
-/// With rho = r/R it swims with the speed B1/2 along theta = 0; in its own frame
+/// With rho = r/R, it swims with the speed B1/2 along theta = 0; in its own frame
 /// ```text
 /// outside  v_r = -(B1/2)(1 - rho^-2) cos theta + (B2/2)(rho^-3 - rho^-1) cos 2 theta
 ///          v_theta = (B1/2)(1 + rho^-2) sin theta + (B2/2) rho^-3 sin 2 theta
@@ -25,6 +25,7 @@ use crate::observables::{SquirmerFit, VelocityFrame};
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("squirmer", "pusher", "puller", "slip velocity"))]
 pub struct SquirmerFlow {
     radius: f64,
     b1: f64,
@@ -32,24 +33,24 @@ pub struct SquirmerFlow {
 }
 
 impl SquirmerFlow {
-    /// The squirmer with this radius (length) and the coefficients B1 and B2 (length per time), centred at the origin
-    /// and swimming along x for B1 > 0.
+    /// Creates the squirmer with this radius (length) and the coefficients B1 and B2 (length per time), centred at the
+    /// origin and swimming along x for B1 > 0.
     ///
     /// # Errors
-    /// A radius that is not positive, coefficients that are not finite.
+    /// Returns an error for a radius that is not positive, coefficients that are not finite.
     pub fn new(radius: f64, b1: f64, b2: f64) -> Result<Self, InterfaceError> {
         let radius = positive("the radius", radius)?;
         Ok(Self { radius, b1: finite("B1", b1)?, b2: finite("B2", b2)? })
     }
 
-    /// Swimming speed along x (length per time), B1/2.
+    /// Returns the swimming speed along x (length per time), B1/2.
     #[must_use]
     pub fn speed(&self) -> f64 {
         0.5 * self.b1
     }
 
-    /// Velocity (v_r, v_theta) in the squirmer's frame (length per time) at the polar coordinates r (length) and theta
-    /// (radians).
+    /// Returns the velocity (v_r, v_theta) in the squirmer's frame (length per time) at the polar coordinates r
+    /// (length) and theta (radians).
     #[must_use]
     pub fn polar_velocity(&self, r: f64, theta: f64) -> [f64; 2] {
         let rho = r / self.radius;
@@ -68,7 +69,7 @@ impl SquirmerFlow {
         }
     }
 
-    /// Velocity (length per time) at a point (length), in the squirmer's or in the laboratory frame.
+    /// Returns the velocity (length per time) at a point (length), in the squirmer's or in the laboratory frame.
     #[must_use]
     pub fn velocity(&self, point: Vec2, frame: VelocityFrame) -> Vec2 {
         let theta = point.y.atan2(point.x);

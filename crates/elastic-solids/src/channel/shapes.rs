@@ -1,4 +1,4 @@
-//! Shapes of channels, those of Cowley (chapters 4 and 5) among them.
+//! Shapes of channels, including the channels of Cowley (chapters 4 and 5).
 
 use std::f64::consts::{PI, TAU};
 
@@ -55,7 +55,7 @@ pub enum ChannelShape {
         throat: f64,
         /// Number of teeth in a period, at most 200.
         teeth: usize,
-        /// Part of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded); 1/2 is
+        /// Fraction of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded); 1/2 is
         /// symmetric.
         rise: f64,
         /// Straight flanks with sharp edges instead of cosine ramps, as in a file only where it says so.
@@ -75,18 +75,18 @@ pub enum ChannelShape {
         #[serde(default)]
         phase: f64,
     },
-    /// A channel that splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`,
-    /// `y = d/2 cos(t) sqrt(1 + sin(t)^2)`: blunt tips, and flat beside the middle.
+    /// A channel that splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`, `y =
+    /// d/2 cos(t) sqrt(1 + sin(t)^2)`: blunt tips, and flat around the middle.
     Branching {
         /// Width of the undivided channel (length).
         width: f64,
-        /// Widths of the lower and the upper branch beside the middle of the island (length).
+        /// Widths of the lower and the upper branch at the middle of the island (length).
         branches: [f64; 2],
         /// Length l of the island (length).
         island_length: f64,
         /// Thickness d of the island (length).
         island_thickness: f64,
-        /// Length over which each side moves out (length), ending beside the tip of the island.
+        /// Length over which each side moves out (length), ending at the tip of the island.
         ramp: f64,
     },
 }
@@ -99,7 +99,7 @@ impl ChannelShape {
     /// over a length of 4, ramps of 1.
     pub const THESIS: Self = Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 };
 
-    /// Name of the shape, as it stands in a file.
+    /// Returns the name of the shape, as it stands in a file.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -112,7 +112,7 @@ impl ChannelShape {
         }
     }
 
-    /// Width of the undivided channel between its narrow parts (length).
+    /// Returns the width of the undivided channel between its narrow parts (length).
     #[must_use]
     pub fn width(&self) -> f64 {
         match *self {
@@ -125,17 +125,20 @@ impl ChannelShape {
         }
     }
 
-    /// Number of islands.
+    /// Returns the number of islands.
     #[must_use]
     pub fn islands(&self) -> usize {
         usize::from(matches!(self, Self::Branching { .. }))
     }
 
-    /// Channel of this shape and period in x (length).
+    /// Returns the channel of this shape and period in x (length).
     ///
     /// # Errors
-    /// Lengths that are not positive, or more than the period together; a gap or throat not below the width; no waves
-    /// or teeth or more than 200, a rise not between 0 and 1, a radius too large for the teeth; sides that touch.
+    /// Returns an error for:
+    /// * lengths that are not positive, or more than the period together,
+    /// * a gap or throat not below the width,
+    /// * no waves or teeth or more than 200, a rise not between 0 and 1, a radius too large for the teeth,
+    /// * sides that touch.
     pub fn channel(&self, period: f64) -> Result<Channel, SolidError> {
         positive("the period", period)?;
         positive("the width of the channel", self.width())?;
@@ -221,12 +224,12 @@ impl ChannelShape {
     }
 }
 
-/// Step from 0 for s <= 0 to 1 for s >= 1 along a cosine.
+/// Returns the step from 0 for s <= 0 to 1 for s >= 1 along a cosine.
 fn cosine_step(s: f64) -> f64 {
     0.5 - 0.5 * (PI * s.clamp(0.0, 1.0)).cos()
 }
 
-/// Distance of x from the nearest multiple of the period, with its sign.
+/// Returns the distance of x from the nearest multiple of the period, with its sign.
 fn from_nearest(x: f64, period: f64) -> f64 {
     x - period * (x / period).round()
 }

@@ -22,10 +22,10 @@ pub struct Width {
     pub maximum_at: f64,
 }
 
-/// Vertical width of the channel between two walls of a scene: the smallest and the largest over x.
+/// Returns the vertical width of the channel between two walls of a scene: the smallest and the largest over x.
 ///
 /// # Errors
-/// Walls that are not periodic in x, or with different periods.
+/// Returns an error for walls that are not periodic in x, or with different periods.
 pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> {
     let (first, second) = (lower.mesh().period().unwrap_or(0.0), upper.mesh().period().unwrap_or(0.0));
     let (Some(below), Some(above), true) = (lower.surface(-1), upper.surface(1), first == second) else {
@@ -34,12 +34,12 @@ pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> 
     vertical_width(&below, &above, first)
 }
 
-/// Vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period`
-/// (length): the smallest and the largest over x, which are at points of one of the lines. Where a line overhangs, the
-/// part next to the other counts.
+/// Returns the vertical distance between two lines through the points `lower` and `upper` (length), each repeated with
+/// `period` (length): the smallest and the largest over x, which are at points of one of the lines. If a line
+/// overhangs, its side next to the other line counts.
 ///
 /// # Errors
-/// Empty lists, points that are not finite, a period that is not positive.
+/// Returns an error for empty lists, points that are not finite, a period that is not positive.
 fn vertical_width(lower: &[Vec2], upper: &[Vec2], period: f64) -> Result<Width, SolidError> {
     positive("the period", period)?;
     for (name, line) in [("points of the lower side", lower), ("points of the upper side", upper)] {
@@ -62,7 +62,7 @@ fn vertical_width(lower: &[Vec2], upper: &[Vec2], period: f64) -> Result<Width, 
     Ok(width)
 }
 
-/// Heights at which a periodic line crosses the vertical through x.
+/// Returns the heights at which a periodic line crosses the vertical through x.
 fn heights(line: &[Vec2], period: f64, x: f64) -> impl Iterator<Item = f64> {
     let count = line.len();
     // The direction in which the line runs.

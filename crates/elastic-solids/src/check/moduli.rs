@@ -20,18 +20,18 @@ pub struct MeasuredModuli {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InnerPoints {
-    /// Points that follow the uniform strain: the moduli are the mean of those of the triangles.
+    /// Points that follow the uniform strain: the moduli are the mean over the triangles.
     Strained,
-    /// Points that relax to equilibrium: the moduli are those of the solid seen from outside, never more than those of
-    /// [`InnerPoints::Strained`].
+    /// Points that relax to equilibrium: the moduli describe the solid seen from outside, and are never above the
+    /// moduli of [`InnerPoints::Strained`].
     Relaxed,
 }
 
-/// Shear and bulk modulus of a mesh under the small uniform strain `strain` (dimensionless, 1e-6 to 0.1), with the
-/// boundary displaced uniformly.
+/// Returns the shear and bulk modulus of a mesh under the small uniform strain `strain` (dimensionless, 1e-6 to 0.1),
+/// with the boundary displaced uniformly.
 ///
-/// The energy density of the simple shear X = s + g (s_y, 0) is mu g^2/2, that of the dilation X = (1 + g) s is 2 kappa
-/// g^2; the mean over g and -g is taken, so that the error is of second order in the strain. A periodic mesh cannot
+/// The energy density of the simple shear X = s + g (s_y, 0) is mu g^2/2, and of the dilation X = (1 + g) s is 2 kappa
+/// g^2. The mean over g and -g is taken, so that the error is of second order in the strain. A periodic mesh cannot
 /// dilate: there the stretch X = s + g (0, s_y), of energy density (mu + kappa) g^2/2, takes its place.
 ///
 /// ```
@@ -48,8 +48,8 @@ pub enum InnerPoints {
 /// ```
 ///
 /// # Errors
-/// Forces made for another mesh; a strain out of its range; a relaxation that does not converge, which only an unstable
-/// material has.
+/// Returns an error for forces made for another mesh; a strain out of its range; a relaxation that does not converge,
+/// which only an unstable material has.
 pub fn measured_moduli(
     mesh: &TriangleMesh,
     law: &dyn ElasticForces,

@@ -7,13 +7,13 @@ use crate::material::{DeformationGradient, Mat2};
 use crate::mesh::TriangleMesh;
 use crate::{ElasticForces, EnergyDensity, Moduli, SolidError};
 
-/// Elastic forces of a hyperelastic material on a triangle mesh (Cowley section 4.2.1.1): the deformation gradient A is
+/// Elastic forces of a hyperelastic material on a triangle mesh (Cowley section 4.2.1.1). The deformation gradient A is
 /// constant in each triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point
 /// is minus its derivative (4.12).
 ///
-/// Linear triangles whose area can hardly change have too few ways left to move: where the bulk modulus is above ten
-/// times the shear modulus, triangles share their change of area two by two (de Souza Neto, Pires and Owen 2005), with
-/// which displacements are of second order in the size of the triangles at any bulk modulus.
+/// Linear triangles whose area can hardly change have too few ways left to move. If the bulk modulus is above ten times
+/// the shear modulus, triangles share their change of area two by two (de Souza Neto, Pires and Owen 2005), with which
+/// displacements are of second order in the size of the triangles at any bulk modulus.
 #[derive(Debug, Clone)]
 pub struct Hyperelastic<E> {
     elements: Vec<Element>,
@@ -24,22 +24,22 @@ pub struct Hyperelastic<E> {
     patches: Option<Patches>,
 }
 
-/// Ratio of bulk and shear modulus above which triangles share their change of area: linear triangles alone err by as
-/// much as patches do at 1, and by 5 times as much at 100 (`tests/manufactured.rs`).
+/// Ratio of bulk and shear modulus above which triangles share their change of area. Linear triangles alone are as far
+/// off as patches are at a ratio of 1, and 5 times as far at 100 (`tests/manufactured.rs`).
 const PATCHED: f64 = 10.0;
 
 impl<E: EnergyDensity> Hyperelastic<E> {
-    /// Forces of one material everywhere.
+    /// Creates forces of one material everywhere.
     #[must_use]
     pub fn new(mesh: &TriangleMesh, material: E) -> Self {
         Self::of(mesh, vec![material])
     }
 
-    /// Forces of a material that is a function of the reference position (length), taken at the centroid of each
-    /// triangle.
+    /// Returns the forces of a material that is a function of the reference position (length), taken at the centroid of
+    /// each triangle.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the errors of the function.
     pub fn graded(
         mesh: &TriangleMesh,
         mut material: impl FnMut(Vec2) -> Result<E, SolidError>,
@@ -55,7 +55,7 @@ impl<E: EnergyDensity> Hyperelastic<E> {
         Self { elements: Element::all(mesh), materials, points: mesh.points().len(), patches }
     }
 
-    /// Material of a triangle; `None` for one beyond the last.
+    /// Returns the material of a triangle; `None` for one beyond the last.
     #[must_use]
     pub fn material(&self, triangle: usize) -> Option<&E> {
         (triangle < self.elements.len()).then(|| self.raw_material(triangle))
@@ -110,7 +110,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         Some(self.material(triangle)?.stress(&DeformationGradient::checked(*gradient)?))
     }
 
-    /// Triangles that share their change of area have one pressure, that of the patch.
+    /// Returns the triangles that share their change of area have one pressure, the pressure of the patch.
     fn stresses(&self, gradients: &[Mat2]) -> Option<Vec<Mat2>> {
         let own =
             gradients.iter().map(|gradient| DeformationGradient::checked(*gradient)).collect::<Option<Vec<_>>>()?;
@@ -134,8 +134,8 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
 }
 
 impl<E: EnergyDensity> Hyperelastic<E> {
-    /// Ratio J' of the deformed to the reference area of a patch (no dimension), and the latter (length squared), from
-    /// the deformation gradients of its triangles.
+    /// Returns the ratio J' of the deformed to the reference area of a patch (no dimension), and the latter (length
+    /// squared), from the deformation gradients of its triangles.
     fn shared(
         &self,
         patch: &[usize],
@@ -189,7 +189,7 @@ impl<E: EnergyDensity> Hyperelastic<E> {
     }
 }
 
-/// Deformation gradient with another change of area J', `A sqrt(J'/J)`.
+/// Returns the deformation gradient with another change of area J', `A sqrt(J'/J)`.
 #[inline]
 fn scaled(own: &DeformationGradient, shared: f64) -> Result<DeformationGradient, SolidError> {
     DeformationGradient::new(own.matrix() * (shared / own.jacobian()).sqrt())
@@ -199,7 +199,7 @@ fn scaled(own: &DeformationGradient, shared: f64) -> Result<DeformationGradient,
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Element {
     corners: [u32; 3],
-    /// Additions to x of the second and third corner across the seam of a periodic mesh (length).
+    /// Additions to x of the second and third corner across the edge of a periodic mesh (length).
     shifts: [f64; 2],
     /// Inverse of the matrix of the reference sides (1/length).
     inverse: Mat2,
@@ -213,7 +213,7 @@ impl Element {
         (0..mesh.triangles().len()).map(|number| Self::of(mesh, number)).collect()
     }
 
-    /// Element of a triangle of a mesh.
+    /// Creates an element of a triangle of a mesh.
     pub(crate) fn of(mesh: &TriangleMesh, number: usize) -> Self {
         let at = mesh.raw_corners(number, mesh.points());
         let home = mesh.triangles()[number];
@@ -225,7 +225,7 @@ impl Element {
         }
     }
 
-    /// Deformation gradient A (no dimension) with the points of the mesh at `positions` (length).
+    /// Returns the deformation gradient A (no dimension) with the points of the mesh at `positions` (length).
     #[inline]
     pub(crate) fn gradient(&self, positions: &[Vec2]) -> Mat2 {
         let [a, b, c] = self.corners.map(|point| positions[point as usize]);
@@ -234,14 +234,14 @@ impl Element {
         Mat2::from_cols(first, second) * self.inverse
     }
 
-    /// Gradient, by the reference position, of a field of values at the points of the mesh.
+    /// Returns the gradient, by the reference position, of a field of values at the points of the mesh.
     #[inline]
     pub(crate) fn gradient_of(&self, values: &[Vec2]) -> Mat2 {
         let [a, b, c] = self.corners.map(|point| values[point as usize]);
         Mat2::from_cols(b - a, c - a) * self.inverse
     }
 
-    /// Deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
+    /// Returns the deformation gradient of an element that is not inverted; `triangle` is its index, for messages.
     #[inline]
     pub(crate) fn deformation(&self, triangle: usize, positions: &[Vec2]) -> Result<DeformationGradient, SolidError> {
         DeformationGradient::checked(self.gradient(positions)).ok_or_else(|| self.inverted(triangle, positions))
@@ -258,7 +258,7 @@ impl Element {
         forces[c] -= second;
     }
 
-    /// Error for a triangle that is inverted, flat, or not finite.
+    /// Returns the error for a triangle that is inverted, flat, or not finite.
     fn inverted(&self, triangle: usize, positions: &[Vec2]) -> SolidError {
         let sum: Vec2 = self.corners.iter().map(|&point| positions[point as usize]).sum();
         let place = (sum + Vec2::new(self.shifts[0] + self.shifts[1], 0.0)) / 3.0;

@@ -4,8 +4,8 @@ use motile_base::Vec2;
 
 use crate::{forces::Bar, material::Mat2, mesh::TriangleMesh};
 
-/// Adds the Cauchy stresses (force per deformed length) of `tension` (force) in the bar along edge `edge` to those of
-/// the triangles beside it: `t |r| n n / area`, a half for each of two, n along the bar.
+/// Adds the Cauchy stresses (force per deformed length) of `tension` (force) in the bar along edge `edge` to the
+/// stresses of the neighbouring triangles: `t |r| n n / area`, a half for each of two, n along the bar.
 pub(crate) fn add_stress_of_bar(
     (mesh, edge): (&TriangleMesh, usize),
     (bar, tension): (&Bar, f64),

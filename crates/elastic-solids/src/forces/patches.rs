@@ -40,7 +40,7 @@ impl Patches {
         Self { ends: ends.collect(), triangles: patches.concat() }
     }
 
-    /// Triangles of each patch.
+    /// Returns the triangles of each patch.
     pub(super) fn iter(&self) -> impl Iterator<Item = &[usize]> {
         let starts = std::iter::once(&0).chain(&self.ends);
         starts.zip(&self.ends).map(|(start, end)| &self.triangles[*start..*end])

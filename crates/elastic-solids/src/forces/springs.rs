@@ -7,7 +7,7 @@ use crate::material::Mat2;
 use crate::mesh::TriangleMesh;
 use crate::{ElasticForces, Moduli, SolidError};
 
-/// A spring along every edge of a triangle mesh (Cowley section 4.1), without stress in the reference state: the force
+/// A spring along every edge of a triangle mesh (Cowley section 4.1), without stress in the reference state. The force
 /// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (Cowley's
 /// (4.1) has the opposite sign, and a half because it counts every spring from both ends.)
 ///
@@ -21,6 +21,7 @@ use crate::{ElasticForces, Moduli, SolidError};
 /// no springs along its sides but the energy that its deformation gives springs along its longest side and at 60
 /// degrees to it, as if it were part of an equilateral one.
 #[derive(Debug, Clone)]
+#[doc(alias("spring network", "spring lattice", "fibre", "fiber"))]
 pub struct Springs {
     /// Springs along the edges, each with its spring constant (force per length).
     springs: Vec<(Bar, f64)>,
@@ -31,25 +32,25 @@ pub struct Springs {
     points: usize,
 }
 
-/// Ratio of the longest to the shortest side of a triangle above which it has no springs along its sides: above those
-/// of relaxed meshes and below the 2 of a halved equilateral triangle.
+/// Ratio of the longest to the shortest side of a triangle above which it has no springs along its sides: above the
+/// ratios of relaxed meshes and below the 2 of a halved equilateral triangle.
 const UNEVEN: f64 = 1.8;
 
 impl Springs {
-    /// Springs for one shear modulus everywhere (force per length); [`Moduli::from_thesis_spring_constant`] converts
-    /// Cowley's k.
+    /// Creates springs for one shear modulus everywhere (force per length); [`Moduli::from_thesis_spring_constant`]
+    /// converts Cowley's k.
     ///
     /// # Errors
-    /// A shear modulus that is not positive and finite.
+    /// Returns an error for a shear modulus that is not positive and finite.
     pub fn new(mesh: &TriangleMesh, shear: f64) -> Result<Self, SolidError> {
         Self::graded(mesh, |_| shear)
     }
 
-    /// Springs for a shear modulus (force per length) that is a function of the reference position (length), taken at
-    /// the centroid of each triangle.
+    /// Returns the springs for a shear modulus (force per length) that is a function of the reference position
+    /// (length), taken at the centroid of each triangle.
     ///
     /// # Errors
-    /// A shear modulus that is not positive and finite.
+    /// Returns an error for a shear modulus that is not positive and finite.
     pub fn graded(mesh: &TriangleMesh, mut shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
         let mut uneven = Vec::new();
         let sides = (0..mesh.triangles().len())
@@ -81,20 +82,20 @@ impl Springs {
         Ok(Self { springs, uneven, sides, points: mesh.points().len() })
     }
 
-    /// Springs along the edges of the mesh, in their order, each with its spring constant (force per length); that of
-    /// an edge between uneven triangles is zero.
+    /// Returns the springs along the edges of the mesh, in their order, each with its spring constant (force per
+    /// length). The constant of an edge between uneven triangles is zero.
     pub(crate) fn bars(&self) -> &[(Bar, f64)] {
         &self.springs
     }
 
-    /// Triangles of uneven sides, by index, which have no springs along their sides.
+    /// Returns the triangles of uneven sides, by index, which have no springs along their sides.
     pub(crate) fn uneven(&self) -> &[(usize, Element)] {
         &self.uneven
     }
 }
 
-/// Spring constant `8 weight/(3 d^2)` (force per length) for `weight` = sum of mu A_ref (force times length) over the
-/// triangles at the edge and the reference length d (length).
+/// Returns the spring constant `8 weight/(3 d^2)` (force per length) for `weight` = sum of mu A_ref (force times
+/// length) over the triangles at the edge and the reference length d (length).
 fn stiffness(weight: f64, rest: f64) -> f64 {
     8.0 / 3.0 * weight / (rest * rest)
 }
@@ -134,7 +135,7 @@ impl ElasticForces for Springs {
         Ok(even.sum::<f64>() + uneven.sum::<f64>())
     }
 
-    /// Stress of a triangle's share of the springs along its sides: of a material with the energy density
+    /// Returns the stress of a triangle's share of the springs along its sides: of a material with the energy density
     /// `4 mu/3 sum of (|A s|/|s| - 1)^2` over the sides s.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
         let (sides, shear) = self.sides.get(triangle)?;

@@ -28,35 +28,35 @@ impl Mat2 {
     /// The unit matrix.
     pub const IDENTITY: Self = Self::from_diagonal(Vec2::ONE);
 
-    /// Matrix with these columns.
+    /// Creates a matrix with these columns.
     #[inline]
     #[must_use]
     pub const fn from_cols(x_axis: Vec2, y_axis: Vec2) -> Self {
         Self { x_axis, y_axis }
     }
 
-    /// Matrix of the entries a11, a21, a12, a22, column by column.
+    /// Creates a matrix of the entries a11, a21, a12, a22, column by column.
     #[inline]
     #[must_use]
     pub const fn from_cols_array(&[a11, a21, a12, a22]: &[f64; 4]) -> Self {
         Self::from_cols(Vec2::new(a11, a21), Vec2::new(a12, a22))
     }
 
-    /// Matrix of the entries a11, a12, a21, a22, row by row.
+    /// Creates a matrix of the entries a11, a12, a21, a22, row by row.
     #[inline]
     #[must_use]
     pub const fn from_rows_array(&[a11, a12, a21, a22]: &[f64; 4]) -> Self {
         Self::from_cols_array(&[a11, a21, a12, a22])
     }
 
-    /// Diagonal matrix with these entries.
+    /// Creates a diagonal matrix with these entries.
     #[inline]
     #[must_use]
     pub const fn from_diagonal(diagonal: Vec2) -> Self {
         Self::from_cols_array(&[diagonal.x, 0.0, 0.0, diagonal.y])
     }
 
-    /// Rotation by `angle` (radians, counter-clockwise).
+    /// Creates a rotation by `angle` (radians, counter-clockwise).
     #[inline]
     #[must_use]
     pub fn from_angle(angle: f64) -> Self {
@@ -64,35 +64,35 @@ impl Mat2 {
         Self::from_cols(along, along.perp())
     }
 
-    /// Entries a11, a21, a12, a22, column by column.
+    /// Returns the entries a11, a21, a12, a22, column by column.
     #[inline]
     #[must_use]
     pub const fn to_cols_array(self) -> [f64; 4] {
         [self.x_axis.x, self.x_axis.y, self.y_axis.x, self.y_axis.y]
     }
 
-    /// The transposed matrix.
+    /// Returns the transposed matrix.
     #[inline]
     #[must_use]
     pub const fn transpose(&self) -> Self {
         Self::from_rows_array(&self.to_cols_array())
     }
 
-    /// Trace a11 + a22.
+    /// Returns the trace a11 + a22.
     #[inline]
     #[must_use]
     pub fn trace(&self) -> f64 {
         self.x_axis.x + self.y_axis.y
     }
 
-    /// Determinant a11 a22 - a12 a21.
+    /// Returns the determinant a11 a22 - a12 a21.
     #[inline]
     #[must_use]
     pub fn determinant(&self) -> f64 {
         self.x_axis.perp_dot(self.y_axis)
     }
 
-    /// Inverse matrix; its entries are not finite where the determinant is zero.
+    /// Returns the inverse matrix; its entries are not finite where the determinant is zero.
     #[inline]
     #[must_use]
     pub fn inverse(&self) -> Self {

@@ -13,9 +13,10 @@ use crate::{EnergyDensity, Moduli, SolidError};
 /// ```
 /// with mu, kappa the shear and bulk modulus of the plane (force per length), q the part of mu that the second
 /// invariant carries, A the deformation gradient in the plane and J its determinant. q = 0 is the neo-Hookean solid of
-/// three dimensions; it differs from [`NeoHookean`](crate::NeoHookean) in its response to a change of area, which under
+/// three dimensions. It differs from [`NeoHookean`](crate::NeoHookean) in its response to a change of area, which under
 /// plane strain distorts the material in three dimensions too.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("hyperelastic", "rubber"))]
 pub struct MooneyRivlin {
     moduli: Moduli,
     first: f64,
@@ -24,12 +25,12 @@ pub struct MooneyRivlin {
 }
 
 impl MooneyRivlin {
-    /// Material from shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction q of the
-    /// second invariant (0 to 1).
+    /// Creates a material from shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction
+    /// q of the second invariant (0 to 1).
     ///
     /// # Errors
-    /// A modulus that is not positive and finite, a fraction out of its range, `kappa <= mu/3` (no bulk modulus left in
-    /// three dimensions).
+    /// Returns an error for a modulus that is not positive and finite, a fraction out of its range, `kappa <= mu/3` (no
+    /// bulk modulus left in three dimensions).
     pub fn new(shear: f64, bulk: f64, fraction: f64) -> Result<Self, SolidError> {
         let moduli = Moduli::new(shear, bulk)?;
         within("the fraction of the second invariant", fraction, 0.0, 1.0)?;

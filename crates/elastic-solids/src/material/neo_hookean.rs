@@ -11,15 +11,16 @@ use crate::{EnergyDensity, Moduli, SolidError};
 /// (Cowley prints tr(A A) in (4.8) and means tr(A A^T), as in its (4.4)). W grows without bound where the material
 /// is flattened.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("hyperelastic", "shear modulus", "elasticity"))]
 pub struct NeoHookean {
     moduli: Moduli,
 }
 
 impl NeoHookean {
-    /// Material from shear modulus mu and bulk modulus kappa (force per length).
+    /// Creates a material from shear modulus mu and bulk modulus kappa (force per length).
     ///
     /// # Errors
-    /// A modulus that is not positive and finite.
+    /// Returns an error for a modulus that is not positive and finite.
     pub fn new(shear: f64, bulk: f64) -> Result<Self, SolidError> {
         Ok(Self { moduli: Moduli::new(shear, bulk)? })
     }

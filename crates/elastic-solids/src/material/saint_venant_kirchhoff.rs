@@ -17,10 +17,10 @@ pub struct SaintVenantKirchhoff {
 }
 
 impl SaintVenantKirchhoff {
-    /// Material from shear modulus mu and bulk modulus kappa (force per length).
+    /// Creates a material from shear modulus mu and bulk modulus kappa (force per length).
     ///
     /// # Errors
-    /// A modulus that is not positive and finite.
+    /// Returns an error for a modulus that is not positive and finite.
     pub fn new(shear: f64, bulk: f64) -> Result<Self, SolidError> {
         Ok(Self { moduli: Moduli::new(shear, bulk)? })
     }

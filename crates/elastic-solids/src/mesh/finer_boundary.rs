@@ -12,14 +12,14 @@ use crate::mesh::TriangleMesh;
 const CORNER: f64 = 0.8;
 
 impl TriangleMesh {
-    /// Mesh with another point in the middle of each side of the boundary both of whose ends satisfy a condition on
-    /// their place (length); the triangle there is divided. For surfaces that are to be resolved more finely than the
-    /// solid below them.
+    /// Returns the mesh with another point in the middle of each side of the boundary both of whose ends satisfy a
+    /// condition on their place (length); the triangle there is divided. Serves surfaces that are to be resolved more
+    /// finely than the solid below them.
     ///
     /// New points lie on the cubic through the four points about them, next to corners on the side itself.
     ///
     /// # Errors
-    /// A mesh that is so coarse that triangles fold.
+    /// Returns an error for a mesh that is so coarse that triangles fold.
     pub fn with_finer_boundary(&self, condition: impl Fn(Vec2) -> bool) -> Result<Self, SolidError> {
         let mut points = self.points.clone();
         let mut middles = HashMap::new();
@@ -67,8 +67,8 @@ impl TriangleMesh {
     }
 }
 
-/// Vector from the start of a side of a smooth line to its middle, on the cubic through its ends and the ends of the
-/// sides before and after it, with the lengths of the sides as parameter.
+/// Returns the vector from the start of a side of a smooth line to its middle, on the cubic through its ends and the
+/// ends of the sides before and after it, with the lengths of the sides as parameter.
 fn middle(before: Vec2, own: Vec2, after: Vec2) -> Vec2 {
     let [a, b, c] = [before, own, after].map(Vec2::length);
     let knots = [(-a, -before), (0.0, Vec2::ZERO), (b, own), (b + c, own + after)];

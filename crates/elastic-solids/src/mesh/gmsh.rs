@@ -14,7 +14,7 @@ mod parse;
 use join::{first_of_same, join_ends};
 use parse::{Contents, parse};
 
-/// Group of triangles that belong together, such as those of one material: a physical group of Gmsh.
+/// Group of triangles that belong together, such as all triangles of one material: a physical group of Gmsh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PhysicalGroup {
     /// Number of the group.
@@ -52,14 +52,14 @@ pub struct GmshMesh {
 }
 
 impl GmshMesh {
-    /// Mesh from the text of a file with triangles of three points. Elements that are points or lines are ignored, as
-    /// are sections that do not belong to the mesh; z must be the same everywhere. Points keep their order; those that
-    /// no triangle uses are left out.
+    /// Creates a mesh from the text of a file with triangles of three points. Elements that are points or lines are
+    /// ignored, as are sections that do not belong to the mesh; z must be the same everywhere. Points keep their order;
+    /// those that no triangle uses are left out.
     ///
     /// # Errors
-    /// [`SolidError::Refused`] with the line for text that is not in the format, other versions, binary files, elements
-    /// that are not triangles of three points; points that coincide, to 1e-3 of the shortest edge
-    /// ([`SolidError::Refused`]); those of [`TriangleMesh::new`].
+    /// Returns [`SolidError::Refused`] with the line for text that is not in the format, other versions, binary files,
+    /// elements that are not triangles of three points; points that coincide, to 1e-3 of the shortest edge
+    /// ([`SolidError::Refused`]). The errors of [`TriangleMesh::new`].
     pub fn from_text(text: &str) -> Result<Self, SolidError> {
         let Contents { points, triangles, groups } = parse(text)?;
         let first = first_of_same(&points, &triangles, None);
@@ -69,11 +69,11 @@ impl GmshMesh {
         Ok(Self { mesh: TriangleMesh::new(points, triangles)?, groups })
     }
 
-    /// Mesh that repeats itself in x with `period` (length), from the text of a file: points that coincide when moved
-    /// by a period, to 1e-3 of the shortest edge, become one.
+    /// Creates a mesh that repeats itself in x with `period` (length), from the text of a file: points that coincide
+    /// when moved by a period, to 1e-3 of the shortest edge, become one.
     ///
     /// # Errors
-    /// Those of [`GmshMesh::from_text`] and of [`TriangleMesh::periodic`].
+    /// Returns the errors of [`GmshMesh::from_text`] and of [`TriangleMesh::periodic`].
     pub fn from_periodic_text(text: &str, period: f64) -> Result<Self, SolidError> {
         positive("the period", period)?;
         let Contents { points, triangles, groups } = parse(text)?;
@@ -81,11 +81,11 @@ impl GmshMesh {
         Ok(Self { mesh: TriangleMesh::periodic(points, triangles, period)?, groups })
     }
 
-    /// Text of the file. Points of a periodic mesh are written on both sides of the seam.
+    /// Returns the text of the file. Points of a periodic mesh are written on both sides of the periodic edge.
     ///
     /// # Errors
-    /// A group of a triangle that does not exist, two groups of one number, a number that is not positive, a name with
-    /// a quotation mark or line break.
+    /// Returns an error for a group of a triangle that does not exist, two groups of one number, a number that is not
+    /// positive, a name with a quotation mark or line break.
     pub fn to_text(&self) -> Result<String, SolidError> {
         self.check_groups()?;
         let (points, triangles) = self.unrolled();
@@ -119,8 +119,8 @@ impl GmshMesh {
         Ok(())
     }
 
-    /// Points and triangles of the mesh without its periodicity: with images of the points of triangles across the
-    /// seam.
+    /// Returns the points and triangles of the mesh without its periodicity: with images of the points of triangles
+    /// across the periodic edge.
     fn unrolled(&self) -> (Vec<Vec2>, Vec<[usize; 3]>) {
         let mut points = self.mesh.points().to_vec();
         let mut images = BTreeMap::new();
@@ -143,8 +143,8 @@ impl GmshMesh {
         (points, triangles)
     }
 
-    /// Partition of the triangles into those that belong to the same groups: indices of the groups, and of the
-    /// triangles.
+    /// Returns the partition of the triangles into those that belong to the same groups: indices of the groups, and of
+    /// the triangles.
     fn parts(&self) -> Vec<(Vec<usize>, Vec<usize>)> {
         let mut groups_of = vec![Vec::new(); self.mesh.triangles().len()];
         for (number, group) in self.groups.iter().enumerate() {

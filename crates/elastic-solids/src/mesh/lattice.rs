@@ -13,26 +13,26 @@ use crate::mesh::TriangleMesh;
 /// Height of an equilateral triangle over its side.
 pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-/// Strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows
-/// of points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns *
-/// spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of Cowley section 4.1.
+/// Returns the strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles
+/// (`rows + 1` rows of points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is
+/// `columns * spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of Cowley section 4.1.
 ///
 /// Points are numbered row by row from below.
 ///
 /// # Errors
-/// A spacing that is not positive, a corner that is not finite, fewer than three columns or one row, more than 1e6
-/// columns times rows.
+/// Returns an error for a spacing that is not positive, a corner that is not finite, fewer than three columns or one
+/// row, more than 1e6 columns times rows.
 pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
     strip(corner, columns, rows, [length("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
 }
 
-/// Strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness
-/// (length) exactly, with the lower left corner at `corner` (length). The rows are as many as fit `spacing` (length)
-/// best, the columns as many as stretch the triangles least.
+/// Returns the strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and
+/// thickness (length) exactly, with the lower left corner at `corner` (length). The rows are as many as fit `spacing`
+/// (length) best, the columns as many as stretch the triangles least.
 ///
 /// # Errors
-/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row, more
-/// than 1e6 columns times rows.
+/// Returns an error for sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns
+/// or one row, more than 1e6 columns times rows.
 pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<TriangleMesh, SolidError> {
     length("the lattice spacing", spacing)?;
     length("the period", size[0])?;
@@ -42,14 +42,15 @@ pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<Triang
     strip(corner, columns, rows, [size[0] / columns as f64, height])
 }
 
-/// Block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the
-/// odd ones, `rows` layers of triangles. Its lower left point is `corner` (length); the sides to the left and right are
-/// toothed.
+/// Returns the block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows,
+/// `columns` in the odd ones, `rows` layers of triangles. Its lower left point is `corner` (length); the sides to the
+/// left and right are toothed.
 ///
 /// Points are numbered row by row from below.
 ///
 /// # Errors
-/// A spacing that is not positive, a corner that is not finite, no column or no row, more than 1e6 columns times rows.
+/// Returns an error for a spacing that is not positive, a corner that is not finite, no column or no row, more than 1e6
+/// columns times rows.
 pub fn equilateral_block(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
     length("the lattice spacing", spacing)?;
     all_points_finite("the corner of the block", &[corner])?;

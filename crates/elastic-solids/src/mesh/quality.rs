@@ -14,7 +14,7 @@ pub struct MeshQuality {
     pub mean_edge: f64,
     /// Standard deviation of the edge lengths over their mean (dimensionless).
     pub edge_deviation: f64,
-    /// Part of the edges whose length is off the mean by more than a fifth (dimensionless).
+    /// Fraction of the edges whose length is off the mean by more than a fifth (dimensionless).
     pub uneven_edges: f64,
     /// Length of the shortest edge (length).
     pub shortest_edge: f64,
@@ -36,7 +36,7 @@ impl std::fmt::Display for MeshQuality {
 }
 
 impl TriangleMesh {
-    /// Quality of the mesh in the reference state.
+    /// Returns the quality of the mesh in the reference state.
     #[must_use]
     pub fn quality(&self) -> MeshQuality {
         let lengths: Vec<f64> =

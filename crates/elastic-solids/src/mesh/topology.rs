@@ -10,7 +10,7 @@ fn next(half: HalfEdge) -> HalfEdge {
     if half % 3 == 2 { half - 2 } else { half + 1 }
 }
 
-/// Edges of a mesh, each once, and for each half-edge its twin on the other side; `None` on the boundary.
+/// Returns the edges of a mesh, each once, and for each half-edge its twin on the other side; `None` on the boundary.
 pub(crate) fn connect(
     triangles: &[[usize; 3]],
     shifts: &[[i8; 2]],

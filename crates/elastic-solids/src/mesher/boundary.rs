@@ -32,8 +32,8 @@ pub(crate) struct Boundary<'a> {
 }
 
 impl<'a> Boundary<'a> {
-    /// Boundary at about the spacing `asked` (length); with `fitted`, the spacing is changed a little so that the seeds
-    /// of a wall are a lattice between its surfaces.
+    /// Creates a boundary at about the spacing `asked` (length); with `fitted`, the spacing is changed a little so that
+    /// the seeds of a wall are a lattice between its surfaces.
     pub(crate) fn new(interior: &'a Interior, asked: f64, fitted: bool) -> Result<Self, SolidError> {
         let mut spacing = asked;
         if let Some(period) = interior.period() {
@@ -85,7 +85,7 @@ impl<'a> Boundary<'a> {
         Ok(boundary)
     }
 
-    /// Image of a point in the first period.
+    /// Returns the image of a point in the first period.
     fn home(&self, point: Vec2) -> Vec2 {
         let periods = self.period.map_or(0.0, |(start, period)| period * ((point.x - start) / period).floor());
         point - Vec2::new(periods, 0.0)
@@ -134,12 +134,12 @@ impl<'a> Boundary<'a> {
         Ok(())
     }
 
-    /// Number of boundary points.
+    /// Returns the number of boundary points.
     pub(crate) fn count(&self) -> usize {
         self.outlines.iter().map(Vec::len).sum()
     }
 
-    /// Point set of the boundary points and the `seeds` inside.
+    /// Returns the point set of the boundary points and the `seeds` inside.
     pub(crate) fn point_set(&self, seeds: Vec<Vec2>) -> PointSet<'_> {
         let mut points: Vec<Vec2> = Vec::new();
         let mut boundary = Vec::new();
@@ -167,12 +167,12 @@ fn bounds(outlines: &[Vec<Vec2>]) -> (Vec2, Vec2) {
     outlines.iter().flatten().fold((first, first), |(low, high), point| (low.min(*point), high.max(*point)))
 }
 
-/// Number of rows of seeds over a height (length) at a spacing (length).
+/// Returns the number of rows of seeds over a height (length) at a spacing (length).
 pub(crate) fn rows(height: f64, spacing: f64) -> f64 {
     (height / (ROW_HEIGHT * spacing)).round().max(1.0)
 }
 
-/// Smallest distance between two parallel lines with all points between them, over 90 directions (length).
+/// Returns the smallest distance between two parallel lines with all points between them, over 90 directions (length).
 fn width(points: &[Vec2]) -> f64 {
     (0..90)
         .map(|degrees| {

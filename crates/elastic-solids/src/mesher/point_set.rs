@@ -5,7 +5,7 @@ use motile_base::Vec2;
 use crate::mesher::segments::Segments;
 use crate::outline::{Place, Track};
 
-/// Points to be triangulated: first those of the boundary, outline by outline, then the inner ones.
+/// Points to be triangulated: first the points of the boundary, outline by outline, then the inner ones.
 #[derive(Debug)]
 pub(crate) struct PointSet<'a> {
     pub(crate) points: Vec<Vec2>,
@@ -13,7 +13,7 @@ pub(crate) struct PointSet<'a> {
     pub(crate) on_boundary: usize,
     /// Boundary edges by the indices of their points.
     pub(crate) boundary: Vec<[usize; 2]>,
-    /// Boundary edges by the positions of their points, to tell inside from outside.
+    /// Boundary edges by the positions of their points, to distinguish inside and outside.
     pub(crate) segments: Segments,
     /// Outlines on which the boundary points slide, and their places on them.
     pub(crate) tracks: &'a [Track<'a>],
@@ -28,7 +28,7 @@ impl PointSet<'_> {
         Self { tracks: &[], ..self }
     }
 
-    /// Vector from one point of an edge to the other, the shorter way round (length).
+    /// Returns the vector from one point of an edge to the other, the shorter way round (length).
     pub(crate) fn vector(&self, [from, to]: [usize; 2]) -> Vec2 {
         let mut vector = self.points[to] - self.points[from];
         if let Some((_, period)) = self.period {

@@ -9,18 +9,18 @@ use crate::mesher::triangulation::triangulate;
 /// Sweeps between two triangulations; the first ones follow each other sooner.
 const SWEEPS_PER_TRIANGULATION: usize = 20;
 
-/// Part of the sweeps in which the edges only push.
+/// Fraction of the sweeps in which the edges only push.
 const PUSHING: f64 = 2.0 / 3.0;
 
 /// Length over the spacing at which an edge ceases to push. Edges that never pull drive points away from their nearest
-/// neighbours and dislocations away from the boundary. From 1.33 on a lattice under such a pressure is unstable.
+/// neighbours and dislocations away from the boundary. Above 1.33, a lattice under such a pressure is unstable.
 const PUSH_LENGTH: f64 = 1.25;
 
-/// Displacement over force: with the six edges of a point, it would overshoot from 1/3 on.
+/// Displacement over force: with the six edges of a point, it would overshoot above 1/3.
 const STEP: f64 = 0.15;
 
-/// Part of the last displacement that the next one repeats: strains as wide as a wall die out in some 20 sweeps instead
-/// of 100. At 0.9 points are thrown across the boundary.
+/// Fraction of the last displacement that the next one repeats: strains as wide as a wall die out in about 20 sweeps
+/// instead of 100. At 0.9 points are thrown across the boundary.
 const MOMENTUM: f64 = 0.8;
 
 /// Moves the points towards equal edges and returns the triangles and how often a point was moved. Every edge is a

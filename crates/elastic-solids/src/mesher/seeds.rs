@@ -15,7 +15,7 @@ pub(crate) struct Lay {
     pub(crate) angle: f64,
     /// Displacement of the lattice in units of columns and rows.
     pub(crate) offset: [f64; 2],
-    /// Least distance from the boundary over the spacing.
+    /// Minimum distance from the boundary over the spacing.
     pub(crate) margin: f64,
 }
 
@@ -29,7 +29,7 @@ pub(crate) enum Fit {
 }
 
 impl Boundary<'_> {
-    /// Points of a lattice that lie inside the solid.
+    /// Returns the points of a lattice that lie inside the solid.
     pub(crate) fn seeds(&self, lay: Lay) -> Result<Vec<Vec2>, SolidError> {
         let spacing = self.spacing;
         let margin = lay.margin * spacing;

@@ -29,8 +29,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// The segments between the points of each outline in order. With `period` = start and period in x (length), images
-    /// within `margin` of that period are added, and points may lie anywhere.
+    /// Creates the segments between the points of each outline in order. With `period` = start and period in x
+    /// (length), images within `margin` of that period are added, and points may lie anywhere.
     pub(crate) fn new(outlines: &[Vec<Vec2>], period: Option<(f64, f64)>, margin: f64) -> Self {
         let mut segments = Vec::new();
         for (outline, points) in outlines.iter().enumerate() {
@@ -70,10 +70,10 @@ impl Segments {
         Self { segments, counts: outlines.iter().map(Vec::len).collect(), cell, cells, columns }
     }
 
-    /// The segments of outlines that must not cross.
+    /// Creates the segments of outlines that must not cross.
     ///
     /// # Errors
-    /// [`SolidError::Refused`].
+    /// Returns [`SolidError::Refused`] if outlines cross or touch.
     pub(crate) fn uncrossed(
         outlines: &[Vec<Vec2>],
         period: Option<(f64, f64)>,
@@ -84,12 +84,12 @@ impl Segments {
         Ok(segments)
     }
 
-    /// Tells whether `point` is solid.
+    /// Returns true if `point` is solid.
     pub(crate) fn inside(&self, point: Vec2) -> bool {
         self.crossings_above(point, None) % 2 == 1
     }
 
-    /// Number of crossings of a line upwards from `point` with outlines other than `except`.
+    /// Returns the number of crossings of a line upwards from `point` with outlines other than `except`.
     pub(crate) fn crossings_above(&self, point: Vec2, except: Option<usize>) -> usize {
         let Some(column) = self.columns.get(&cell_of(point, self.cell).0) else { return 0 };
         column
@@ -103,7 +103,7 @@ impl Segments {
             .count()
     }
 
-    /// Nearest point of the boundary within `reach` of `point`, among the segments that `wanted` admits.
+    /// Returns the nearest point of the boundary within `reach` of `point`, among the segments that `wanted` admits.
     pub(crate) fn nearest(&self, point: Vec2, reach: f64, wanted: impl Fn(&Segment) -> bool) -> Option<Vec2> {
         let low = cell_of(point - Vec2::splat(reach), self.cell);
         let high = cell_of(point + Vec2::splat(reach), self.cell);
@@ -123,13 +123,13 @@ impl Segments {
         best.1
     }
 
-    /// Number of steps between two segments of one outline, the shorter way round.
+    /// Returns the number of steps between two segments of one outline, the shorter way round.
     pub(crate) fn separation(&self, outline: usize, first: usize, second: usize) -> usize {
         let apart = first.abs_diff(second);
         apart.min(self.counts[outline] - apart)
     }
 
-    /// Place where outlines cross, touch or fold back onto themselves, on the first segment that does.
+    /// Returns the place where outlines cross, touch or fold back onto themselves, on the first segment that does.
     fn first_crossing(&self) -> Option<Vec2> {
         let mut first: Option<(usize, usize)> = None;
         for list in self.cells.values() {
@@ -177,7 +177,7 @@ fn cell_of(point: Vec2, cell: f64) -> (i64, i64) {
     ((point.x / cell).floor() as i64, (point.y / cell).floor() as i64)
 }
 
-/// Point of a segment nearest to `point`.
+/// Returns the point of a segment nearest to `point`.
 fn foot(point: Vec2, segment: &Segment) -> Vec2 {
     let along = segment.to - segment.from;
     let fraction = (point - segment.from).dot(along) / along.length_squared();

@@ -1,4 +1,4 @@
-//! Constrained Delaunay triangulation of a set of points, also across the seam of a period.
+//! Constrained Delaunay triangulation of a set of points, also across the edge of a period.
 
 use motile_base::Vec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -18,7 +18,7 @@ const TIE_BREAK: f64 = 1e-7;
 /// solid.
 const SLIVER: f64 = 1e-6;
 
-/// Triangles inside the solid, each once.
+/// Returns the triangles inside the solid, each once.
 pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[usize; 3]>, SolidError> {
     set.renew(IMAGES * spacing);
     let (vertices, originals, edges) = images(set, spacing);
@@ -93,7 +93,7 @@ fn image_shift(period: Option<(f64, f64)>, image: i8) -> Vec2 {
     Vec2::new(period.map_or(0.0, |(_, period)| period * f64::from(image)), 0.0)
 }
 
-/// A small displacement that differs from point to point and is the same for all images of one.
+/// Returns a small displacement that differs from point to point and is the same for all images of one.
 fn tie_break(point: usize) -> Vec2 {
     let hash = (point as u64).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let part = |shift: u32| ((hash >> shift) & 0xFFFF) as f64 / 65536.0 - 0.5;

@@ -17,10 +17,11 @@ pub struct Interior {
 }
 
 impl Interior {
-    /// Solid between `outlines`, which must not cross (this is checked when it is meshed).
+    /// Creates a solid between `outlines`, which must not cross (this is checked when it is meshed).
     ///
     /// # Errors
-    /// No outline; periodic outlines of different periods, or an odd number of them (there would be no end).
+    /// Returns an error if there is no outline, or for periodic outlines of different periods, or an odd number of them
+    /// (there would be no end).
     pub fn new(outlines: impl IntoIterator<Item = Outline>) -> Result<Self, SolidError> {
         let outlines: Vec<Outline> = outlines.into_iter().collect();
         at_least("outlines", outlines.len(), 1)?;
@@ -42,17 +43,17 @@ impl Interior {
         &self.outlines
     }
 
-    /// Period in x (length); `None` for closed outlines alone.
+    /// Returns the period in x (length); `None` for closed outlines alone.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// Boundary of the solid by points at about `spacing` (length), with the solid to the left of its sides: for
-    /// distances from the solid before there is a mesh of it.
+    /// Returns the boundary of the solid by points at about `spacing` (length), with the solid to the left of its
+    /// sides: for distances from the solid before there is a mesh of it.
     ///
     /// # Errors
-    /// Those of [`Outline::resampled`]; outlines that cross.
+    /// Returns the errors of [`Outline::resampled`]; outlines that cross.
     pub fn boundary(&self, spacing: f64) -> Result<Boundary, SolidError> {
         let lines = self.outlines.iter().map(|outline| outline.resampled(spacing)).collect::<Result<Vec<_>, _>>()?;
         let periodic = self.outlines.iter().zip(&lines).find(|(outline, _)| outline.period().is_some());
@@ -73,29 +74,30 @@ impl Interior {
         Ok(boundary)
     }
 
-    /// Solid with y reversed; the lower of two periodic outlines comes first again.
+    /// Returns the solid with y reversed; the lower of two periodic outlines comes first again.
     ///
     /// # Errors
-    /// None but those of [`Outline::mirrored`].
+    /// None but the errors of [`Outline::mirrored`].
     pub(crate) fn mirrored(&self) -> Result<Self, SolidError> {
         let outlines = self.outlines.iter().rev().map(|outline| outline.mirrored(0.0));
         Self::new(outlines.collect::<Result<Vec<_>, _>>()?)
     }
 
-    /// Uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.
+    /// Returns the uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.
     ///
     /// # Errors
-    /// Those of [`Mesher::mesh`].
+    /// Returns the errors of [`Mesher::mesh`].
     pub fn mesh(&self, spacing: f64) -> Result<TriangleMesh, SolidError> {
         Mesher::new(spacing)?.mesh(self)
     }
 }
 
 impl Outline {
-    /// Uniform mesh of spacing `spacing` (length) of the inside of a closed outline, by [`Mesher`] with its defaults.
+    /// Returns the uniform mesh of spacing `spacing` (length) of the inside of a closed outline, by [`Mesher`] with its
+    /// defaults.
     ///
     /// # Errors
-    /// Those of [`Mesher::mesh`]; a periodic outline, which encloses nothing.
+    /// Returns the errors of [`Mesher::mesh`]; a periodic outline, which encloses nothing.
     pub fn mesh(&self, spacing: f64) -> Result<TriangleMesh, SolidError> {
         Interior::new([self.clone()])?.mesh(spacing)
     }

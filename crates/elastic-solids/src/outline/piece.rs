@@ -42,7 +42,7 @@ impl Piece {
         Self::measured(curve, range, false)
     }
 
-    /// Pieces of a curve cut at the parameters `cuts`.
+    /// Returns the pieces of a curve cut at the parameters `cuts`.
     pub(super) fn split(curve: &Curve, range: [f64; 2], cuts: &[f64]) -> Result<Vec<Self>, SolidError> {
         let ends: Vec<f64> = std::iter::once(range[0]).chain(cuts.iter().copied()).chain([range[1]]).collect();
         if let Some(k) = (1..ends.len()).find(|&k| ends[k].is_nan() || ends[k] <= ends[k - 1]) {
@@ -92,7 +92,7 @@ impl Piece {
         (self.curve)(self.range[1])
     }
 
-    /// Point at the arc length `along` from the start (length).
+    /// Returns the point at the arc length `along` from the start (length).
     pub(super) fn at(&self, along: f64) -> Vec2 {
         let chords = self.lengths.len();
         let chord = self.lengths.partition_point(|&length| length < along).min(chords - 1);
@@ -102,12 +102,12 @@ impl Piece {
         (self.curve)(parameter(self.range, (chord as f64 + fraction) / chords as f64))
     }
 
-    /// Unit vector along the piece at its start.
+    /// Returns the unit vector along the piece at its start.
     pub(super) fn start_direction(&self) -> Vec2 {
         self.direction(self.at(1e-3 * self.length()) - self.start())
     }
 
-    /// Unit vector along the piece at its end.
+    /// Returns the unit vector along the piece at its end.
     pub(super) fn end_direction(&self) -> Vec2 {
         self.direction(self.end() - self.at((1.0 - 1e-3) * self.length()))
     }
@@ -117,7 +117,7 @@ impl Piece {
     }
 }
 
-/// Tells whether the tangent turns where one piece ends and the next starts.
+/// Returns true if the tangent turns where one piece ends and the next starts.
 pub(super) fn is_corner(before: &Piece, after: &Piece) -> bool {
     before.end_direction().angle_to(after.start_direction()).abs() > CORNER
 }

@@ -16,7 +16,8 @@ struct Corner {
     cut: f64,
 }
 
-/// Pieces of an outline with every corner between two straight ones replaced by an arc of `radius` (length).
+/// Returns the pieces of an outline with every corner between two straight ones replaced by an arc of `radius`
+/// (length).
 pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, SolidError> {
     let count = pieces.len();
     // Corner k is the one at the start of piece k.

@@ -56,7 +56,7 @@ struct Part<'a> {
 }
 
 impl<'a> Track<'a> {
-    /// The sides of an outline from its first corner on; from its first piece on without a corner.
+    /// Creates the sides of an outline from its first corner on; from its first piece on without a corner.
     pub(crate) fn new(outline: &'a Outline) -> Self {
         let count = outline.pieces.len();
         let period = outline.period.unwrap_or(0.0);
@@ -77,8 +77,8 @@ impl<'a> Track<'a> {
         Self { sides, period, closed: outline.period.is_none(), smooth: corner.is_none() }
     }
 
-    /// Places at about `spacing` (length), equally spaced between corners, corners among them. On a smooth outline the
-    /// first stands the fraction `phase` of a spacing behind the start.
+    /// Returns the places at about `spacing` (length), equally spaced between corners, corners among them. On a smooth
+    /// outline, the first stands the fraction `phase` of a spacing behind the start.
     pub(crate) fn places(&self, spacing: f64, phase: f64) -> Vec<Place> {
         let phase = if self.smooth { phase } else { 0.0 };
         // A closed line of one or two sides needs points in between to enclose an area.
@@ -95,7 +95,7 @@ impl<'a> Track<'a> {
         places
     }
 
-    /// Place `by` (length) further along, not beyond the next corner; corners stay.
+    /// Returns the place `by` (length) further along, not beyond the next corner; corners stay.
     pub(crate) fn moved(&self, place: Place, by: f64) -> Place {
         let along = match place {
             Place { corner: true, along, .. } => along,
@@ -105,7 +105,7 @@ impl<'a> Track<'a> {
         Place { along, ..place }
     }
 
-    /// Point of the exact outline at a place (length).
+    /// Returns the point of the exact outline at a place (length).
     pub(crate) fn at(&self, place: Place) -> Vec2 {
         let side = &self.sides[place.side];
         let turns = if self.smooth { (place.along / side.length).floor() } else { 0.0 };

@@ -18,9 +18,9 @@ impl From<SolidError> for BodyError {
     }
 }
 
-/// Part of the bulk modulus that adds to the stiffness of a mesh as coarse as the grid; it grows with the square of the
-/// mesh spacing. The velocity of the fluid has no divergence, so that the bulk modulus only acts through the error of
-/// the linear interpolation in each triangle. Measured with the cubic and quadratic kernel, kappa = 20 mu: 0.003,
+/// Fraction of the bulk modulus that adds to the stiffness of a mesh as coarse as the grid; it grows with the square of
+/// the mesh spacing. The velocity of the fluid has no divergence, so that the bulk modulus only acts through the error
+/// of the linear interpolation in each triangle. Measured with the cubic and quadratic kernel, kappa = 20 mu: 0.003,
 /// 0.012, 0.02 and 0.05 at mesh spacings of 0.5, 1, 1.5 and 2 grid spacings, of which this is a fit from above.
 const BULK_SHARE: f64 = 0.015;
 
@@ -59,7 +59,8 @@ impl Body for Solid {
         Ok(())
     }
 
-    /// Free points, internal variables of Maxwell elements, and active springs, 1 where one is on and 0 otherwise.
+    /// Returns the free points, internal variables of Maxwell elements, and active springs, 1 if one is on and 0
+    /// otherwise.
     fn state_len(&self) -> usize {
         2 * self.free.len() + self.internal_len() + self.bonds.as_ref().map_or(0, |bonds| bonds.on().len())
     }
@@ -191,7 +192,7 @@ impl Body for Solid {
         }
     }
 
-    /// Size of the mesh at rest, and its energy under a given shear and stretch.
+    /// Returns the size of the mesh at rest, and its energy under a given shear and stretch.
     fn properties(&self) -> Vec<(String, f64)> {
         let mesh = &self.mesh;
         // Both ways, so that a mirror image has the same.
@@ -227,7 +228,8 @@ impl Body for Solid {
         properties.chain(spread).map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Positions of all points, pinned ones too, the tethers, internal variables, and steps of the active springs.
+    /// Returns the positions of all points, pinned ones too, the tethers, internal variables, and steps of the active
+    /// springs.
     fn save(&self) -> SavedState {
         let mut reals: Vec<f64> = self.positions.iter().flat_map(|place| [place.x, place.y]).collect();
         reals.extend(self.tethers.iter().flat_map(|tether| [tether.anchor.x, tether.anchor.y, tether.stiffness]));
@@ -264,10 +266,10 @@ impl Body for Solid {
         Ok(())
     }
 
-    /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h that of the
-    /// grid, mu and kappa the largest moduli in the solid. Surface elasticity adds the stiffness of its shortest waves
-    /// to the sum, Maxwell elements their moduli, active springs that of their tension, tethers their stiffness when
-    /// all of them move together.
+    /// Stable step `2 eta/(mu + 0.015 kappa (a/h)^2)` of the midpoint rule, a the spacing of the mesh and h the spacing
+    /// of the grid, mu and kappa the largest moduli in the solid. Surface elasticity adds the stiffness of its shortest
+    /// waves to the sum, Maxwell elements their moduli, active springs the stiffness of their tension, tethers their
+    /// stiffness when all of them move together.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         // The fluid of a grid resists changes of area that it resolves. Without a grid, nothing says that it does.
@@ -307,7 +309,7 @@ impl Viscous for Solid {
 }
 
 impl Solid {
-    /// Number of internal variables of Maxwell elements.
+    /// Returns the number of internal variables of Maxwell elements.
     fn internal_len(&self) -> usize {
         self.relaxation.as_ref().map_or(0, |relaxation| relaxation.values().len())
     }
@@ -334,26 +336,26 @@ impl Solid {
         }
     }
 
-    /// Upper bound of viscosity times the fastest rate at which tethers relax (force per length): that of all of them
-    /// moving together.
+    /// Returns the upper bound of viscosity times the fastest rate at which tethers relax (force per length). It is the
+    /// rate if all of them move together.
     ///
     /// A row of total stiffness k per length along a channel of height H relaxes at `k H/(4 eta)`, a layer that fills
-    /// it at `k H/(pi^2 eta)`, one of thickness t in the middle at `k (H/4 - 0.148 t)/eta` (to 4 per cent); without
-    /// walls a row in a box of length L at `k L/(12 eta)`. A group shorter than half of H or L moves no more easily
-    /// than one of that length.
+    /// it at `k H/(pi^2 eta)`, one of thickness t in the middle at `k (H/4 - 0.148 t)/eta` (to 4 %); without walls a
+    /// row in a box of length L at `k L/(12 eta)`. A group shorter than half of H or L moves no more easily than one of
+    /// that length.
     fn tether_stiffness(&self, view: &FluidView) -> f64 {
         let group = Group::of(self.tethers.iter().map(|tether| tether.anchor), self.spacing, view);
         let total: f64 = self.tethers.iter().map(|tether| tether.stiffness).sum();
         total / group.length * group.mobility
     }
 
-    /// Upper bound of viscosity times the fastest rate at which the free points move back together to the pinned
-    /// points (force per length), beyond the elastic moduli.
+    /// Returns the upper bound of viscosity times the fastest rate at which the free points move back together to the
+    /// pinned points (force per length), beyond the elastic moduli.
     ///
     /// A pinned point exerts no force on the fluid. In mid-stream, the fluid therefore carries all free points past the
     /// pinned points, and the elements between the two act as tethers. Their stiffness is the second derivative of
     /// their energy, `sum of A |grad phi|^2 (mu + kappa)` over the elements that have both, with phi = 1 at free points
-    /// and 0 at pinned points. At a height y above a wall, the fluid moves no more easily than `y (H - y)/H`; the part
+    /// and 0 at pinned points. At a height y above a wall, the fluid moves no more easily than `y (H - y)/H`. The part
     /// of a mesh spacing is in the elastic moduli already, so that points pinned to a wall add nothing.
     fn pinned_stiffness(&self, view: &FluidView) -> f64 {
         if self.free.len() == self.positions.len() {
@@ -393,7 +395,7 @@ struct Group {
 }
 
 impl Group {
-    /// Group of the given points, each of which stands for one mesh spacing. See [`Solid::tether_stiffness`].
+    /// Creates a group of the given points, each of which stands for one mesh spacing. See [`Solid::tether_stiffness`].
     fn of(points: impl Iterator<Item = Vec2>, spacing: f64, view: &FluidView) -> Self {
         let (low, high) =
             points.fold((Vec2::splat(f64::INFINITY), Vec2::splat(f64::NEG_INFINITY)), |(a, b), p| (a.min(p), b.max(p)));

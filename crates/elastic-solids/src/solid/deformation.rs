@@ -16,20 +16,20 @@ pub struct Deformation {
     /// Largest displacement of a point, in any direction (length).
     pub largest_displacement: f64,
     /// Largest displacement of a point of the surface along the normal of the reference state, outwards or inwards
-    /// (length). Walls move mostly along their surface, so that this is much the smaller.
+    /// (length). Walls move mostly along their surface, so this number is much smaller.
     pub largest_normal_displacement: f64,
     /// Mean displacement, weighted by reference area (length): the drift of a solid that nothing holds.
     pub drift: Vec2,
     /// Mean position, weighted by reference area (length): the centre of mass.
     pub centroid: Vec2,
-    /// Elastic energy (energy), without that of tethers and Maxwell elements; infinite where a triangle is inverted and
-    /// the energy is not defined for it.
+    /// Elastic energy (energy), without the energy of tethers and Maxwell elements; infinite if a triangle is inverted
+    /// and the energy is not defined for it.
     pub elastic_energy: f64,
     /// Energy of the Maxwell elements (energy); zero without any.
     pub relaxing_energy: f64,
     /// Energy that the Maxwell elements dissipate (energy per time), in which the fluid has no part.
     pub dissipation: f64,
-    /// Part of the active springs that are on (no dimension); not a number without any.
+    /// Fraction of the active springs that are on (no dimension); not a number without any.
     pub active_part: f64,
     /// Energy of the tethers (energy).
     pub tether_energy: f64,
@@ -72,7 +72,7 @@ impl Observe for Solid {
 }
 
 impl Solid {
-    /// Displacement of each point from the reference state (length).
+    /// Returns the displacement of each point from the reference state (length).
     pub fn displacements(&self) -> impl Iterator<Item = Vec2> {
         self.positions.iter().zip(self.mesh.points()).map(|(now, reference)| now - reference)
     }
@@ -94,33 +94,35 @@ impl Solid {
         largest
     }
 
-    /// Energy of the Maxwell elements (energy); zero without any.
+    /// Returns the energy of the Maxwell elements (energy); zero without any.
     ///
     /// # Errors
-    /// An inverted triangle.
+    /// Returns an error for an inverted triangle.
     pub fn relaxing_energy(&self) -> Result<f64, SolidError> {
         self.relaxation.as_ref().map_or(Ok(0.0), |relaxation| Ok(relaxation.energies(&self.positions)?[0]))
     }
 
-    /// Energy that the Maxwell elements dissipate (energy per time), without what the fluid does; zero without any.
+    /// Returns the energy that the Maxwell elements dissipate (energy per time), without what the fluid does; zero
+    /// without any.
     ///
     /// # Errors
-    /// An inverted triangle.
+    /// Returns an error for an inverted triangle.
     pub fn dissipation(&self) -> Result<f64, SolidError> {
         self.relaxation.as_ref().map_or(Ok(0.0), |relaxation| Ok(relaxation.energies(&self.positions)?[1]))
     }
 
-    /// Active springs that are on, in the order of [`crate::mesh::TriangleMesh::edges`]; `None` without any.
+    /// Returns the active springs that are on, in the order of [`crate::mesh::TriangleMesh::edges`]; `None` without
+    /// any.
     #[must_use]
     pub fn active_bonds(&self) -> Option<&[bool]> {
         self.bonds.as_ref().map(crate::active_springs::Bonds::on)
     }
 
-    /// Cauchy stress (force per deformed length) in each triangle that is not elastic: of Maxwell elements and active
-    /// springs; `None` without any.
+    /// Returns the Cauchy stress (force per deformed length) in each triangle that is not elastic: of Maxwell elements
+    /// and active springs; `None` without any.
     ///
     /// # Errors
-    /// An inverted triangle.
+    /// Returns an error for an inverted triangle.
     pub fn internal_stresses(&self) -> Result<Option<Vec<Mat2>>, SolidError> {
         if self.relaxation.is_none() && self.bonds.is_none() {
             return Ok(None);
@@ -136,24 +138,24 @@ impl Solid {
         Ok(Some(stresses))
     }
 
-    /// Elastic energy (energy), without that of tethers and Maxwell elements.
+    /// Returns the elastic energy (energy), without the energy of tethers and Maxwell elements.
     ///
     /// # Errors
-    /// An inverted triangle where the energy is not defined for it.
+    /// Returns an error for an inverted triangle where the energy is not defined for it.
     pub fn elastic_energy(&self) -> Result<f64, SolidError> {
         let surface = self.surface_elasticity.as_ref().map_or(0.0, |surface| surface.energy(&self.positions));
         Ok(self.law.energy(&self.positions)? + surface)
     }
 
-    /// Energy of the tethers (energy).
+    /// Returns the energy of the tethers (energy).
     #[must_use]
     pub fn tether_energy(&self) -> f64 {
         let stretch = |point: usize, anchor: Vec2| (self.positions[point] - anchor).length_squared();
         self.tethers.iter().map(|tether| 0.5 * tether.stiffness * stretch(tether.point, tether.anchor)).sum()
     }
 
-    /// Determinant J of the deformation gradient of each triangle, its deformed over its reference area (no dimension);
-    /// negative for an inverted triangle.
+    /// Returns the determinant J of the deformation gradient of each triangle, its deformed over its reference area (no
+    /// dimension); negative for an inverted triangle.
     pub fn jacobians(&self) -> impl Iterator<Item = f64> {
         self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
             let [a, b, c] = self.mesh.raw_corners(triangle, &self.positions);
@@ -161,7 +163,7 @@ impl Solid {
         })
     }
 
-    /// Smallest determinant J, and the index of its triangle.
+    /// Returns the smallest determinant J, and the index of its triangle.
     #[must_use]
     pub fn smallest_jacobian(&self) -> (f64, usize) {
         let numbered = self.jacobians().enumerate().map(|(triangle, jacobian)| (jacobian, triangle));
@@ -171,7 +173,7 @@ impl Solid {
     /// Checks that no triangle is inverted, nor about to be in a solid that flows, whose steps would get ever shorter.
     ///
     /// # Errors
-    /// [`SolidError::Inverted`] with the triangle that is inverted the most.
+    /// Returns [`SolidError::Inverted`] with the triangle that is inverted the most.
     pub(crate) fn check_inversion(&self) -> Result<(), SolidError> {
         // Mostly none is; the sign alone takes no division and no search.
         let least = if self.flows { 2.0 * LEAST_RATIO } else { 0.0 };
@@ -191,11 +193,11 @@ impl Solid {
         SolidError::Inverted { triangle, place, jacobian }
     }
 
-    /// Cauchy stress `P A^T / J` of each triangle (force per deformed length), inner stresses included
+    /// Returns the Cauchy stress `P A^T / J` of each triangle (force per deformed length), inner stresses included
     /// ([`Solid::internal_stresses`]).
     ///
     /// # Errors
-    /// An inverted triangle.
+    /// Returns an error for an inverted triangle.
     pub fn stresses(&self) -> Result<Vec<Mat2>, SolidError> {
         self.check_inversion()?;
         let gradients: Vec<Mat2> =
@@ -210,7 +212,7 @@ impl Solid {
         Ok(stresses)
     }
 
-    /// Deformation gradient A of a triangle (4.10); `None` for one beyond the last.
+    /// Returns the deformation gradient A of a triangle (4.10); `None` for one beyond the last.
     #[must_use]
     pub fn gradient(&self, triangle: usize) -> Option<Mat2> {
         (triangle < self.mesh.triangles().len()).then(|| self.raw_gradient(triangle))
@@ -224,8 +226,8 @@ impl Solid {
         sides(&self.positions) * sides(self.mesh.points()).inverse()
     }
 
-    /// Surface of a periodic wall (length): with `periods` -1 the one which faces up, from right to left, with 1 the
-    /// one which faces down, from left to right; `None` where there is none.
+    /// Returns the surface of a periodic wall (length): with `periods` -1 the one which faces up, from right to left,
+    /// with 1 the one which faces down, from left to right. It is `None` if there is none.
     pub(crate) fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
         let boundary = self.mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
         Some(self.mesh.raw_polygon(boundary, &self.positions))

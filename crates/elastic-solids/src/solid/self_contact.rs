@@ -18,7 +18,7 @@ pub(super) struct SelfContact {
 }
 
 impl SelfContact {
-    /// Of the surface of a mesh, without curves that touch themselves in the reference state.
+    /// Creates an of the surface of a mesh, without curves that touch themselves in the reference state.
     pub(super) fn of(mesh: &TriangleMesh) -> Self {
         let mut found = Self::default();
         for outline in mesh.boundary_loops() {
@@ -47,7 +47,7 @@ impl SelfContact {
         Err(SolidError::SelfContact { place: positions[first], first, second })
     }
 
-    /// The points at which the sides of a curve start that meet.
+    /// Returns the points at which the sides of a curve start that meet.
     fn crossing(
         &mut self,
         (range, advance): &(Range<usize>, f64),

@@ -11,19 +11,19 @@ const PLACES: [[f64; 3]; 3] = {
     [[most, least, least], [least, most, least], [least, least, most]]
 };
 
-/// Square of the residual of the mass matrix over that of the right-hand side at which its solution is taken.
+/// Square of the residual of the mass matrix over the square of the right-hand side at which its solution is taken.
 const TOLERANCE: f64 = 1e-26;
 /// Most iterations for it. The diagonal is within a factor of two of the matrix whatever the mesh, so that each takes
 /// two thirds of the error away, and 27 are enough.
 const MOST_ITERATIONS: usize = 40;
 
 /// Forces on inner points spread over the triangles as the piecewise linear density g with `integral of N_i g = F_i`,
-/// N_i the share of point i, and velocities of inner points as those of the piecewise linear field nearest to that of
-/// the fluid.
+/// N_i the share of point i, and velocities of inner points as the velocities of the piecewise linear field nearest to
+/// the velocity of the fluid.
 ///
 /// Markers are the free points of the boundary, in increasing order, and then three places in each triangle that has an
-/// inner point. With M the mass matrix of the reference state, i the inner points, b those of the boundary and u the
-/// velocity of the fluid,
+/// inner point. With M the mass matrix of the reference state, i the inner points, b the points of the boundary and u
+/// the velocity of the fluid,
 ///
 /// ```text
 /// M_ii g = F_i    F_b := F_b - M_bi g    M_ii V_i = integral of N_i u - M_ib V_b
@@ -57,7 +57,7 @@ struct Part {
 }
 
 impl Spreading {
-    /// Spreading over a mesh of which these points, in increasing order, are free.
+    /// Creates the spreading over a mesh of which these points, in increasing order, are free.
     pub(super) fn new(mesh: &TriangleMesh, free: &[usize]) -> Self {
         let mut is_inner = mesh.inner_points();
         let surface: Vec<usize> = free.iter().copied().filter(|point| !is_inner[*point]).collect();
@@ -77,12 +77,12 @@ impl Spreading {
         Self { surface, inner, triangles, diagonal, residual, solution, direction, product: zeros }
     }
 
-    /// Number of markers.
+    /// Returns the number of markers.
     pub(super) fn marker_count(&self) -> usize {
         self.surface.len() + PLACES.len() * self.triangles.len()
     }
 
-    /// Writes the positions of the markers (length), those of the points given.
+    /// Writes the positions of the markers (length) of the points given.
     pub(super) fn write_markers(&self, mesh: &TriangleMesh, positions: &[Vec2], markers: &mut [Vec2]) {
         let (surface, places) = markers.split_at_mut(self.surface.len());
         for (marker, &point) in surface.iter_mut().zip(&self.surface) {
@@ -113,7 +113,8 @@ impl Spreading {
         }
     }
 
-    /// Velocities of all points (length per time), pinned ones at rest, given those of the fluid at the markers.
+    /// Returns the velocities of all points (length per time), pinned ones at rest, given the velocities of the fluid
+    /// at the markers.
     pub(super) fn velocities(&mut self, markers: &[Vec2]) -> &[Vec2] {
         let (surface, places) = markers.split_at(self.surface.len());
         self.direction.fill(Vec2::ZERO);

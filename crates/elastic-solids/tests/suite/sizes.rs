@@ -23,8 +23,9 @@ fn bounded<T>(name: &str, make: impl FnOnce() -> Result<T, SolidError>) -> Optio
 
 fn refused<T>(name: &str, make: impl FnOnce() -> Result<T, SolidError>) {
     let error = bounded(name, make).unwrap_or_else(|| panic!("{name} is taken"));
-    // Name, value and what to do.
-    assert!(error.to_string().contains(':'), "{error}");
+    // Name and value, then a sentence on what to do.
+    let text = error.to_string();
+    assert!(text.split_once(". ").is_some_and(|(what, remedy)| what.contains(" is ") && !remedy.is_empty()), "{text}");
 }
 
 #[test]

@@ -10,8 +10,8 @@ use crate::{ImmersedBoundary, Kernel, Transfer};
 use motile_base::{FlowSample, SolveReport, Vec2};
 use motile_scene::{FlowError, FlowWork, FluidView, Hydrodynamics, Markers, Warning, checkpoint::SavedState};
 
-/// Error of the speed of a swimmer at a tenth of its radius, in per cent: -0.5, 1.2 and 3.1 at activities of -2, -3 and
-/// -4 in a 6 x 6 box.
+/// Error of the speed of a swimmer at a tenth of its radius, in %: -0.5, 1.2 and 3.1 at activities of -2, -3 and -4 in
+/// a 6 x 6 box.
 const UNCORRECTED_ERROR: f64 = 3.1;
 
 /// The immersed boundary method with the viscosity as a smooth field on the grid (Cowley section 2.2.4): the outward
@@ -22,11 +22,12 @@ const UNCORRECTED_ERROR: f64 = 3.1;
 /// and a solver for viscosity that varies does the rest. Nodes take the arithmetic mean of the four centres around
 /// them.
 ///
-/// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
+/// It is of first order in h, and the errors grow with the ratio of viscosities. At h = R/20, a droplet a hundred times
 /// as viscous as the exterior fluid is 25 to 40 % too fast. Boundary integrals
-/// (`motile_boundary_integrals::ImmersedLayers`) do better at a fraction of the cost; this is here to reproduce Cowley.
-/// There is no mobility correction. Where all viscosities are equal this is [`ImmersedBoundary::uncorrected`].
+/// (`motile_boundary_integrals::ImmersedLayers`) do better at a fraction of the cost. Use this method to reproduce
+/// Cowley. There is no mobility correction. If all viscosities are equal, this is [`ImmersedBoundary::uncorrected`].
 #[derive(Debug, Clone)]
+#[doc(alias("viscosity ratio", "viscosity contrast", "variable viscosity"))]
 pub struct SmearedContrast<S, K> {
     flow: ImmersedBoundary<TwoPhaseStokes<S>, K>,
     transfer: Transfer<K>,
@@ -36,7 +37,7 @@ pub struct SmearedContrast<S, K> {
     positions: Vec<Vec2>,
     centres: CentreField,
     nodes: NodeField,
-    /// True if the fields hold other viscosities than that of the exterior fluid.
+    /// True if the fields hold viscosities that differ from the exterior one.
     varies: bool,
 }
 
@@ -45,7 +46,7 @@ pub struct SmearedContrast<S, K> {
 struct Indicator {
     transform: RealFft2,
     symbol: Symbol,
-    /// Rows of the transform: twice those of a channel, whose solution is continued as an odd function.
+    /// Rows of the transform: twice the rows of a channel, whose solution is continued as an odd function.
     rows: usize,
 }
 
@@ -89,18 +90,18 @@ impl Indicator {
 }
 
 impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
-    /// The method around a solver of one viscosity, that of the exterior fluid, with a relative tolerance of 1e-6.
+    /// Creates the method around a solver of one viscosity, the exterior one, with a relative tolerance of 1e-6.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// Returns the errors of the solver.
     pub fn new(solver: S, kernel: K) -> Result<Self, StokesError> {
         Self::with_tolerance(solver, kernel, 1e-6)
     }
 
-    /// Flow with another tolerance; see [`TwoPhaseStokes::tolerance`].
+    /// Creates the flow with another tolerance; see [`TwoPhaseStokes::tolerance`].
     ///
     /// # Errors
-    /// A tolerance that is not positive and finite; those of the solver.
+    /// Returns an error for a tolerance that is not positive and finite; the errors of the solver.
     pub fn with_tolerance(solver: S, kernel: K, tolerance: f64) -> Result<Self, StokesError> {
         let grid = *solver.grid();
         let solver = TwoPhaseStokes::new(solver)?.with_tolerance(tolerance)?;
@@ -119,13 +120,13 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
         })
     }
 
-    /// The immersed boundary method with its fields.
+    /// Returns the immersed boundary method with its fields.
     #[must_use]
     pub fn flow(&self) -> &ImmersedBoundary<TwoPhaseStokes<S>, K> {
         &self.flow
     }
 
-    /// The viscosity (stress times time) at the centres and at the nodes, of the last evaluation.
+    /// Returns the viscosity (stress times time) at the centres and at the nodes, of the last evaluation.
     #[must_use]
     pub fn viscosity_fields(&self) -> (&CentreField, &NodeField) {
         (&self.centres, &self.nodes)

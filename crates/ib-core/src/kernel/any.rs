@@ -9,6 +9,7 @@ use super::{BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
+#[doc(alias("delta function", "B-spline"))]
 pub enum AnyKernel {
     /// [`Peskin4`].
     Peskin4,

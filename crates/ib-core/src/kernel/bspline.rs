@@ -3,10 +3,11 @@
 use super::pieces::{BSPLINE_3, BSPLINE_4};
 use super::{Kernel, MAX_SUPPORT, Pieces, Role};
 
-/// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less): interpolation of
+/// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less). Interpolation of
 /// a discretely divergence-free field with it is divergence free in the continuum (Gruninger and Griffith, "Composite
 /// B-spline regularized delta functions for the immersed boundary method", J. Comput. Phys. 546, 114472 (2025);
-/// docs/grid.md). `BSpline<4>`, cubic along a velocity component and quadratic across it, is the default kernel.
+/// docs/explanation/grid.md). `BSpline<4>`, cubic along a velocity component and quadratic across it, is the default
+/// kernel.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct BSpline<const N: usize>;
 
@@ -91,7 +92,7 @@ impl<const N: usize> Kernel for BSpline<N> {
         weights[order - 1 - piece as usize]
     }
 
-    /// `(sin(theta/2) / (theta/2))^order`.
+    /// Returns `(sin(theta/2) / (theta/2))^order`.
     fn transform(&self, role: Role, theta: f64) -> f64 {
         let half = 0.5 * theta;
         let sinc = if half.abs() < 1e-4 { 1.0 - half * half / 6.0 } else { half.sin() / half };

@@ -4,6 +4,7 @@ use super::{Kernel, MAX_SUPPORT, Role, tabulate};
 
 /// Peskin's 4-point function, Cowley (2.36); the same in both roles.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[doc(alias("delta function", "regularised delta function", "regularized delta function", "Dirac delta"))]
 pub struct Peskin4;
 
 impl Kernel for Peskin4 {

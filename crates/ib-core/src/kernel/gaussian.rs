@@ -8,13 +8,13 @@ use super::{Kernel, MAX_SUPPORT, Role};
 pub struct Gaussian6;
 
 impl Gaussian6 {
-    /// Second moment K = 59/60 - sqrt(29)/20, the value that makes the third derivative continuous.
+    /// Returns the second moment K = 59/60 - sqrt(29)/20, the value that makes the third derivative continuous.
     pub(super) fn second_moment() -> f64 {
         59.0 / 60.0 - 29.0_f64.sqrt() / 20.0
     }
 
-    /// phi at -3 + r, -2 + r, ..., 2 + r for r in [0, 1): the even-odd condition, three moment conditions and the
-    /// sum of squares leave a quadratic equation for the outermost value.
+    /// phi at -3 + r, -2 + r, ..., 2 + r for r in [0, 1). The even-odd condition, three moment conditions and the sum
+    /// of squares leave a quadratic equation for the outermost value.
     fn branches(r: f64) -> [f64; 6] {
         let k = Self::second_moment();
         let (r2, r3) = (r * r, r * r * r);

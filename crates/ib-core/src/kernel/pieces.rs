@@ -1,7 +1,7 @@
 //! Kernels made of polynomials.
 
 /// The weights of a kernel of at most four points that between lattice points is a polynomial of degree three (normal
-/// role) or two (tangential role), for spreading and interpolation without a call for each weight.
+/// role) or two (tangential role). They are for spreading and interpolation without a call for each weight.
 ///
 /// A coordinate `r + shift` has the whole part `w` and the fraction t. The weight of the point `w - 1 + i` in the
 /// normal role, and of the point `w - 1/2 + i` in the tangential one, is `sum over d of c[d][i] t^d`.

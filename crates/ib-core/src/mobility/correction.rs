@@ -8,7 +8,7 @@ use motile_base::Vec2;
 use stokes_grid::StokesError;
 
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
-/// (docs/grid.md):
+/// (docs/explanation/grid.md):
 ///
 /// `V_t += (h/eta) (S[G_t] F_t + S[G_x] F_n)`, `V_n += (h/eta) T (S[G_n] F_n + S[G_x] F_t)`,
 ///
@@ -17,17 +17,18 @@ use stokes_grid::StokesError;
 /// The uniform mode of F_n only changes the pressure inside and is dropped.
 ///
 /// The deficits depend on the direction of the interface through cos(4 theta), cos(8 theta) and, for the coupling G_x,
-/// sin(4 theta), theta the angle of the normal. Along a curve direction and wave number are no longer independent:
-/// multiplying by the direction only after S would be wrong by a term of second order which is not reciprocal and turns
+/// sin(4 theta), theta the angle of the normal. Along a curve direction and wave number are no longer independent.
+/// Multiplying by the direction only after S would be wrong by a term of second order which is not reciprocal and turns
 /// a swimmer towards the axes. Multiplying by half the phase before and by half after it,
 ///
 /// `cos(4 theta) G F  ->  Re( e^{2 i theta} S[G] e^{2 i theta} F )`, `sin(4 theta) G F  ->  Im( ... )`,
 ///
-/// is symmetric and takes to each term the wave number half way between that of the force and that of the velocity.
+/// is symmetric and takes to each term the wave number half way between the wave numbers of the force and of the
+/// velocity.
 ///
-/// These mobilities are averages over positions of the interface between the grid lines. Where it runs along the grid,
-/// the tangential one depends on that position, through the first harmonic of the grid, which is subtracted: for each
-/// axis, with `phi = 2 pi y / h` for the interface along x,
+/// These mobilities are averages over positions of the interface between the grid lines. If it runs along the grid, the
+/// tangential one depends on that position, through the first harmonic of the grid, which is subtracted: for each axis,
+/// with `phi = 2 pi y / h` for the interface along x,
 ///
 /// `V -= (h/eta) 2 Re(e^{i phi/2} S[H] e^{i phi/2} F_t) (tau + tau' - (tau . tau') tau)`,
 ///
@@ -57,9 +58,9 @@ struct Plan {
     modulated: Vec<Complex<f64>>,
 }
 
-/// Forces that are multiplied by a phase before and after their modes are multiplied by factors: with e^{2i theta} the
-/// tangential and the normal one, with e^{4i theta} the tangential one, with the grid's phase along both axes the
-/// tangential one.
+/// Forces that are multiplied by a phase before and after their modes are multiplied by factors. These are: with e^{2i
+/// theta} the tangential and the normal one, with e^{4i theta} the tangential one, with the grid's phase along both
+/// axes the tangential one.
 const MODULATED: usize = 5;
 
 /// A marker on its interface.
@@ -133,8 +134,8 @@ impl Setting {
     }
 }
 
-/// The complementary error function for x >= 0, to about 1e-7 (Abramowitz and Stegun 7.1.26): the fading it enters is a
-/// model good to per cents.
+/// Returns the complementary error function for x >= 0, to about 1e-7 (Abramowitz and Stegun 7.1.26): the fading it
+/// enters is a model good to per cents.
 fn erfc(x: f64) -> f64 {
     let t = 1.0 / (1.0 + 0.327_591_1 * x);
     let p = t * (0.254_829_592 + t * (-0.284_496_736 + t * (1.421_413_741 + t * (-1.453_152_027 + t * 1.061_405_429))));
@@ -158,8 +159,8 @@ impl Plan {
         })
     }
 
-    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y,
-    /// -tau_x), the normal ones less their mean; the sum of w.
+    /// Returns the tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n =
+    /// (tau_y, -tau_x), the normal ones less their mean; the sum of w.
     fn place(&mut self, setting: &Setting, positions: &[Vec2], forces: &[Vec2]) -> f64 {
         let count = positions.len();
         let [tangential, normal] = &mut self.forces;
@@ -256,8 +257,8 @@ impl Plan {
         Ok(())
     }
 
-    /// The mobility that is restored along the tangent and the normal of each marker (length per time). A uniform
-    /// pressure moves nothing, so a force has no uniform normal velocity.
+    /// Returns the mobility that is restored along the tangent and the normal of each marker (length per time). A
+    /// uniform pressure moves nothing, so a force has no uniform normal velocity.
     fn restored(&self) -> impl Iterator<Item = [f64; 2]> {
         let count = self.places.len();
         let turned = move |which: usize, k: usize| {

@@ -32,14 +32,14 @@ const SHARE: usize = 1024;
 /// the same order as on one thread.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Bands {
-    /// Rows of a band; the last one has more. Zero where one thread does it all.
+    /// Rows of a band; the last one has more. Zero if one thread does it all.
     rows: usize,
     /// By piece of the list of markers and band: the markers, in order.
     lists: Vec<Vec<u32>>,
 }
 
 impl Bands {
-    /// True if [`Bands::find`] found enough work for several threads.
+    /// Returns true if [`Bands::find`] found enough work for several threads.
     pub(super) fn are_used(&self) -> bool {
         self.rows > 0
     }
@@ -79,7 +79,7 @@ impl Bands {
         });
     }
 
-    /// Spreading, band by band.
+    /// Spreads, band by band.
     pub(super) fn spread<K: Kernel>(
         &self,
         general: GeneralTransfer<'_, K>,
@@ -130,7 +130,7 @@ fn divide(
     );
 }
 
-/// Interpolation, marker by marker.
+/// Interpolates, marker by marker.
 pub(super) fn interpolate<K: Kernel>(
     general: GeneralTransfer<'_, K>,
     locations: &[Location],

@@ -51,7 +51,7 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
         self.add_component(Component::Y, [tangential_x, normal_y], force[1], first_row, fy);
     }
 
-    /// The velocity at `place`.
+    /// Returns the velocity at `place`.
     #[inline(never)]
     pub(super) fn gather(&self, place: [f64; 2], u: &[f64], v: &[f64]) -> [f64; 2] {
         let [[normal_x, tangential_x], [normal_y, tangential_y]] = place.map(|r| self.lines(r));
@@ -61,7 +61,8 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
         ]
     }
 
-    /// The weights in both roles. The points of the tangential role lie half way between those of the normal one.
+    /// Returns the weights in both roles. The points of the tangential role lie half way between the points of the
+    /// normal one.
     fn lines(&self, r: f64) -> [Line; 2] {
         let mut lines = [Role::Normal, Role::Tangential].map(|role| Line {
             first: 0,
@@ -128,7 +129,7 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
         (part(0) + part(2)) + (part(1) + part(3)) + (part(4) + part(5))
     }
 
-    /// The stored column that stands for `column`.
+    /// Returns the stored column that stands for `column`.
     #[inline]
     fn column(&self, column: i64) -> usize {
         let nx = self.grid.nx() as i64;
@@ -137,7 +138,7 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
         (if (0..nx).contains(&near) { near } else { column.rem_euclid(nx) }) as usize
     }
 
-    /// The stored column that stands for one from zero on.
+    /// Returns the stored column that stands for one from zero on.
     #[inline]
     fn wrapped(&self, column: usize) -> usize {
         let nx = self.grid.nx();
@@ -150,7 +151,7 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
         }
     }
 
-    /// The stored row and the sign that stand for row `row` of the extended field.
+    /// Returns the stored row and the sign that stand for row `row` of the extended field.
     #[inline]
     fn fold(&self, row: i64, component: Component) -> (usize, f64) {
         let ny = self.grid.ny() as i64;

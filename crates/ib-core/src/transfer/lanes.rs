@@ -6,25 +6,25 @@ pub(super) trait Lanes: Copy {
     /// The four numbers.
     type Four: Copy;
 
-    /// Four times the same number.
+    /// Returns the four times the same number.
     fn splat(self, value: f64) -> Self::Four;
 
-    /// The numbers of an array.
+    /// Returns the numbers of an array.
     fn load(self, values: [f64; 4]) -> Self::Four;
 
     /// As an array.
     fn store(self, four: Self::Four) -> [f64; 4];
 
-    /// `a + b`, each with each.
+    /// Returns `a + b`, each with each.
     fn add(self, a: Self::Four, b: Self::Four) -> Self::Four;
 
-    /// `a b`, each with each.
+    /// Returns `a b`, each with each.
     fn mul(self, a: Self::Four, b: Self::Four) -> Self::Four;
 
-    /// `a b + c`, each with each, rounded once where the machine has an instruction for it.
+    /// Returns `a b + c`, each with each, rounded once where the machine has an instruction for it.
     fn mul_add(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
 
-    /// The sums of the numbers of a and of those of b: first with second and third with fourth, then the two.
+    /// Returns the sums of the numbers of a and of those of b: first with second and third with fourth, then the two.
     fn sums(self, a: Self::Four, b: Self::Four) -> [f64; 2];
 }
 
@@ -116,7 +116,7 @@ impl Lanes for pulp::x86::V3 {
 
 /// Work that is compiled once for every set of instructions.
 pub(super) trait LanesTask {
-    /// Does it.
+    /// Runs the task.
     fn run<L: Lanes>(self, lanes: L);
 }
 

@@ -1,4 +1,4 @@
-//! Where markers are on the grid, found once for all passes over them.
+//! Places of markers on the grid, found once for all passes over them.
 
 use stokes_grid::Grid;
 
@@ -9,22 +9,22 @@ use motile_base::Vec2;
 /// The smallest number above which doubles have no fraction, times one and a half to leave room for negative ones.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// The whole part of `x` and the rest in [0, 1], without the library call that `floor` is on machines of old. Below
-/// 2^50 in size, else some number; at a whole number the rest may be one instead of zero, where continuous weights
-/// agree.
+/// Returns the whole part of `x` and the rest in [0, 1], without the library call that `floor` is on machines of old.
+/// Below 2^50 in size, else some number; at a whole number the rest may be one instead of zero, where continuous
+/// weights agree.
 #[inline(always)]
 pub(super) fn split(x: f64) -> (i64, f64) {
     let shifted = (x - 0.5) + WHOLE;
     (whole(shifted), x - (shifted - WHOLE))
 }
 
-/// The whole number that was added to [`WHOLE`].
+/// Returns the whole number that was added to [`WHOLE`].
 #[inline(always)]
 fn whole(shifted: f64) -> i64 {
     shifted.to_bits().wrapping_sub(WHOLE.to_bits()) as i64
 }
 
-/// Where a marker is: what spreading and interpolation need of it.
+/// The place of a marker: what spreading and interpolation need of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Location {
     /// The fractions of both coordinates of which weights are polynomials.
@@ -43,7 +43,7 @@ pub(super) struct Edge {
     /// It ends one row above the window, beyond the upper wall.
     pub(super) above: bool,
     /// The window ends the rows, and that many columns of the stencil (one to three) are in it; the others begin the
-    /// rows. Zero where the stencil does not wrap around.
+    /// rows. Zero if the stencil does not wrap around.
     pub(super) wrapped: usize,
 }
 
@@ -55,7 +55,7 @@ impl Location {
     /// No marker.
     pub(super) const NONE: Self = Self { fractions: [0.0; 2], base: Self::IRREGULAR, kind: u32::MAX };
 
-    /// Treatment of a stencil at an edge of the grid.
+    /// Returns the treatment of a stencil at an edge of the grid.
     pub(super) fn edge(&self) -> Edge {
         Edge { below: self.kind & 1 != 0, above: self.kind & 2 != 0, wrapped: (self.kind >> 2) as usize }
     }
@@ -84,7 +84,7 @@ impl Locations {
         Self { all: Vec::new(), irregular: Vec::new(), grid }
     }
 
-    /// The row of a marker, to within two.
+    /// Returns the row of a marker, to within two.
     #[cfg(feature = "rayon")]
     pub(super) fn row(&self, location: &Location) -> i64 {
         if location.base == Location::IRREGULAR {
@@ -111,7 +111,7 @@ impl Locations {
         self.all = locations;
     }
 
-    /// The place of a position, wrapped where the box is periodic.
+    /// Returns the place of a position, wrapped where the box is periodic.
     fn place(&self, position: &Vec2) -> [f64; 2] {
         let scale = 1.0 / self.grid.spacing();
         let [x, y] = [scale * (position.x - self.grid.origin()[0]), scale * (position.y - self.grid.origin()[1])];
@@ -125,7 +125,7 @@ impl Locations {
         self.irregular.push(place);
     }
 
-    /// Rows and columns at which a window may begin.
+    /// Returns the rows and columns at which a window may begin.
     fn windows(&self) -> [usize; 2] {
         // Between walls the y component has a row more than there are cells.
         [self.grid.nx().saturating_sub(3), self.grid.ny().saturating_sub(if self.grid.has_walls() { 2 } else { 3 })]
@@ -142,7 +142,8 @@ impl Locations {
         }
     }
 
-    /// The location of a place whose stencil is a window but for one row beyond a wall and columns that wrap around.
+    /// Returns the location of a place whose stencil is a window except for one row beyond a wall and columns that wrap
+    /// around.
     fn near_edge(&self, shift: f64, place: [f64; 2]) -> Option<Location> {
         let [(i, tx), (j, ty)] = place.map(|r| split(r + shift));
         let [first_column, first_row] = [i, j].map(|whole| whole.saturating_sub(1));

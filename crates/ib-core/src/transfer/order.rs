@@ -14,14 +14,14 @@ pub(super) const BLOCK: usize = 64;
 /// other in the list mostly overlap.
 const STRIDE: usize = 8;
 
-/// The distance between markers that are added one after another.
+/// Returns the distance between markers that are added one after another.
 pub(super) fn stride<K: Kernel>(kernel: &K) -> usize {
     // Other kernels take so long that it does not matter.
     if kernel.pieces().is_some() { STRIDE } else { 1 }
 }
 
-/// The order in which `count` markers are spread: block by block, in each of them those at a distance of `stride` from
-/// the first, then those next to them, and so on.
+/// Returns the order in which `count` markers are spread: block by block, in each of them those at a distance of
+/// `stride` from the first, then those next to them, and so on.
 #[cfg(feature = "rayon")]
 pub(super) fn spreading_order(count: usize, stride: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(BLOCK).flat_map(move |start| {

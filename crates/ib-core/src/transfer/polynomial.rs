@@ -23,7 +23,7 @@ struct Window {
     wraps: bool,
 }
 
-/// The weights of the stencil of a marker.
+/// Returns the weights of the stencil of a marker.
 #[inline(always)]
 fn window<L: Lanes>(l: L, pieces: &impl Polynomials, location: &Location) -> Window {
     let [x_columns, y_columns] = weights(l, pieces, location.fractions[0]);
@@ -36,8 +36,8 @@ fn window<L: Lanes>(l: L, pieces: &impl Polynomials, location: &Location) -> Win
     }
 }
 
-/// The weights of the windows of a marker at an edge of the grid from those of its stencil. At a wall the x component
-/// is odd, the y component even.
+/// The weights of the windows of a marker at an edge of the grid from the weights of its stencil. At a wall the x
+/// component is odd, the y component even.
 #[inline(never)]
 fn at_edge(edge: Edge, window: &mut Window) {
     let [u, v] = window.rows;
@@ -59,7 +59,7 @@ fn at_edge(edge: Edge, window: &mut Window) {
     }
 }
 
-/// Spreading of forces to both components, of all rows or those of a band.
+/// Spreading of forces to both components, of all rows or the rows of a band.
 #[derive(Debug)]
 pub(super) struct Spreading<'a, K, P> {
     pub(super) general: GeneralTransfer<'a, K>,
@@ -204,7 +204,7 @@ impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
     }
 }
 
-/// The velocity from three rows of the x component and four of the y component.
+/// Returns the velocity from three rows of the x component and four of the y component.
 #[inline(always)]
 fn gather<L: Lanes>(l: L, fields: &[&[f64]; 7], base: usize, rows: &[[f64; 4]; 2], columns: &[[f64; 4]; 2]) -> Vec2 {
     let mut totals = [l.splat(0.0); 2];
@@ -216,25 +216,25 @@ fn gather<L: Lanes>(l: L, fields: &[&[f64]; 7], base: usize, rows: &[[f64; 4]; 2
     l.sums(l.mul(x, l.load(columns[0])), l.mul(y, l.load(columns[1]))).into()
 }
 
-/// `length` numbers of a field that begin at `start`, or nearer to its beginning if there are not enough.
+/// Returns `length` numbers of a field that begin at `start`, or nearer to its beginning if there are not enough.
 #[inline(always)]
 fn from(field: &[f64], start: usize, length: usize) -> &[f64] {
     &field[start.min(field.len() - length)..][..length]
 }
 
-/// The four numbers from `base` on.
+/// Returns the four numbers from `base` on.
 #[inline(always)]
 fn cells<L: Lanes>(l: L, field: &[f64], base: usize) -> L::Four {
     field[base..base + 4].first_chunk().map_or(l.splat(0.0), |cells| l.load(*cells))
 }
 
-/// The polynomials of a kernel unless they are those of the default one, which are constants. Where a kernel has none
-/// all locations are irregular, for which none are needed.
+/// Returns the polynomials of a kernel unless it is the default one, which are constants. If a kernel has none, all
+/// locations are irregular, and those need none.
 fn other_pieces<K: Kernel>(kernel: &K) -> Option<&'static Pieces> {
     kernel.pieces().filter(|pieces| **pieces != BSPLINE_4)
 }
 
-/// Spreads forces with the polynomials of the kernel, or marker by marker where it has none.
+/// Spreads forces with the polynomials of the kernel, or marker by marker if it has none.
 pub(super) fn spread<K: Kernel>(general: GeneralTransfer<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
     match other_pieces(general.kernel) {
         Some(pieces) => dispatch(Spreading { general, pieces, scale, markers, band }),
@@ -242,7 +242,7 @@ pub(super) fn spread<K: Kernel>(general: GeneralTransfer<'_, K>, scale: f64, mar
     }
 }
 
-/// Interpolates velocities with the polynomials of the kernel, or marker by marker where it has none.
+/// Interpolates velocities with the polynomials of the kernel, or marker by marker if it has none.
 pub(super) fn interpolate<K: Kernel>(
     general: GeneralTransfer<'_, K>,
     locations: &[Location],

@@ -5,7 +5,7 @@ use crate::kernel::{BSPLINE_4, Pieces};
 
 /// Source of the polynomials of a kernel: a table that is read, or constants.
 pub(super) trait Polynomials: Copy {
-    /// The coefficients of the kernel's weights.
+    /// Returns the coefficients of the kernel's weights.
     fn pieces(&self) -> &Pieces;
 }
 
@@ -27,7 +27,7 @@ impl Polynomials for BSpline4Pieces {
     }
 }
 
-/// The weights of `pieces` at the fraction `t` of a coordinate, in the normal and the tangential role.
+/// Returns the weights of `pieces` at the fraction `t` of a coordinate, in the normal and the tangential role.
 #[inline(always)]
 pub(super) fn weights<L: Lanes>(l: L, pieces: &impl Polynomials, t: f64) -> [L::Four; 2] {
     let t = l.splat(t);

@@ -2,9 +2,9 @@
 
 use motile_base::Vec2;
 
-/// Mean square displacements (length squared) over 0, 1, ... intervals of states at equal times, each with the places
-/// of all droplets (length, not wrapped) in one order; over all droplets and all starts. States of other numbers of
-/// places than the first one end the list.
+/// Returns the mean square displacements (length squared) over 0, 1, ... intervals of states at equal times, each with
+/// the places of all droplets (length, not wrapped) in one order. The mean is taken over all droplets and all starts.
+/// States of other numbers of places than the first one end the list.
 ///
 /// ```
 /// use motile_analysis::suspension::mean_square_displacement;
@@ -25,9 +25,9 @@ pub fn heading_correlation(states: &[Vec<Vec2>]) -> Vec<f64> {
     over_lags(states, Vec2::dot)
 }
 
-/// Rotational diffusion constant (1/time) of directions whose correlation over 0, 1, ... intervals (time) is
-/// `exp(-D t)`: the least squares of `-ln C = D t` over the lags from the first to the last before C falls below 1/e,
-/// or three lags where it falls faster; `None` without a lag, or where C is not positive at the first.
+/// Returns the rotational diffusion constant (1/time) of directions whose correlation over 0, 1, ... intervals (time)
+/// is `exp(-D t)`: the least squares of `-ln C = D t` over the lags from the first to the last before C falls below
+/// 1/e, or three lags where it falls faster; `None` without a lag, or where C is not positive at the first.
 ///
 /// ```
 /// use motile_analysis::suspension::rotational_diffusion;

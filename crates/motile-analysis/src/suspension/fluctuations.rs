@@ -2,9 +2,9 @@
 
 use motile_base::Vec2;
 
-/// Mean and variance of the number of places in the cells of a rectangle of these lengths (length) around the origin,
-/// divided `divisions` times in x and y and taken as periodic. Of independent places the variance is the mean; giant
-/// fluctuations are those whose variance grows faster than the mean where cells grow.
+/// Returns the mean and variance of the number of places in the cells of a rectangle of these lengths (length) around
+/// the origin, divided `divisions` times in x and y and taken as periodic. Of independent places the variance is the
+/// mean; giant fluctuations are those whose variance grows faster than the mean where cells grow.
 ///
 /// ```
 /// use motile_analysis::suspension::number_fluctuations;

@@ -2,8 +2,8 @@
 
 use motile_base::Vec2;
 
-/// Polar order of directions, `|mean of n|` (no dimension): 1 where all are alike, of order `N^(-1/2)` where N are
-/// random, 0 without any. Directions of no length do not count.
+/// Returns the polar order of directions, `|mean of n|` (no dimension): 1 if all are alike, of order `N^(-1/2)` where N
+/// are random, 0 without any. Directions of no length do not count.
 ///
 /// ```
 /// use motile_analysis::suspension::polar_order;
@@ -17,8 +17,8 @@ pub fn polar_order(directions: &[Vec2]) -> f64 {
     mean_length(directions, |n| n)
 }
 
-/// Nematic order of directions at the angles a, `|mean of (cos 2a, sin 2a)|` (no dimension): 1 where all are along one
-/// axis, either way. Directions of no length do not count.
+/// Returns the nematic order of directions at the angles a, `|mean of (cos 2a, sin 2a)|` (no dimension): 1 if all are
+/// along one axis, either way. Directions of no length do not count.
 ///
 /// ```
 /// use motile_analysis::suspension::nematic_order;
@@ -32,7 +32,7 @@ pub fn nematic_order(directions: &[Vec2]) -> f64 {
     mean_length(directions, |n| Vec2::new(n.x * n.x - n.y * n.y, 2.0 * n.x * n.y))
 }
 
-/// Length of the mean of a function of unit vectors.
+/// Returns the length of the mean of a function of unit vectors.
 fn mean_length(directions: &[Vec2], of: impl Fn(Vec2) -> Vec2) -> f64 {
     let units: Vec<Vec2> = directions.iter().filter_map(|direction| direction.try_normalize()).collect();
     if units.is_empty() {

@@ -36,9 +36,9 @@ pub struct PairAverages {
 pub struct PairCorrelations {
     /// Middles of the bins (length).
     pub distances: Vec<f64>,
-    /// Pair correlation g: pairs in the bin over those of independent places in the region (no dimension).
+    /// Pair correlation g: pairs in the bin over the pairs of independent places in the region (no dimension).
     pub pairs: Vec<f64>,
-    /// Mean of `v_i v_j` over that of `v_i v_i` (no dimension); not a number in bins without pairs.
+    /// Mean of `v_i v_j` over the mean of `v_i v_i` (no dimension); not a number in bins without pairs.
     pub velocities: Vec<f64>,
 }
 
@@ -71,7 +71,7 @@ impl PairAverages {
         self.squares += pairs * squares / count.max(1) as f64;
     }
 
-    /// The averages so far.
+    /// Returns the averages so far.
     #[must_use]
     pub fn correlations(&self) -> PairCorrelations {
         let ends = |bin: usize| [bin as f64, (bin + 1) as f64].map(|k| k * self.bin);
@@ -85,8 +85,9 @@ impl PairAverages {
         }
     }
 
-    /// Part of the pairs of independent places whose distance is between two (length). In a channel of the length L and
-    /// the width W its density is `r / (L W^2)` times the integral of `W - r |sin a|`, where positive, over all angles.
+    /// Returns the part of the pairs of independent places whose distance is between two (length). In a channel of the
+    /// length L and the width W its density is `r / (L W^2)` times the integral of `W - r |sin a|`, where positive,
+    /// over all angles.
     fn share(&self, [from, to]: [f64; 2]) -> f64 {
         let [length, width] = self.lengths;
         let ring = PI * (to * to - from * from);

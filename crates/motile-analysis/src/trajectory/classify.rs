@@ -8,7 +8,7 @@ use super::swings::{FEWEST_SWINGS, Swings, Tail};
 use super::{Doubt, Estimate, Evidence, LinearMode, Regime, RegimeCriteria, RegimeReport, Trajectory, extrema};
 use crate::AnalysisError;
 
-/// Standard errors by which a change of amplitude must differ from zero: 95 per cent confidence.
+/// Standard errors by which a change of amplitude must differ from zero: 95 % confidence.
 const SIGNIFICANT: f64 = 2.0;
 /// Growth of a small speed over the last quarter of the record above which a droplet is not at rest.
 const SPEEDING_UP: f64 = 1.5;
@@ -18,29 +18,29 @@ const OSCILLATION: f64 = 0.5;
 const STRAIGHT: f64 = 0.1;
 /// Standard errors by which the rate of a fit to less than two periods must differ from zero.
 const SIGNIFICANT_RATE: f64 = 3.0;
-/// Part of its largest distance from the centre line at which a droplet that has stopped is taken to stay there.
+/// Fraction of its largest distance from the centre line at which a droplet that has stopped is taken to stay there.
 const STAYS: f64 = 0.95;
 
 impl Trajectory {
-    /// Long-time regime of the droplet, with the evidence for it; the first part of the record
+    /// Returns the long-time regime of the droplet, with the evidence for it; the first part of the record
     /// ([`RegimeCriteria::transient`]) is left out. The first of these that applies:
     ///
     /// 1. Speeds below [`RegimeCriteria::rest`] over the last quarter: at rest (unless they are increasing).
     /// 2. All heights within [`RegimeCriteria::centre`]: on the centre line.
     /// 3. Four or more turning points: the amplitudes of the swings between them give the growth rate, over the longest
-    ///    tail in which they are exponential in time, so that an oscillation that has grown and saturated is steady.
+    ///    tail in which they are exponential in time. An oscillation that has grown and saturated is therefore steady.
     ///    Drifting, if the height about which it oscillates moves to one side by more than the swings, or if the
     ///    oscillation decays towards a height off the centre line. Undecided, if the amplitude goes up and down by more
     ///    than a fifth and less than half of the swings belong to the tail, or if the change of the amplitude per
     ///    period or its standard error is above [`RegimeCriteria::steady`] without being significant.
-    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`] fits
-    ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at
-    ///    least half of its period, or without oscillation a change by a factor of e. Drifting, if the droplet leaves
-    ///    the centre line or stays away from it and there is no sign that it oscillates. Undecided otherwise; a steady
-    ///    oscillation is not told from fewer than four turning points.
+    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`] fits ([`RegimeCriteria::linear`]), its rate
+    ///    differs from zero by three standard errors, and the record contains at least half of its period, or without
+    ///    oscillation a change by a factor of e. Drifting, if the droplet leaves the centre line or stays away from it
+    ///    and there is no sign that it oscillates. Undecided otherwise; fewer than four turning points do not show a
+    ///    steady oscillation.
     ///
     /// # Errors
-    /// No samples, criteria out of their ranges.
+    /// Returns an error if there are no samples, or for criteria out of their ranges.
     pub fn regime(&self, criteria: &RegimeCriteria) -> Result<RegimeReport, AnalysisError> {
         criteria.check()?;
         at_least("samples", self.times().len(), 1)?;
@@ -60,7 +60,7 @@ impl Trajectory {
     }
 }
 
-/// Last quarter of a window, in time.
+/// Returns the last quarter of a window, in time.
 fn last_quarter(window: &Trajectory) -> Trajectory {
     window.between(window.times()[0] + 0.75 * window.duration(), f64::INFINITY)
 }
@@ -95,7 +95,8 @@ fn collect(window: &Trajectory, criteria: &RegimeCriteria) -> Result<Evidence, A
     })
 }
 
-/// Regime of a droplet at rest, or so slow that the record does not show it; `None` for a droplet that moves.
+/// Returns the regime of a droplet at rest, or so slow that the record does not show it; `None` for a droplet that
+/// moves.
 fn rest(window: &Trajectory, criteria: &RegimeCriteria) -> Option<Regime> {
     let late = last_quarter(window);
     if late.speeds().iter().any(|&speed| speed > criteria.rest) {
@@ -112,7 +113,7 @@ fn rest(window: &Trajectory, criteria: &RegimeCriteria) -> Option<Regime> {
     Some(Regime::AtRest)
 }
 
-/// Regime of a droplet that moves and is not on the centre line.
+/// Returns the regime of a droplet that moves and is not on the centre line.
 fn across(window: &Trajectory, evidence: &mut Evidence, criteria: &RegimeCriteria) -> Regime {
     let swings = Swings::new(evidence.extrema.clone());
     if let (Some(&half_height), Some(&midline)) = (swings.amplitudes.last(), swings.midlines.last()) {
@@ -136,7 +137,7 @@ fn across(window: &Trajectory, evidence: &mut Evidence, criteria: &RegimeCriteri
     tendency(window, evidence.extrema.len(), mode.as_ref(), criteria)
 }
 
-/// Regime of a motion whose swings show how its amplitude changes.
+/// Returns the regime of a motion whose swings show how its amplitude changes.
 fn oscillating(swings: &Swings, tail: &Tail, criteria: &RegimeCriteria) -> Regime {
     let amplitudes = &swings.amplitudes[tail.start..];
     let midlines = &swings.midlines[tail.start..];
@@ -162,8 +163,8 @@ fn oscillating(swings: &Swings, tail: &Tail, criteria: &RegimeCriteria) -> Regim
     }
 }
 
-/// Regime of a motion with too few turning points to follow its amplitude: from a linear fit, if it is good, or from
-/// the way the height goes at the end.
+/// Returns the regime of a motion with too few turning points to follow its amplitude: from a linear fit, if it is
+/// good, or from the way the height goes at the end.
 fn tendency(window: &Trajectory, turns: usize, mode: Option<&LinearMode>, criteria: &RegimeCriteria) -> Regime {
     // Turning points are half a period apart; before the first and behind the last one there is less than that each.
     let too_short = |periods: f64| Regime::Undecided(Doubt::TooShort { periods });
@@ -187,7 +188,7 @@ fn growing_or_decaying(rate: f64) -> Regime {
     if rate > 0.0 { Regime::Growing } else { Regime::Decaying }
 }
 
-/// Regime of a motion that has not turned, or has turned once and relaxes without oscillation.
+/// Returns the regime of a motion that has not turned, or has turned once and relaxes without oscillation.
 fn one_way(window: &Trajectory, mode: Option<&LinearMode>, criteria: &RegimeCriteria) -> Regime {
     let heights = window.heights();
     let (first, last) = (heights[0], heights[heights.len() - 1]);
@@ -217,7 +218,7 @@ fn one_way(window: &Trajectory, mode: Option<&LinearMode>, criteria: &RegimeCrit
     }
 }
 
-/// Length of the path that the droplet has swum (length).
+/// Returns the length of the path that the droplet has swum (length).
 fn path(window: &Trajectory) -> f64 {
     let speeds = window.speeds().windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
     window.times().windows(2).zip(speeds).map(|(times, speed)| (times[1] - times[0]) * speed).sum()

@@ -20,17 +20,18 @@ pub struct Extremum {
     pub is_maximum: bool,
 }
 
-/// Turning points of heights y (length) sampled at increasing times: maxima and minima in turn, from each of which the
-/// motion comes back by more than `hysteresis` (length), so that smaller oscillations do not count. The first and the
-/// last sample are no turning points.
+/// Returns the turning points of heights y (length) sampled at increasing times. They are maxima and minima in turn,
+/// from each of which the motion comes back by more than `hysteresis` (length), so that smaller oscillations do not
+/// count. The first and the last sample do not count as turning points.
 ///
-/// Time and height are those of a quartic fitted to the samples of the upper 5 per cent of the swing around each, at
-/// least five (a parabola near the ends, where there are not as many): for a sine of 7 samples a period they are good
-/// to 1 per cent of period and amplitude, of 20 samples to 1e-4. A turn within two or three samples of an end, seen
-/// from one side only, is known less well.
+/// Time and height are taken from a quartic fitted to the samples of the upper 5 % of the swing around each, at least
+/// five (a parabola near the ends, where there are not as many). For a sine of 7 samples per period they are good to 1
+/// % of period and amplitude, of 20 samples to 1e-4. A turn within two or three samples of an end, seen from one side
+/// only, is known less well.
 ///
 /// # Errors
-/// Lists of different length, values that are not finite, times that do not increase, a negative hysteresis.
+/// Returns an error for lists of different length, values that are not finite, times that do not increase, a negative
+/// hysteresis.
 pub fn extrema(times: &[f64], heights: &[f64], hysteresis: f64) -> Result<Vec<Extremum>, AnalysisError> {
     same_length("the heights", times.len(), heights.len())?;
     increasing("the times", times)?;
@@ -53,7 +54,7 @@ pub fn extrema(times: &[f64], heights: &[f64], hysteresis: f64) -> Result<Vec<Ex
         .collect())
 }
 
-/// Samples at which the motion turns, each with `true` for a maximum.
+/// Returns the samples at which the motion turns, each with `true` for a maximum.
 pub(super) fn turns(heights: &[f64], hysteresis: f64) -> Vec<(usize, bool)> {
     let mut turns = Vec::new();
     // The highest and the lowest sample since the last turn, and which of them the motion is heading for.
@@ -78,8 +79,8 @@ pub(super) fn turns(heights: &[f64], hysteresis: f64) -> Vec<(usize, bool)> {
     turns
 }
 
-/// Time and height of the extremum near sample `index`, from the samples of `range` that are within `depth` of its
-/// height, or next to it.
+/// Returns the time and height of the extremum near sample `index`, from the samples of `range` that are within `depth`
+/// of its height, or next to it.
 fn refine(times: &[f64], heights: &[f64], index: usize, range: RangeInclusive<usize>, depth: f64) -> (f64, f64) {
     // Between the middles to the turns before and behind it.
     let [earliest, latest] = [range.start(), range.end()].map(|&other| 0.5 * (times[index] + times[other]));

@@ -19,24 +19,24 @@ use crate::error::increasing;
 pub struct LinearMode {
     /// Growth rate s, negative for a decay (1/time); the larger of two real rates where the motion does not oscillate.
     pub growth_rate: Estimate,
-    /// Angular frequency w (radians per time); `None` where the motion does not oscillate.
+    /// Angular frequency w (radians per time); `None` if the motion does not oscillate.
     pub frequency: Option<Estimate>,
     /// Smaller one of two real rates (1/time); `None` for an oscillation, and where the data show one rate only.
     pub second_rate: Option<f64>,
-    /// Root mean square of the residuals over that of the data (no dimension).
+    /// Root mean square of the residuals over the root mean square of the data (no dimension).
     pub residual: f64,
     /// Length of the record (time).
     pub duration: f64,
 }
 
 impl LinearMode {
-    /// Period 2 pi/w (time); `None` where the motion does not oscillate.
+    /// Returns the period 2 pi/w (time); `None` if the motion does not oscillate.
     #[must_use]
     pub fn period(&self) -> Option<Estimate> {
         self.frequency.map(|w| Estimate { value: TAU / w.value, error: TAU / (w.value * w.value) * w.error })
     }
 
-    /// Number of periods in the record, 0 where the motion does not oscillate.
+    /// Returns the number of periods in the record, 0 if the motion does not oscillate.
     #[must_use]
     pub fn periods(&self) -> f64 {
         self.frequency.map_or(0.0, |w| w.value * self.duration / TAU)
@@ -49,12 +49,12 @@ pub(super) const FEWEST_SAMPLES: usize = 8;
 /// Ratio of the residuals of the fits with two rates and with one below which the second rate is believed.
 const BETTER: f64 = 0.95;
 
-/// Least squares fit of `y(t) = Re(a e^((s + i w) t))`, or, where the motion is overdamped, of the sum of two real
-/// exponentials, to the height y above the centre line (length) at increasing times; both solve
-/// `y'' = 2 s y' - (s^2 + w^2) y`. A small lateral displacement of a steady swimmer is of this form once everything
-/// faster has decayed: leave the beginning of a run out.
+/// Returns the least squares fit of `y(t) = Re(a e^((s + i w) t))`, or, where the motion is overdamped, of the sum of
+/// two real exponentials, to the height y above the centre line (length) at increasing times; both solve `y'' = 2 s
+/// y' - (s^2 + w^2) y`. A small lateral displacement of a steady swimmer is of this form once everything faster has
+/// decayed: leave the beginning of a run out.
 ///
-/// With the lateral velocities y' (length per time; the centroid's) beside the heights, both are fitted at once, each
+/// If you add the lateral velocities y' of the centroid (length per time) to the heights, both are fitted at once, each
 /// with its root mean square as unit. A fraction of a period then suffices; without them it takes about half a period.
 /// Samples need not be evenly spaced, nor be many in a period, as long as they show the oscillation. Noise does not
 /// bias the result, as it does where slopes are taken from differences.
@@ -70,8 +70,8 @@ const BETTER: f64 = 0.95;
 /// ```
 ///
 /// # Errors
-/// Lists of different length, fewer than eight samples, values that are not finite, times that do not increase, data
-/// that determine no rate (such as zeros).
+/// Returns an error for lists of different length, fewer than eight samples, values that are not finite, times that do
+/// not increase, data that determine no rate (such as zeros).
 pub fn fit_linear_mode(
     times: &[f64],
     heights: &[f64],
@@ -111,7 +111,7 @@ pub fn fit_linear_mode(
     Ok(mode(&fit, duration))
 }
 
-/// Mode of a fit whose unit of time is the length `duration` of the record.
+/// Returns the mode of a fit whose unit of time is the length `duration` of the record.
 fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
     let estimate =
         |value: f64, variance: f64| Estimate { value, error: variance.max(0.0).sqrt() }.scaled(1.0 / duration);
@@ -133,8 +133,8 @@ fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
     LinearMode { growth_rate, frequency, second_rate, residual: fit.residual, duration }
 }
 
-/// Initial guess of the rates of a model, by linear least squares from its integrated equation,
-/// `y' - y'(0) = a (y - y(0)) + b INT y`, once more integrated where the velocities are not known.
+/// Returns the initial guess of the rates of a model, by linear least squares from its integrated equation, `y' -
+/// y'(0) = a (y - y(0)) + b INT y`, once more integrated where the velocities are not known.
 fn weak_form(model: Model, times: &[f64], heights: &[f64], velocities: Option<&[f64]>) -> Option<Vec<f64>> {
     let once = cumulative_integral(times, heights, velocities);
     let solve = |columns: &[&[f64]], data: &[f64]| {
@@ -159,7 +159,8 @@ fn weak_form(model: Model, times: &[f64], heights: &[f64], velocities: Option<&[
     Some(vec![0.5 * a, 0.25 * a * a + b])
 }
 
-/// Integral of y from the first time to each of the times, for samples at increasing times: exact for cubics.
+/// Returns the integral of y from the first time to each of the times, for samples at increasing times: exact for
+/// cubics.
 ///
 /// Between two samples y is taken for the cubic through them and their neighbours, or, with the derivatives of y, for
 /// the cubic with these values and derivatives.
@@ -176,7 +177,7 @@ fn cumulative_integral(times: &[f64], y: &[f64], derivatives: Option<&[f64]>) ->
     integral
 }
 
-/// Integral over the interval before sample `i` of the polynomial through up to four samples around it.
+/// Returns the integral over the interval before sample `i` of the polynomial through up to four samples around it.
 fn between(times: &[f64], y: &[f64], i: usize) -> f64 {
     let start = (i.max(2) - 2).min(y.len().saturating_sub(4));
     let stencil = start..(start + 4).min(y.len());

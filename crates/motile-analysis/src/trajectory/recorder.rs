@@ -31,8 +31,9 @@ pub struct TrajectoryRecord {
 }
 
 impl TrajectoryRecord {
-    /// Names and values of all entries, in the order of the columns of a table: `time`, the [`Observables::entries`],
-    /// `gap`, `pressure_gradient`, `net_flux`, `retrograde_flow`. Values that do not exist are `None`.
+    /// Returns the names and values of all entries, in the order of the columns of a table: `time`, the
+    /// [`Observables::entries`], `gap`, `pressure_gradient`, `net_flux`, `retrograde_flow`. Values that do not exist
+    /// are `None`.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let mut entries = vec![("time", Some(self.time))];
@@ -73,7 +74,7 @@ pub struct TrajectoryRecorder {
 }
 
 impl TrajectoryRecorder {
-    /// Recorder of a droplet, with force moments in the far-field convention.
+    /// Creates a recorder of a droplet, with force moments in the far-field convention.
     #[must_use]
     pub fn new(droplet: Handle<ActiveDroplet>) -> Self {
         let (convention, records) = (Convention::FarField, Vec::new());
@@ -95,31 +96,32 @@ impl TrajectoryRecorder {
         self
     }
 
-    /// Records, at increasing times.
+    /// Returns the records, at increasing times.
     #[must_use]
     pub fn records(&self) -> &[TrajectoryRecord] {
         &self.records
     }
 
-    /// Values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or
-    /// without records.
+    /// Returns the values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an
+    /// unknown name or without records.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
         let place = self.records.first()?.entries().iter().position(|entry| entry.0 == name)?;
         Some(self.records.iter().map(|record| record.entries()[place].1).collect())
     }
 
-    /// Smallest gap to the walls of all records (length); `None` without walls or records. The scene keeps the smallest
-    /// gap of all steps and bodies ([`System::minimum_wall_gap`]).
+    /// Returns the smallest gap to the walls of all records (length); `None` without walls or records. The scene keeps
+    /// the smallest gap of all steps and bodies ([`System::minimum_wall_gap`]).
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         self.minimum_gap
     }
 
-    /// Trajectory across the channel, heights measured from the centre line; without walls from the first record's.
+    /// Returns the trajectory across the channel, heights measured from the centre line; without walls from the first
+    /// record's.
     ///
     /// # Errors
-    /// None for records of a run.
+    /// Returns no error for records of a run.
     pub fn trajectory(&self) -> Result<Trajectory, AnalysisError> {
         let list = |value: fn(&TrajectoryRecord) -> f64| self.records.iter().map(value).collect::<Vec<f64>>();
         let mut heights = list(|record| record.observables.centroid.y);
@@ -129,10 +131,10 @@ impl TrajectoryRecorder {
             .with_lateral_velocities(list(|record| record.observables.velocity.y))
     }
 
-    /// Long-time regime of the droplet; see [`Trajectory::regime`].
+    /// Returns the long-time regime of the droplet; see [`Trajectory::regime`].
     ///
     /// # Errors
-    /// No records, criteria out of their ranges.
+    /// Returns an error if there are no records, or for criteria out of their ranges.
     pub fn regime(&self, criteria: &RegimeCriteria) -> Result<RegimeReport, AnalysisError> {
         self.trajectory()?.regime(criteria)
     }
@@ -143,7 +145,7 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
     /// can be continued.
     ///
     /// # Errors
-    /// A handle of another scene, a time before that of the last record, those of an evaluation.
+    /// Returns an error for a handle of another scene, a time before the last record, and the errors of an evaluation.
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn Error + Send + Sync>> {
         let time = system.time();
         system.body(self.droplet)?;

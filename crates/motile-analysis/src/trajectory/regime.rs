@@ -10,6 +10,7 @@ use crate::AnalysisError;
 /// Long-time regime of the motion of a droplet across a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[doc(alias("zigzag", "oscillation"))]
 pub enum Regime {
     /// Swimming on the centre line, at most [`RegimeCriteria::centre`] off it.
     CentreLine,
@@ -95,7 +96,8 @@ impl fmt::Display for Doubt {
 /// Thresholds of [`Trajectory::regime`](crate::trajectory::Trajectory::regime).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegimeCriteria {
-    /// Part of the record, from its beginning, that is left out as a transient (no dimension, at least 0 and below 1).
+    /// Fraction of the record, from its beginning, that is left out as a transient (no dimension, at least 0 and below
+    /// 1).
     pub transient: f64,
     /// Distance from the centre line up to which a droplet is on it (length). The default is far above the round-off of
     /// a symmetric run and far below any perturbation made on purpose.
@@ -110,8 +112,8 @@ pub struct RegimeCriteria {
     /// Shortest path without a turning point that is called a drift (length); on a shorter one the droplet may as well
     /// be about to turn.
     pub travel: f64,
-    /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used where there
-    /// are fewer than four turning points.
+    /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used if there are
+    /// fewer than four turning points.
     pub linear: f64,
 }
 
@@ -123,11 +125,11 @@ impl Default for RegimeCriteria {
 }
 
 impl RegimeCriteria {
-    /// Default thresholds for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length
-    /// per time).
+    /// Creates the default thresholds for droplets of the radius `radius` (length) whose speeds are of the order of
+    /// `speed` (length per time).
     ///
     /// # Errors
-    /// Values that are not positive and finite.
+    /// Returns an error for values that are not positive and finite.
     pub fn scaled(radius: f64, speed: f64) -> Result<Self, AnalysisError> {
         positive("the radius", radius)?;
         positive("the speed", speed)?;
@@ -160,7 +162,7 @@ pub struct Evidence {
     /// Largest distance from the centre line (length).
     pub largest: f64,
     /// Cowley's amplitude (section 3.1.2): largest distance from the centre line over the last period, or over the last
-    /// quarter of the window where there is no period (length).
+    /// quarter of the window if there is no period (length).
     pub amplitude: f64,
     /// Half of the height difference between the last two turning points (length).
     pub half_height: Option<f64>,
@@ -179,7 +181,7 @@ pub struct Evidence {
     pub period: Option<Estimate>,
     /// Growth rate of the amplitude in that part, negative for a decay (1/time).
     pub growth_rate: Option<Estimate>,
-    /// The linear fit, where there are too few turning points.
+    /// The linear fit, if there are too few turning points.
     pub mode: Option<LinearMode>,
 }
 

@@ -3,8 +3,8 @@
 /// A fitted number and its standard error, of one dimension.
 ///
 /// The standard error takes the residuals for a first-order autoregressive process, so that the smooth residuals of a
-/// model that is only nearly right do not pass for many independent measurements. It is infinite where there are no
-/// more data than unknowns.
+/// model that is only nearly right do not pass for many independent measurements. It is infinite if there are no more
+/// data than unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
@@ -21,7 +21,7 @@ impl Estimate {
         self.value.abs() > errors * self.error
     }
 
-    /// Estimate of `factor` times the number.
+    /// Returns the estimate of `factor` times the number.
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self { value: factor * self.value, error: factor.abs() * self.error }
     }
@@ -36,12 +36,14 @@ pub(super) struct Solution {
     pub(super) residuals: Vec<f64>,
 }
 
-/// Columns that leave less than this part of a column, some 1e5 times round-off, determine it: it counts as dependent.
+/// Columns that leave less than this fraction of a column, about 1e5 times round-off, determine it: it counts as
+/// dependent.
 const RANK: f64 = 1e-11;
 
 impl Solution {
-    /// Solution by modified Gram-Schmidt orthogonalisation, with the data as the last column, which is backward stable
-    /// (Bjoerck, BIT 7, 1967). `None` for fewer rows than columns, dependent columns, or values that are not finite.
+    /// Creates a solution by modified Gram-Schmidt orthogonalisation, with the data as the last column, which is
+    /// backward stable (Bjoerck, BIT 7, 1967). `None` for fewer rows than columns, dependent columns, or values that
+    /// are not finite.
     pub(super) fn new(mut columns: Vec<Vec<f64>>, data: &[f64]) -> Option<Self> {
         let (rows, count) = (data.len(), columns.len());
         let dot = |a: &[f64], b: &[f64]| a[..rows].iter().zip(&b[..rows]).map(|(a, b)| a * b).sum::<f64>();
@@ -70,12 +72,12 @@ impl Solution {
         finite.then_some(Self { coefficients, inverse, residuals: rest })
     }
 
-    /// The sum of the squares of the residuals.
+    /// Returns the sum of the squares of the residuals.
     pub(super) fn power(&self) -> f64 {
         self.residuals.iter().map(|r| r * r).sum()
     }
 
-    /// Variance of the data about the fit, per independent datum.
+    /// Returns the variance of the data about the fit, per independent datum.
     pub(super) fn variance(&self) -> f64 {
         let freedom = self.residuals.len() - self.coefficients.len();
         if freedom == 0 {
@@ -84,7 +86,7 @@ impl Solution {
         self.power() / freedom as f64 * inflation(&self.residuals)
     }
 
-    /// The coefficient `i`.
+    /// Returns the coefficient `i`.
     pub(super) fn estimate(&self, i: usize) -> Estimate {
         Estimate { value: self.coefficients[i], error: (self.variance() * self.inverse[i][i]).sqrt() }
     }
@@ -93,8 +95,8 @@ impl Solution {
 /// Fewest residuals from which a correlation is estimated: its own standard error is 1/sqrt(n), a third for ten.
 const CORRELATED: usize = 10;
 
-/// Number of residuals that count as one independent datum: `(1 + r) / (1 - r)` with the correlation r of successive
-/// residuals, at least 1.
+/// Returns the number of residuals that count as one independent datum: `(1 + r) / (1 - r)` with the correlation r of
+/// successive residuals, at least 1.
 pub(super) fn inflation(residuals: &[f64]) -> f64 {
     let power: f64 = residuals.iter().map(|r| r * r).sum();
     if residuals.len() < CORRELATED || power == 0.0 {
@@ -106,7 +108,7 @@ pub(super) fn inflation(residuals: &[f64]) -> f64 {
     (1.0 + correlation) / (1.0 - correlation)
 }
 
-/// Least squares line through the points: value at `x = 0`, slope, and root mean square residual.
+/// Returns the least squares line through the points: value at `x = 0`, slope, and root mean square residual.
 pub(super) fn line(x: &[f64], y: &[f64]) -> Option<(Estimate, Estimate, f64)> {
     let solution = Solution::new(vec![vec![1.0; x.len()], x.to_vec()], y)?;
     let rms = (solution.power() / x.len() as f64).sqrt();

@@ -19,7 +19,7 @@ struct Basis {
 }
 
 impl Model {
-    /// Number of rates, and of amplitudes.
+    /// Returns the number of rates, and of amplitudes.
     pub(super) fn order(self) -> usize {
         match self {
             Self::Exponential => 1,
@@ -52,7 +52,7 @@ impl Model {
     }
 }
 
-/// `cosh(q t)`, `sinh(q t)/q` and the derivative of the latter by d, where `q^2 = d`; smooth in d through zero.
+/// Returns `cosh(q t)`, `sinh(q t)/q` and the derivative of the latter by d, where `q^2 = d`; smooth in d through zero.
 fn hyperbolic(d: f64, t: f64) -> [f64; 3] {
     let x = d * t * t;
     if x.abs() < 1e-2 {
@@ -71,7 +71,7 @@ fn hyperbolic(d: f64, t: f64) -> [f64; 3] {
 pub(super) struct Data {
     times: Vec<f64>,
     data: Vec<f64>,
-    /// Weight of the derivatives; `None` where there are none.
+    /// Weight of the derivatives; `None` if there are none.
     weight: Option<f64>,
 }
 
@@ -81,12 +81,12 @@ pub(super) struct SeparableFit {
     pub(super) rates: Vec<f64>,
     /// Covariance of the rates.
     pub(super) covariance: Vec<Vec<f64>>,
-    /// Root mean square of the residuals over that of the data.
+    /// Root mean square of the residuals over the root mean square of the data.
     pub(super) residual: f64,
 }
 
 impl Data {
-    /// Data of a fit, with `values` and `derivatives` scaled to a mean square of one; `None` where one of them
+    /// Creates data of a fit, with `values` and `derivatives` scaled to a mean square of one; `None` if one of them
     /// vanishes.
     pub(super) fn new(times: Vec<f64>, values: &[f64], derivatives: Option<&[f64]>) -> Option<Self> {
         let rms = |list: &[f64]| (list.iter().map(|v| v * v).sum::<f64>() / list.len() as f64).sqrt();
@@ -103,7 +103,7 @@ impl Data {
         Some(Self { times, data, weight: rate.map(|rate| size / rate) })
     }
 
-    /// Weights of the values and of their derivatives.
+    /// Returns the weights of the values and of their derivatives.
     fn weights(&self) -> impl Iterator<Item = f64> {
         [Some(1.0), self.weight].into_iter().flatten()
     }
@@ -141,8 +141,8 @@ impl Data {
         Solution::new(columns, &best.residuals)
     }
 
-    /// Fit of a model, by variable projection: Gauss-Newton steps in the rates from `rates` on, halved until the
-    /// residual falls, with the best amplitudes for each. `None` where the data do not determine the model.
+    /// Returns the fit of a model, by variable projection: Gauss-Newton steps in the rates from `rates` on, halved
+    /// until the residual falls, with the best amplitudes for each. `None` if the data do not determine the model.
     pub(super) fn fit(&self, model: Model, mut rates: Vec<f64>) -> Option<SeparableFit> {
         const ITERATIONS: usize = 100;
         const HALVINGS: usize = 30;

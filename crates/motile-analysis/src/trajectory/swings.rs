@@ -8,8 +8,8 @@ use super::{Estimate, Extremum};
 pub(super) const FEWEST_SWINGS: usize = 3;
 /// Number of swings that the tail of a motion starts from, if there are that many: two periods.
 const USUAL_SWINGS: usize = 4;
-/// Root mean square scatter of the logarithm of the amplitude, half a per cent, up to which a tail counts as
-/// exponential: turning points of some ten samples a period are known to about that.
+/// Root mean square scatter of the logarithm of the amplitude, 0.5 %, up to which a tail counts as exponential: turning
+/// points from about ten samples per period are known to about that.
 const SCATTER: f64 = 5e-3;
 
 /// Swings from each turning point to the next one.
@@ -49,13 +49,14 @@ impl Swings {
         self.amplitudes.len()
     }
 
-    /// Number of times that the amplitude turns from growth to decay or back, by more than a fifth.
+    /// Returns the number of times that the amplitude turns from growth to decay or back, by more than a fifth.
     pub(super) fn wavering(&self) -> usize {
         let logarithms: Vec<f64> = self.amplitudes.iter().map(|a| a.ln()).collect();
         turns(&logarithms, 1.2_f64.ln()).len()
     }
 
-    /// Longest tail of at least three swings whose amplitude is exponential in time; `None` for fewer swings.
+    /// Returns the longest tail of at least three swings whose amplitude is exponential in time; `None` for fewer
+    /// swings.
     pub(super) fn tail(&self) -> Option<Tail> {
         let count = self.len();
         if count < FEWEST_SWINGS {
@@ -75,8 +76,8 @@ impl Swings {
         Some(Tail { start, growth_rate, period: self.period(start)? })
     }
 
-    /// Period P from the times of the turning points from index `start` on, `t_k = a +- b + k P/2`: rise and fall may
-    /// take different times.
+    /// Returns the period P from the times of the turning points from index `start` on, `t_k = a +- b + k P/2`: rise
+    /// and fall may take different times.
     fn period(&self, start: usize) -> Option<Estimate> {
         let turns = &self.turns[start..];
         let first = turns.first()?.time;

@@ -9,11 +9,11 @@ use crate::{
 /// they are about equally spaced.
 ///
 /// Segments are sorted by their midpoints into square cells as wide as the longest segment, through a hash table, and
-/// tested only against those in the nine cells around: two segments that meet are never further apart. The scratch
-/// grows with the number of points and is kept, so that a call in steady state allocates nothing.
+/// tested only against the segments in the nine cells around. Two segments that meet are never further apart. The
+/// scratch grows with the number of points and is kept, so that a call in steady state allocates nothing.
 ///
-/// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one
-/// pass over the points is enough.
+/// Polygons that are star-shaped about the mean of their points, such as the polygons of most droplets, need no table:
+/// one pass over the points is enough.
 #[derive(Debug, Clone, Default)]
 pub struct CrossingFinder {
     cells: Vec<(i64, i64)>,
@@ -23,12 +23,12 @@ pub struct CrossingFinder {
 }
 
 impl CrossingFinder {
-    /// First pair of segments that meet although they are not neighbours, or that are neighbours and fold back onto
-    /// each other: each by the number of its first point, the smaller first; of several pairs the one with the smallest
-    /// first, then second number. `None` for a simple polygon.
+    /// Returns the first pair of segments that meet although they are not neighbours, or that are neighbours and fold
+    /// back onto each other. Each is given by the number of its first point, the smaller first. Of several pairs, it is
+    /// the one with the smallest first, then second number. `None` for a simple polygon.
     ///
     /// # Errors
-    /// Fewer than three points, points that are not finite.
+    /// Returns an error for fewer than three points, points that are not finite.
     pub fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InputError> {
         at_least("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
@@ -100,11 +100,11 @@ impl CrossingFinder {
 }
 
 impl CrossingFinder {
-    /// The like for a polygon that continues with its image `advance` (length) further along x; a closed one where that
-    /// is zero.
+    /// Returns the like for a polygon that continues with its image `advance` (length) further along x; a closed one
+    /// where that is zero.
     ///
     /// # Errors
-    /// Those of [`CrossingFinder::first_crossing`]; an advance that is not finite.
+    /// Returns the errors of [`CrossingFinder::first_crossing`]; an advance that is not finite.
     pub fn first_crossing_over(&mut self, points: &[Vec2], advance: f64) -> Result<Option<(usize, usize)>, InputError> {
         finite("the advance of the polygon", advance)?;
         if advance == 0.0 {
@@ -139,11 +139,11 @@ impl CrossingFinder {
     }
 }
 
-/// First pair of segments of a closed polygon that cross or touch, segment k from point k to the next; `None` for a
-/// simple polygon.
+/// Returns the first pair of segments of a closed polygon that cross or touch, segment k from point k to the next;
+/// `None` for a simple polygon.
 ///
 /// # Errors
-/// Fewer than three points, points that are not finite.
+/// Returns an error for fewer than three points, points that are not finite.
 pub fn first_crossing(points: &[Vec2]) -> Result<Option<(usize, usize)>, InputError> {
     CrossingFinder::default().first_crossing(points)
 }
@@ -154,7 +154,8 @@ fn bucket(cell: (i64, i64), mask: usize) -> usize {
     ((hash >> 29) as usize) & mask
 }
 
-/// Sufficient test for a simple polygon: it goes once around the mean of its points, always turning the same way.
+/// Returns the sufficient test for a simple polygon: it goes once around the mean of its points, always turning the
+/// same way.
 fn is_star_shaped(points: &[Vec2]) -> bool {
     let centre = points.iter().sum::<Vec2>() / points.len() as f64;
     let (mut turns, mut widest) = (0, 0.0_f64);
@@ -171,12 +172,12 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
     turns == 1 && least > 1e-13 * widest
 }
 
-/// Tells whether the second of two successive edges runs back along the first, or one of them has no length.
+/// Returns true if the second of two successive edges runs back along the first, or one of them has no length.
 fn folds_back(first: Vec2, second: Vec2) -> bool {
     (first.perp_dot(second) == 0.0 && first.dot(second) < 0.0) || first == Vec2::ZERO || second == Vec2::ZERO
 }
 
-/// Tells whether the segments pq and rs have a point in common.
+/// Returns true if the segments pq and rs have a point in common.
 fn segments_meet(p: Vec2, q: Vec2, r: Vec2, s: Vec2) -> bool {
     let (along, other) = (q - p, s - r);
     let (a, b) = (along.perp_dot(r - p), along.perp_dot(s - p));

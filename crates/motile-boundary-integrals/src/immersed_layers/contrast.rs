@@ -14,12 +14,12 @@ use motile_scene::{FlowError, checkpoint::SavedState};
 const MOST_ITERATIONS: usize = 200;
 
 /// Forces that take the place of other viscosities: with u the velocity that all forces have in fluid of one viscosity
-/// eta, v that of the interfaces ([`InterfaceFlow::solve_in`]) and L their single layer, forces q with
+/// eta, v the velocity of the interfaces ([`InterfaceFlow::solve_in`]) and L their single layer, forces q with
 ///
 /// `L q = eta (v - u)`
 ///
-/// leave v on the interfaces when they are added to their own. By uniqueness the flow is then that of the interfaces
-/// everywhere, outside and inside, where forces count by eta over the viscosity there.
+/// leave v on the interfaces when they are added to their own. By uniqueness, the flow then equals the flow of the
+/// interfaces everywhere, outside and inside, where forces count by eta over the viscosity there.
 ///
 /// On a straight interface L multiplies the wave number k by 1/(4 k), which makes a preconditioner. A uniform force
 /// along the normal moves nothing and is left out.
@@ -71,7 +71,7 @@ impl LayerContrast {
     }
 
     /// Adds the forces that take the place of other viscosities to those at the nodes of all layers, of which
-    /// `interfaces` are the first, and their flow to `flow`, which is as before but for the forces inside of
+    /// `interfaces` are the first, and their flow to `flow`, which is as before except for the forces inside of
     /// interfaces: these count by their fluid.
     pub(super) fn add_forces(
         &mut self,
@@ -129,7 +129,7 @@ impl LayerContrast {
         Ok(outcome)
     }
 
-    /// The last solution, from which the next one starts.
+    /// Returns the last solution, from which the next one starts.
     pub(super) fn save(&self) -> SavedState {
         let lists = [self.unknown.clone(), self.gmres.save(self.unknown.len())];
         SavedState { counts: lists.iter().map(|list| list.len() as u64).collect(), reals: lists.concat() }

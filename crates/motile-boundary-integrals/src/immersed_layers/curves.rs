@@ -12,7 +12,7 @@ use stokes_boundary_integrals::{LayerCurve, Settings};
 use motile_base::Vec2;
 use motile_scene::{FlowError, MarkerGroup, Markers};
 
-/// Where their own nodes are equally spaced, grid nodes of a curve are at most a grid spacing over this apart.
+/// If their own nodes are equally spaced, grid nodes of a curve are at most a grid spacing over this apart.
 const FINER: f64 = 1.2;
 
 /// Most markers of an interface.
@@ -55,7 +55,7 @@ pub(super) struct LayerCurves {
 }
 
 impl LayerCurves {
-    /// For a region of that period in x and a grid of that spacing (length); so many nodes of an interface.
+    /// Is made for a region of that period in x and a grid of that spacing (length); so many nodes of an interface.
     pub(super) fn new(period: f64, spacing: f64, nodes: usize) -> Self {
         Self {
             period,
@@ -73,17 +73,17 @@ impl LayerCurves {
         }
     }
 
-    /// The lengths of the interfaces (length).
+    /// Returns the lengths of the interfaces (length).
     pub(super) fn interface_lengths(&self) -> impl Iterator<Item = f64> {
         self.curves[..self.interfaces].iter().map(|curve| curve.length)
     }
 
-    /// Entries of the interfaces, which come first, in lists over all nodes.
+    /// Returns the entries of the interfaces, which come first, in lists over all nodes.
     pub(super) fn interface_entries(&self) -> usize {
         2 * self.nodes * self.interfaces
     }
 
-    /// The curves as layers want them.
+    /// Returns the curves as layers want them.
     pub(super) fn layers(&self) -> impl Iterator<Item = LayerCurve<'_>> + Clone {
         self.curves.iter().map(|curve| {
             let positions = &self.points[curve.starts[0]..][..curve.markers.len()];
@@ -182,7 +182,7 @@ impl LayerCurves {
         self.refine_forces()
     }
 
-    /// Forces at the grid nodes from those at the nodes.
+    /// Returns the forces at the grid nodes from those at the nodes.
     pub(super) fn refine_forces(&mut self) -> Result<(), FlowError> {
         for curve in &mut self.curves {
             let on_grid = curve.on_grid();
@@ -245,7 +245,7 @@ impl Curve {
     /// Measures it and says how many grid nodes it has.
     ///
     /// # Errors
-    /// So long a curve that its transform would be too large.
+    /// Returns an error for a curve so long that its transform would be too large.
     fn fit(&mut self, points: &[Vec2], spacing: f64) -> Result<usize, InputError> {
         let count = points.len();
         let closing = points[count - 1].distance(points[0] + Vec2::new(self.advance, 0.0));

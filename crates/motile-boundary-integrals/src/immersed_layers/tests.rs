@@ -336,9 +336,9 @@ fn what_has_no_layers_is_refused() {
         flow.velocities(&mut markers).unwrap_err().to_string()
     };
     let few = refused(MarkerKind::Interface { viscosity_inside: None }, 32, 0);
-    assert!(few.contains("curve of body 0 has 32 points: use 64"), "{few}");
+    assert!(few.contains("curve of body 0 has 32 points. Use a number from 64"), "{few}");
     let few = refused(MarkerKind::Points, 20, 10);
-    assert!(few.contains("curve of body 0 has 10 points: use 16 to 4096"), "{few}");
+    assert!(few.contains("curve of body 0 has 10 points. Use a number from 16 to 4096"), "{few}");
     let mut beyond = droplet_and_disc(0.3, 0.2);
     beyond.positions_mut()[NODES + 50].y = 4.0;
     let error = channel(4.0, 0.2).velocities(&mut beyond).unwrap_err();

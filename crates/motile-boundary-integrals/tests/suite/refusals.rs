@@ -85,7 +85,7 @@ fn markers_that_are_not_an_interface() {
         *position = Vec2::from_angle(std::f64::consts::TAU * k as f64 / 32.0);
     }
     let refused = solver().velocities(&mut few).unwrap_err().to_string();
-    assert!(refused.starts_with("a curve of body 1 has 32 points: use 64 to "), "{refused}");
+    assert!(refused.starts_with("a curve of body 1 has 32 points. Use a number from 64 to "), "{refused}");
 
     let mut clockwise = markers(&[circle()], 64);
     clockwise.positions_mut().reverse();

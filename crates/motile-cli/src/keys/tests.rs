@@ -117,7 +117,7 @@ fn values_replace_what_excludes_them() {
     set(&mut scene, "droplets.0.particles.excluded-volume", Value::String("none".to_owned())).unwrap();
     set(&mut scene, "droplets.0.particles.excluded-volume.step", Value::Float(7.0)).unwrap();
     let particles = scene.try_into::<Setup>().unwrap().droplets[0].particles.unwrap();
-    assert_eq!(particles.excluded_volume, motile::setup::ExcludedVolume::Step(7.0));
+    assert_eq!(particles.excluded_volume, ExcludedVolume::Step(7.0));
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn wrong_keys_name_the_nearest_ones() {
         ("method.grid.space=0.1", "method.grid.spacing"),
     ] {
         let said = refusal("[[droplets]]\n[[droplets]]\ncentre = [2.5, 0.0]\n", assigned);
-        let first = said.split("the nearest keys are ").nth(1).and_then(|keys| keys.split(", ").next());
+        let first = said.split("The nearest keys are ").nth(1).and_then(|keys| keys.split(", ").next());
         assert_eq!(first, Some(nearest), "{said}");
     }
     // Without the way to it there are several.
@@ -145,15 +145,15 @@ fn wrong_keys_name_the_nearest_ones() {
 #[test]
 fn wrong_values_name_the_key_and_what_is_expected() {
     for (assigned, words) in [
-        ("viscosity=high", "viscosity = \"high\": string \"high\", expected a number"),
-        ("droplets.0.area-constraint=3", "expected a boolean"),
-        ("method.integral.nodes=3.5", "expected a whole number"),
-        ("method.grid.kernel=best", "expected one of `peskin4`"),
+        ("viscosity=high", "viscosity = \"high\": the text \"high\" cannot be used. Use a number"),
+        ("droplets.0.area-constraint=3", "the number `3` cannot be used. Use a boolean"),
+        ("method.integral.nodes=3.5", "the number `3.5` cannot be used. Use a whole number that is not negative"),
+        ("method.grid.kernel=best", "there is no choice `best`. Use one of `peskin4`"),
         ("droplets.0.particles=many", "\"none\" for a passive droplet"),
-        ("droplets.3.angle=1", "droplets has 1 entries, give a number from 0 to 1"),
-        ("droplets.0.centre.2=1", "droplets.0.centre has 2 entries, give a number from 0 to 1"),
-        ("viscosity.inside=3", "viscosity has no entries, it is a number"),
-        ("droplets.first.angle=1", "because droplets has no first; the nearest keys are droplets.0.angle"),
+        ("droplets.3.angle=1", "droplets has 1 entries. Use a number from 0 to 1"),
+        ("droplets.0.centre.2=1", "droplets.0.centre has 2 entries. Use a number from 0 to 1"),
+        ("viscosity.inside=3", "viscosity is a number, so it has no keys below it"),
+        ("droplets.first.angle=1", "because droplets has no first. The nearest keys are droplets.0.angle"),
     ] {
         let said = refusal("[[droplets]]\n", assigned);
         assert!(said.contains(words), "{said}");
@@ -163,5 +163,5 @@ fn wrong_values_name_the_key_and_what_is_expected() {
     // What belongs together is told when all of it is there.
     let mut scene = scene("");
     set(&mut scene, "region.channel.width", Value::Float(3.0)).unwrap();
-    assert!(format!("{:#}", setup_of(scene).unwrap_err()).contains("length"));
+    assert!(format!("{:#}", setup_of(&scene).unwrap_err()).contains("length"));
 }

@@ -68,15 +68,15 @@ impl CheckpointFlags {
     /// those given now and a note is printed.
     ///
     /// # Errors
-    /// A checkpoint that cannot be read, is of another scene or other physics, or not before the time `end`; a file to
-    /// save to that cannot be written.
+    /// Returns an error for a checkpoint that cannot be read, is of another scene or other physics, or not before the
+    /// time `end`; a file to save to that cannot be written.
     pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
         self.try_file()?;
         let Some(path) = &self.resume else { return Ok(()) };
         let flag = || format!("--resume {}", path.display());
         let checkpoint = Checkpoint::read(path).with_context(flag)?;
         let time = checkpoint.time();
-        ensure!(time < end, "{}: the checkpoint is of t = {time}, give a --time after that", flag());
+        ensure!(time < end, "{}: the checkpoint was saved at t = {time}. Use a --time above that", flag());
         scene.resume(&checkpoint).with_context(flag)?;
         if checkpoint.description() != description {
             eprintln!(
@@ -93,10 +93,10 @@ impl CheckpointFlags {
         let Some(path) = &self.checkpoint else { return Ok(()) };
         let flag = || format!("--checkpoint {}", path.display());
         let special = path.metadata().is_ok_and(|data| !data.is_file());
-        ensure!(!special, "{}: there is something that is not a file, give another name", flag());
+        ensure!(!special, "{}: the path exists, but is not a file. Use another name", flag());
         ensure!(
             !is_foreign(path, &Checkpoint::MARK).with_context(flag)?,
-            "{}: a file that is no checkpoint has this name, give another",
+            "{}: a file with this name exists and is not a checkpoint. Use another name",
             flag()
         );
         // Under a name that is nobody else's.
@@ -105,10 +105,10 @@ impl CheckpointFlags {
         std::fs::write(&trial, "trial").and_then(|()| std::fs::remove_file(&trial)).with_context(flag)
     }
 
-    /// Run that saves checkpoints as the flags say and ends on Ctrl-C, SIGTERM and SIGHUP.
+    /// Returns the run that saves checkpoints as the flags say and ends on Ctrl-C, SIGTERM and SIGHUP.
     ///
     /// # Errors
-    /// Signals that cannot be caught.
+    /// Returns an error if signals cannot be caught.
     pub(crate) fn watch<'a>(&'a self, run: FlowRun<'a>, description: &'a str) -> Result<FlowRun<'a>> {
         let Some(path) = &self.checkpoint else { return Ok(run) };
         let every = self.checkpoint_every.unwrap_or(EVERY);
@@ -120,11 +120,11 @@ impl CheckpointFlags {
         Ok(run.save(every, path, description).stop_on(&STOP))
     }
 
-    /// Saves the last state of a run: to the file of the flags if the run ended or was stopped; if it failed, to a file
+    /// Saves the last state of a run: to the file of the flags if the run ended or was stopped. If it failed, to a file
     /// whose name has `.last` added, so that the last periodic checkpoint stays.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// Returns an error for a file that cannot be written.
     pub fn save(&self, scene: &Scene<AnyFlow>, description: &str, outcome: &Result<(), SceneError>) -> Result<()> {
         let Some(path) = &self.checkpoint else { return Ok(()) };
         let mut path = path.clone().into_os_string();
@@ -167,7 +167,7 @@ impl OutputFlags {
     /// reads. A checkpoint may replace the one from which the run continues.
     ///
     /// # Errors
-    /// Two flags, or a flag and a result, that name the same file; sizes that no picture can have.
+    /// Returns an error for two flags, or a flag and a result, that name the same file; sizes that no picture can have.
     pub fn check(&self, name: &str, scene: Option<&Path>) -> Result<()> {
         self.look.apply(Look::default()).check()?;
         let (directory, mut places) = (self.place(name), Places::default());
@@ -190,19 +190,19 @@ impl OutputFlags {
     /// Writes the scene file, if one is asked for. It begins with a line that says that it may be replaced.
     ///
     /// # Errors
-    /// A file that cannot be written, or that no run has written.
+    /// Returns an error for a file that cannot be written, or that no run has written.
     pub fn write_scene(&self, setup: &Setup) -> Result<()> {
         let Some(path) = &self.write_scene else { return Ok(()) };
         let flag = || format!("--write-scene {}", path.display());
         let foreign = is_foreign(path, WRITTEN.as_bytes()).with_context(flag)?;
-        ensure!(!foreign, "{}: a file that no run has written has this name, give another", flag());
+        ensure!(!foreign, "{}: a file with this name exists, and no run has written it. Use another name", flag());
         std::fs::write(path, format!("{WRITTEN}\n{}", setup.to_toml()?)).with_context(flag)
     }
 
-    /// Directory of the results of the run `name`, created if needed.
+    /// Returns the directory of the results of the run `name`, created if needed.
     ///
     /// # Errors
-    /// A directory that cannot be created.
+    /// Returns an error for a directory that cannot be created.
     pub fn directory(&self, name: &str) -> Result<PathBuf> {
         let directory = self.place(name);
         make_directory(&directory)?;
@@ -214,7 +214,7 @@ impl OutputFlags {
     }
 }
 
-/// True if there is a file that begins otherwise, which would be lost.
+/// Returns true if there is a file that begins otherwise, which would be lost.
 fn is_foreign(path: &Path, beginning: &[u8]) -> std::io::Result<bool> {
     if !path.exists() {
         return Ok(false);

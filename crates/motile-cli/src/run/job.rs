@@ -32,7 +32,7 @@ pub struct Taken(PathBuf);
 
 impl std::fmt::Display for Taken {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "another run writes to {}: give another --out, or wait for its end", self.0.display())
+        write!(f, "another run is writing to {}. Use another --out, or wait until that run has ended", self.0.display())
     }
 }
 
@@ -51,7 +51,7 @@ pub struct Job {
     pub warnings: Vec<String>,
     output: OutputFlags,
     description: String,
-    /// Part of the region's area that the droplets of suspensions fill.
+    /// Fraction of the region's area that the droplets of suspensions fill.
     filled: Option<f64>,
     /// Largest distance of a shape that is given by points from their polygon (length).
     off_points: Option<f64>,
@@ -61,8 +61,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// Run to the time `end` of the scene that was built from `setup`, from the checkpoint in `output` on if there is
-    /// one. Its results go to the directory in `output`, by default to `out/<name>/`.
+    /// Creates a run to the time `end` of the scene that was built from `setup`, from the checkpoint in `output` on if
+    /// there is one. Its results go to the directory in `output`, by default to `out/<name>/`.
     ///
     /// # Errors
     /// Before anything is written: two paths of the same file, a time step that is unstable or so short that the run
@@ -98,19 +98,19 @@ impl Job {
         Ok(Self { directory, end, seconds, warnings, output, description, filled, off_points, outcome, _lock: lock })
     }
 
-    /// True if pictures are to be drawn.
+    /// Returns true if pictures are to be drawn.
     #[must_use]
     pub fn draws(&self) -> bool {
         !self.output.no_pictures
     }
 
-    /// Settings of pictures, with those that were asked for in their place.
+    /// Returns the settings of pictures, with those that were asked for in their place.
     #[must_use]
     pub fn look(&self, look: Look) -> Look {
         self.output.look.apply(look)
     }
 
-    /// Times of the rows of tables: as many over the run as were asked for, else 1000.
+    /// Returns the times of the rows of tables: as many over the run as were asked for, else 1000.
     #[must_use]
     pub fn each_row(&self) -> Every {
         self.each(f64::from(self.output.rows.unwrap_or(ROWS)))
@@ -124,7 +124,8 @@ impl Job {
     /// Runs to the end, to an observer's error [`Decided`], or to a failure.
     ///
     /// # Errors
-    /// Checkpoints that cannot be written. The failure of the run itself is returned by [`Job::finish`].
+    /// Returns an error if a checkpoint cannot be written. The failure of the run itself is returned by
+    /// [`Job::finish`].
     pub fn go(&mut self, scene: &mut Scene<AnyFlow>, observers: Vec<Watch<'_>>) -> Result<()> {
         let Self { output, description, .. } = self;
         let mut progress = RunProgress::new(self.end, output.quiet);
@@ -155,7 +156,7 @@ impl Job {
         output.checkpoints.save(scene, description, &self.outcome)
     }
 
-    /// True if the run was stopped by a signal: it can continue from its checkpoint.
+    /// Returns true if the run was stopped by a signal: it can continue from its checkpoint.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         matches!(self.outcome, Err(SceneError::Stopped { .. }))
@@ -164,12 +165,12 @@ impl Job {
     /// Outcome of the run, without any files.
     ///
     /// # Errors
-    /// The failure of the run.
+    /// Returns an error for the failure of the run.
     pub fn outcome(self) -> Result<(), SceneError> {
         self.outcome
     }
 
-    /// Explanation of the failure of the run, if it failed.
+    /// Returns the explanation of the failure of the run, if it failed.
     #[must_use]
     pub fn failure(&self) -> Option<String> {
         self.outcome.as_ref().err().map(SceneError::explanation)
@@ -221,7 +222,7 @@ impl Job {
     /// Writes `summary.json`, prints its table, calls `pictures` to draw, and returns the outcome of the run.
     ///
     /// # Errors
-    /// The failure of the run; files that cannot be written.
+    /// Returns an error for the failure of the run; files that cannot be written.
     pub fn finish(self, summary: &Summary, pictures: impl FnOnce() -> Result<()>) -> Result<()> {
         summary.write(&self.directory.join("summary.json"))?;
         say(summary.table().trim_end());
@@ -240,13 +241,13 @@ fn check_run(scene: &Scene<AnyFlow>, end: f64, step: StepSize) -> Result<()> {
     };
     ensure!(
         end / dt <= MOST_STEPS,
-        "time {end} would take {:.0e} steps of {dt:.1e}: give a higher viscosity, a larger spacing or a shorter time",
+        "time {end} would take {:.0e} steps of {dt:.1e}. Use a higher viscosity, a larger spacing or a shorter time",
         end / dt
     );
     if let StepSize::Fixed(dt) = step { Ok(scene.check_step(dt)?) } else { Ok(()) }
 }
 
-/// A note for each round droplet of a description that starts squeezed.
+/// Returns a note for each round droplet of a description that starts squeezed.
 fn squeezed_droplets(setup: &Setup) -> Result<Vec<String>> {
     let mut notes = Vec::new();
     for (number, droplet) in setup.droplets.iter().enumerate() {

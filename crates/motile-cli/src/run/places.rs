@@ -17,7 +17,7 @@ impl Places {
     /// Adds a file that is read or written.
     ///
     /// # Errors
-    /// A file that is already known under another path or link, or lies above or below one.
+    /// Returns an error for a file that is already known under another path or link, or lies above or below one.
     pub(crate) fn add(&mut self, what: String, path: &Path) -> Result<()> {
         let path = resolved(path);
         self.check(&what, &path, |there| path.starts_with(there) || there.starts_with(&path))?;
@@ -28,7 +28,7 @@ impl Places {
     /// Checks a directory, which may contain files of the run.
     ///
     /// # Errors
-    /// A directory that is a file of the run, or below one.
+    /// Returns an error for a directory that is a file of the run, or below one.
     pub(crate) fn check_directory(&self, what: &str, path: &Path) -> Result<()> {
         let path = resolved(path);
         self.check(what, &path, |there| path.starts_with(there))
@@ -44,20 +44,20 @@ impl Places {
                 } else {
                     format!("lie one in the other ({one}, {two})")
                 };
-                bail!("{what} and {other} {relation}, of which one would be lost: give them different names");
+                bail!("{what} and {other} {relation}, so one of them would be lost. Use different names");
             }
         }
         Ok(())
     }
 }
 
-/// True if two paths lead to one file, which need not exist.
+/// Returns true if two paths lead to one file, which need not exist.
 pub(crate) fn are_one(here: &Path, there: &Path) -> bool {
     let [here, there] = [here, there].map(resolved);
     here == there || is_linked(&here, &there)
 }
 
-/// Path without `.`, `..` and symbolic links, also of a file that does not exist yet.
+/// Returns the path without `.`, `..` and symbolic links, also of a file that does not exist yet.
 fn resolved(path: &Path) -> PathBuf {
     let mut links = MOST_LINKS;
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
@@ -84,7 +84,7 @@ fn follow(mut place: PathBuf, path: &Path, links: &mut usize) -> PathBuf {
     place
 }
 
-/// True if two paths are hard links to one file.
+/// Returns true if two paths are hard links to one file.
 #[cfg(unix)]
 fn is_linked(here: &Path, there: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

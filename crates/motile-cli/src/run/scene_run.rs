@@ -89,11 +89,11 @@ pub struct SceneRun {
 }
 
 impl SceneRun {
-    /// Run to the time `end` of the scene that was built from `setup`. Its results go to the directory in `output`, by
-    /// default to `out/<name>/`.
+    /// Creates a run to the time `end` of the scene that was built from `setup`. Its results go to the directory in
+    /// `output`, by default to `out/<name>/`.
     ///
     /// # Errors
-    /// Those of [`Job::new`]; a state that cannot be measured; files that cannot be written.
+    /// Returns the errors of [`Job::new`]; a state that cannot be measured; files that cannot be written.
     pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, view: &View) -> Result<Self> {
         let Built { mut scene, droplets: all_droplets, interfaces: all_interfaces, .. } = built;
         let (described, setup) = (setup, &setup.placed()?);
@@ -192,7 +192,8 @@ impl SceneRun {
     /// last state is recorded even if the run fails.
     ///
     /// # Errors
-    /// Files that cannot be written. The failure of the run itself is returned by [`SceneRun::finish`].
+    /// Returns an error for files that cannot be written. The failure of the run itself is returned by
+    /// [`SceneRun::finish`].
     pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
         let (time, row) = (self.job.end, self.job.each_row());
         let mut observers: Vec<Watch<'_>> = Vec::new();
@@ -231,39 +232,39 @@ impl SceneRun {
     /// Outcome of the run, without summary and pictures.
     ///
     /// # Errors
-    /// The failure of the run.
+    /// Returns an error for the failure of the run.
     pub fn outcome(self) -> Result<(), SceneError> {
         self.job.outcome()
     }
 
-    /// Observables of all droplets over time; `None` for a scene without droplets, or with a single one that has
-    /// particles ([`SceneRun::table`]).
+    /// Returns the observables of all droplets over time. It is `None` for a scene without droplets, or with a single
+    /// one that has particles ([`SceneRun::table`]).
     #[must_use]
     pub fn droplets(&self) -> Option<&DropletsCsv> {
         self.tables.droplets.as_ref()
     }
 
-    /// Times and centroids of the first droplet (length), as [`TrajectoryCsv::track`].
+    /// Returns the times and centroids of the first droplet (length), as [`TrajectoryCsv::track`].
     ///
     /// # Errors
-    /// A first droplet without particles.
+    /// Returns an error for a first droplet without particles.
     pub fn track(&self) -> Result<Track> {
         Ok(self.first()?.recorder.track())
     }
 
-    /// Observables of the first droplet in the order of time, also from before the checkpoint from which the run
-    /// continues.
+    /// Returns the observables of the first droplet in the order of time, also from before the checkpoint from which
+    /// the run continues.
     ///
     /// # Errors
-    /// A first droplet without particles.
+    /// Returns an error for a first droplet without particles.
     pub fn table(&self) -> Result<&CsvTable> {
         Ok(self.first()?.recorder.table())
     }
 
-    /// Number of particles of the first droplet at the start, on the interface and inside (no dimension).
+    /// Returns the number of particles of the first droplet at the start, on the interface and inside (no dimension).
     ///
     /// # Errors
-    /// A first droplet without particles; a run that has not begun.
+    /// Returns an error for a first droplet without particles; a run that has not begun.
     pub fn totals(&self) -> Result<f64> {
         let table = self.table()?;
         let first =
@@ -271,10 +272,10 @@ impl SceneRun {
         Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
     }
 
-    /// Last measurement of the first droplet.
+    /// Returns the last measurement of the first droplet.
     ///
     /// # Errors
-    /// A first droplet without particles; a run that has not begun.
+    /// Returns an error for a first droplet without particles; a run that has not begun.
     pub fn last(&self) -> Result<&TrajectoryRecord> {
         self.first()?.recorder.last().context("nothing was measured")
     }
@@ -287,7 +288,7 @@ impl SceneRun {
     /// first droplet, unless pictures are not wanted.
     ///
     /// # Errors
-    /// The failure of the run; files that cannot be written.
+    /// Returns an error for the failure of the run; files that cannot be written.
     pub fn finish(self, summary: &Summary) -> Result<()> {
         let Self { mut scene, job, raster, first, pictures, .. } = self;
         let directory = job.directory.clone();

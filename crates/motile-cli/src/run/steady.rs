@@ -4,12 +4,12 @@ use serde_json::{Value, json};
 
 /// Largest deviation from the final speed in a steady state, relative to it.
 const DEVIATION: f64 = 1e-3;
-/// Part of the run over which the final speed is averaged.
+/// Fraction of the run over which the final speed is averaged.
 const LATE: f64 = 0.2;
 /// Speeds below this are rest, in units of D/R0: what decays to nothing never has a constant speed.
 const REST: f64 = 1e-5;
 /// Factor by which the speed grows between the halves of the late part of a run whose droplet is not at rest but starts
-/// to move, and the speed, in units of D/R0, above which that is no round-off.
+/// to move, and the speed, in units of D/R0, above which that is not round-off.
 const SPEEDING_UP: f64 = 1.5;
 const ROUND_OFF: f64 = 1e-9;
 /// Least time for which the speed must have been constant, in units of R0^2/D: a short run has not had the time to show
@@ -64,13 +64,13 @@ impl Steadiness {
         Self { since: resting.or(constant), at_rest: resting.is_some(), final_speed: mean, deviation }
     }
 
-    /// Entry of `summary.json`: an object with `reached`, `time` and `at_rest`.
+    /// Returns the entry of `summary.json`: an object with `reached`, `time` and `at_rest`.
     #[must_use]
     pub fn json(&self) -> Value {
         json!({ "reached": self.since.is_some(), "time": self.since, "at_rest": self.at_rest })
     }
 
-    /// Criterion that was applied, in words.
+    /// Returns the criterion that was applied, in words.
     #[must_use]
     pub fn criterion(&self) -> &'static str {
         if self.at_rest {

@@ -33,20 +33,20 @@ impl Summary {
         self.about.insert(name.to_string(), about.into());
     }
 
-    /// Results by name.
+    /// Returns the results by name.
     #[must_use]
     pub fn values(&self) -> &Map<String, Value> {
         &self.values
     }
 
-    /// Text of `summary.json`.
+    /// Returns the text of `summary.json`.
     #[must_use]
     pub fn json(&self) -> String {
         // `{:#}` of a JSON value is its indented form.
         format!("{:#}\n", Value::Object(self.values.clone()))
     }
 
-    /// Table of the results: names, values to six figures, remarks.
+    /// Returns the table of the results: names, values to six figures, remarks.
     #[must_use]
     pub fn table(&self) -> String {
         let rows = || self.values.iter().map(|(name, value)| (name, shown(value), self.about.get(name)));
@@ -63,8 +63,8 @@ impl Summary {
         table
     }
 
-    /// Version of the program that wrote a summary; `None` for one that was not read from a file, or of a time before
-    /// versions were written.
+    /// Returns the version of the program that wrote a summary. It is `None` for one that was not read from a file, or
+    /// of a time before versions were written.
     #[must_use]
     pub fn version(&self) -> Option<&str> {
         self.values.get(VERSION_KEY).and_then(Value::as_str)
@@ -74,7 +74,7 @@ impl Summary {
     /// when it is complete, so that its presence means a finished run.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// Returns an error for a file that cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
         let partial = path.with_extension("json.part");
         let mut whole = self.clone();
@@ -84,10 +84,10 @@ impl Summary {
             .with_context(|| format!("writing {}", path.display()))
     }
 
-    /// Results from the `summary.json` of a finished run; `None` if the file does not exist.
+    /// Returns the results from the `summary.json` of a finished run; `None` if the file does not exist.
     ///
     /// # Errors
-    /// A file that cannot be read or does not hold a JSON object.
+    /// Returns an error for a file that cannot be read or does not hold a JSON object.
     pub fn read(path: &Path) -> Result<Option<Self>> {
         if !path.exists() {
             return Ok(None);
@@ -97,14 +97,14 @@ impl Summary {
         Ok(Some(Self { values, about: HashMap::new() }))
     }
 
-    /// Number among the results; not a number if there is none of that name.
+    /// Returns the number among the results; not a number if there is none of that name.
     #[must_use]
     pub fn number(&self, name: &str) -> f64 {
         self.values.get(name).and_then(Value::as_f64).unwrap_or(f64::NAN)
     }
 }
 
-/// Value as text for the table.
+/// Returns the value as text for the table.
 fn shown(value: &Value) -> String {
     match value {
         Value::Null => "not defined".into(),
@@ -120,7 +120,7 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Number to six significant figures.
+/// Returns the number to six significant figures.
 fn six_figures(value: f64) -> String {
     let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     if !(-4..9).contains(&magnitude) {
@@ -134,7 +134,7 @@ fn six_figures(value: f64) -> String {
 /// objects are written as in `summary.json`, `null` as an empty field.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// Returns an error for a file that cannot be written.
 pub fn write_results(path: &Path, results: &[Summary]) -> Result<()> {
     let names: Vec<&String> = results.first().map(|first| first.values().keys().collect()).unwrap_or_default();
     let field = |summary: &Summary, name: &str| match summary.values().get(name) {
@@ -156,7 +156,7 @@ pub fn write_results(path: &Path, results: &[Summary]) -> Result<()> {
 /// Creates a directory and those above it.
 ///
 /// # Errors
-/// A directory that cannot be created.
+/// Returns an error for a directory that cannot be created.
 pub fn make_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path).with_context(|| format!("making {}", path.display()))
 }

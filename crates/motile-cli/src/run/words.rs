@@ -2,12 +2,12 @@
 
 use std::io::Write as _;
 
-/// Writes a line to the standard output. A closed pipe, as behind `head`, is no error.
+/// Writes a line to the standard output. A closed pipe, as behind `head`, is not an error.
 pub fn say(line: impl std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{line}");
 }
 
-/// Error and its causes in one line, each said once.
+/// Returns the error and its causes in one line, each said once.
 #[must_use]
 pub fn explained(error: &anyhow::Error) -> String {
     let told = error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {

@@ -35,7 +35,7 @@ pub struct DiagramSettings {
     pub out: PathBuf,
 }
 
-/// Stability in tables: 1 for stable states, -1 for unstable ones, 0 if it is undecided.
+/// Returns the stability in tables: 1 for stable states, -1 for unstable ones, 0 if it is undecided.
 fn number(stability: Stability) -> f64 {
     match stability {
         Stability::Stable => 1.0,
@@ -74,11 +74,14 @@ const COLUMNS: [&str; 17] = [
 /// (also as PNG), with stable states as full lines and unstable ones as dashed lines.
 ///
 /// # Errors
-/// Settings without a range; a scene without such states; files that cannot be written.
+/// Returns an error for settings without a range; a scene without such states; files that cannot be written.
 pub fn draw(scene: &Setup, flags: &DiagramSettings) -> Result<()> {
     let DiagramSettings { parameter, range: [from, to], step, ref out, .. } = *flags;
-    ensure!(from != to, "{} starts and ends at {from}: give two values", parameter.name());
-    ensure!(step > 0.0 && step <= 0.5, "a step of {step} is no part of the range: give one between 0 and 0.5");
+    ensure!(from != to, "{} starts and ends at {from}. Use two different values", parameter.name());
+    ensure!(
+        step > 0.0 && step <= 0.5,
+        "a step of {step} is not a fraction of the range. Use a number above 0, at most 0.5"
+    );
     let setup = parameter.with(scene, from)?;
     make_directory(out)?;
     keep_scene(flags, &setup)?;
@@ -96,7 +99,10 @@ pub fn draw(scene: &Setup, flags: &DiagramSettings) -> Result<()> {
         let start = if flags.swimmer { SteadyState::find(&setup)? } else { SteadyState::uniform(&setup)? };
         let known = start.observables()?;
         for name in &flags.observables {
-            ensure!(known.get(name).is_some(), "--observable {name} is none: give one such as beta or stresslet_xx");
+            ensure!(
+                known.get(name).is_some(),
+                "--observable {name}: there is no such observable. Use a column of the table of a run, such as beta"
+            );
         }
         let rest = settings.follow(&start, |point, special| diagram.update_host(point, special))?;
         diagram.end(&rest)?;
@@ -126,7 +132,7 @@ fn keep_scene(flags: &DiagramSettings, setup: &Setup) -> Result<()> {
     if flags.resume && path.exists() {
         let text = std::fs::read_to_string(&path)?;
         let place = path.display();
-        ensure!(text.starts_with(&head), "{place} is of another version or parameter: leave --resume out");
+        ensure!(text.starts_with(&head), "{place} is of another version or parameter. Leave --resume out");
         if let Some(entry) = setup.difference(&Setup::from_toml(&text)?) {
             anyhow::bail!("{place} is of another scene: {entry}. Give the scene of the diagram, or leave --resume out");
         }
@@ -232,7 +238,7 @@ impl<'a> Diagram<'a> {
         Ok(())
     }
 
-    /// Tells why a branch ends, and where.
+    /// Records why a branch ends, and where.
     fn end(&mut self, branch: &Branch) -> Result<()> {
         let Some(last) = branch.points.last() else { return Ok(()) };
         let end =
@@ -242,7 +248,7 @@ impl<'a> Diagram<'a> {
         Ok(self.special.flush()?)
     }
 
-    /// Tells how a branch ends.
+    /// Records how a branch ends.
     fn tell(&mut self, end: String) {
         self.progress.note(&end);
         self.ends.push(end);
@@ -267,12 +273,12 @@ impl<'a> Diagram<'a> {
         Ok(std::fs::rename(partial, path)?)
     }
 
-    /// The last point that was written, and whether the parameter grew there.
+    /// Returns the last point that was written, and whether the parameter grew there.
     fn last(&mut self, setup: &Setup) -> Result<(SteadyState, bool)> {
         let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"])?;
         let parts = table.rows().split_at_checked(2 + setup.rigid_bodies.len());
         let Some(([place, velocity, nuclei @ ..], nodes)) = parts else {
-            anyhow::bail!("last.csv is incomplete: run without --resume")
+            anyhow::bail!("last.csv is incomplete, so the run cannot continue. Leave --resume out")
         };
         let places = |rows: &[Vec<f64>]| rows.iter().map(|row| Vec2::new(row[0], row[1])).collect();
         let density = nodes.iter().map(|row| row[2]).collect();

@@ -20,7 +20,7 @@ const LEADING: usize = 5;
 /// leading mode.
 ///
 /// # Errors
-/// A scene without such a state; files that cannot be written.
+/// Returns an error for a scene without such a state; files that cannot be written.
 pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result<()> {
     // The state, and whether it is stable.
     let started = Instant::now();
@@ -52,9 +52,13 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
     summary.put("iterations", state.iterations(), "of Newton's method");
     summary.put("condition", state.condition(), "number of the linear equations");
-    summary.put("growth_rate_error", spectrum.error, "of growth rates (1/T); undecided: give more nodes");
+    summary.put(
+        "growth_rate_error",
+        spectrum.error,
+        "of growth rates (1/T); if stability is undecided, use more nodes",
+    );
     summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/T)");
-    summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
+    summary.put("tail", state.tail(), "of Fourier modes: if above 1e-3, use more nodes");
     summary.put("seconds", seconds, "on one core");
     make_directory(out)?;
     let mut table = CsvTable::create(out.join("spectrum.csv"), &["growth_rate", "frequency", "antisymmetric"])?;
@@ -74,7 +78,7 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     Ok(())
 }
 
-/// Shape, concentration over the arc length, leading mode.
+/// Returns the shape, concentration over the arc length, leading mode.
 fn figure(state: &SteadyState, spectrum: &Spectrum) -> Result<Figure> {
     let profile = state.profile();
     let (lengths, concentrations) = profile.concentrations()?;

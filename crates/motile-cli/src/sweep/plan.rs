@@ -3,12 +3,12 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::trial::Trial;
-use crate::keys::{self, setup_of, table_of, text_of};
+use crate::keys::{self, in_words, setup_of, table_of, text_of};
 
 /// Most runs of a plan.
 const MOST: usize = 1_000_000;
@@ -87,13 +87,14 @@ enum Spacing {
 type Point = Vec<(String, Value)>;
 
 impl Plan {
-    /// Plan from a TOML file.
+    /// Creates a plan from a TOML file.
     ///
     /// # Errors
-    /// A file that cannot be read or is not a plan.
+    /// Returns an error for a file that cannot be read or is not a plan.
     pub fn read(path: &Path) -> Result<Self> {
         let read = || -> Result<Self> {
-            let mut plan = Self::of(toml::from_str(&text_of(path)?)?)?;
+            let text = text_of(path)?;
+            let mut plan = Self::of(toml::from_str(&text)?)?;
             if let SceneEntry::File(file) = &plan.scene {
                 let file = path.parent().unwrap_or(Path::new("")).join(file);
                 let text = text_of(&file).with_context(|| format!("scene {}", file.display()))?;
@@ -104,13 +105,17 @@ impl Plan {
         read().with_context(|| format!("plan {}", path.display()))
     }
 
-    /// Plan from a TOML table that contains its scene.
+    /// Creates a plan from a TOML table that contains its scene.
     ///
     /// # Errors
-    /// A table that is not a plan.
+    /// Returns an error for a table that is not a plan.
     pub fn of(table: Table) -> Result<Self> {
-        let plan: Self = table.try_into()?;
-        ensure!(plan.time.is_finite() && plan.time > 0.0, "time = {}: give a time above 0", plan.time);
+        let plan: Self = table.try_into().map_err(|error: toml::de::Error| anyhow!(in_words(&error.to_string())))?;
+        ensure!(
+            plan.time.is_finite() && plan.time > 0.0,
+            "time = {}: a run needs a positive duration. Use a finite number above 0",
+            plan.time
+        );
         Ok(plan)
     }
 
@@ -118,10 +123,10 @@ impl Plan {
     /// entry changing fastest.
     ///
     /// # Errors
-    /// Ranges that are not valid, lists in `zip` of different lengths, entries that the scene does not have, two equal
-    /// runs, more than a million runs.
+    /// Returns an error for ranges that are not valid, lists in `zip` of different lengths, entries that the scene does
+    /// not have, two equal runs, more than a million runs.
     pub fn trials(&self, runs: &Path) -> Result<Vec<Trial>> {
-        let SceneEntry::Here(scene) = &self.scene else { bail!("a plan without a scene") };
+        let SceneEntry::Here(scene) = &self.scene else { bail!("the plan has no scene. Add the key `scene`") };
         // With all entries written out, and without those that there are not.
         let mut base = table_of(&scene.to_string())?;
         let points = self.points(&mut base)?;
@@ -134,7 +139,7 @@ impl Plan {
                 keys::set(&mut table, path, value.clone())?;
             }
             let shown: Vec<String> = point.iter().map(|(path, value)| format!("{path} = {value}")).collect();
-            let setup = setup_of(table).with_context(|| shown.join(", "))?;
+            let setup = setup_of(&table).with_context(|| shown.join(", "))?;
             let label = label(&names, &point, number);
             ensure!(labels.insert(label.clone()), "{label} is there twice: {}", shown.join(", "));
             let values = point.into_iter().map(|(path, value)| Ok((path, serde_json::to_value(value)?)));
@@ -151,7 +156,10 @@ impl Plan {
         for (path, values) in axes(&self.zip)? {
             zipped.resize(if zipped.is_empty() { values.len() } else { zipped.len() }, Point::new());
             let (count, wanted) = (values.len(), zipped.len());
-            ensure!(count == wanted, "{path} has {count} values, and the others of [zip] {wanted}: give equally many");
+            ensure!(
+                count == wanted,
+                "zip.{path} has {count} values, but the other lists in [zip] have {wanted}. Make the lists equally long"
+            );
             zipped.iter_mut().zip(values).for_each(|(point, value)| point.push((path.clone(), value)));
         }
         if !zipped.is_empty() {
@@ -166,9 +174,15 @@ impl Plan {
                 Seeds::Count(count) => (1..=*count).collect(),
                 Seeds::List(list) => list.clone(),
             };
-            ensure!(!seeds.is_empty(), "seeds: give at least one");
+            ensure!(
+                !seeds.is_empty(),
+                "seeds is empty, so there is nothing to run. Use at least one seed, or remove the key"
+            );
             let starts = perturbed(base);
-            ensure!(!starts.is_empty(), "seeds: the scene has no droplet with particles");
+            ensure!(
+                !starts.is_empty(),
+                "seeds has no effect, because the scene has no droplet with particles. Add particles, or remove the key"
+            );
             let own = |seed: i64, k: usize| seed.saturating_mul(starts.len() as i64).saturating_sub(k as i64);
             let point = |seed: i64| -> Point {
                 starts.iter().enumerate().map(|(k, path)| (path.clone(), Value::Integer(own(seed, k)))).collect()
@@ -196,10 +210,10 @@ fn perturbed(base: &mut Value) -> Vec<String> {
     paths
 }
 
-/// All pairs of a point of `first` and one of `second`, joined.
+/// Returns all pairs of a point of `first` and one of `second`, joined.
 fn product(first: &[Point], second: &[Point]) -> Result<Vec<Point>> {
     let count = first.len().saturating_mul(second.len());
-    ensure!(count <= MOST, "a plan of {count} runs is too long: give at most {MOST}");
+    ensure!(count <= MOST, "the plan has {count} runs, but at most {MOST} are possible. Use shorter lists");
     Ok(first.iter().flat_map(|a| second.iter().map(|b| [a.clone(), b.clone()].concat())).collect())
 }
 
@@ -216,7 +230,7 @@ fn flat(above: &str, table: &Table, whole: &dyn Fn(&Table) -> bool) -> Point {
     found
 }
 
-/// Lists of values by their paths.
+/// Returns the lists of values by their paths.
 fn axes(table: &Table) -> Result<Vec<(String, Vec<Value>)>> {
     let leaves = flat("", table, &|inner| inner.contains_key("from"));
     leaves.into_iter().map(|(path, value)| Ok((path.clone(), values(value).with_context(|| path)?))).collect()
@@ -226,13 +240,21 @@ fn values(value: Value) -> Result<Vec<Value>> {
     let range: Range = match value {
         Value::Array(list) if !list.is_empty() => return Ok(list),
         Value::Table(table) => table.try_into()?,
-        other => bail!("{other}: give a list, or {{ from = 1.0, to = 2.0, count = 5 }}"),
+        other => bail!(
+            "{other} is not a range of values. Use a list such as [1.0, 2.0], or {{ from = 1.0, to = 2.0, count = 5 }}"
+        ),
     };
     let Range { from, to, count, spacing } = range;
-    ensure!((1..=MOST).contains(&count), "count = {count}: give 1 to {MOST}");
+    ensure!((1..=MOST).contains(&count), "count = {count} is out of range. Use a number from 1 to {MOST}");
     let logarithmic = spacing == Spacing::Logarithmic;
-    ensure!(from.is_finite() && to.is_finite(), "from {from} to {to}: give finite ends");
-    ensure!(!logarithmic || from * to > 0.0, "from {from} to {to}: logarithmic spacing needs ends of one sign, not 0");
+    ensure!(
+        from.is_finite() && to.is_finite(),
+        "the range from {from} to {to} has no finite ends. Use two finite numbers"
+    );
+    ensure!(
+        !logarithmic || from * to > 0.0,
+        "a logarithmic range cannot go from {from} to {to}. Use two ends of the same sign, neither of them 0"
+    );
     let part = |k: usize| if count == 1 { 0.0 } else { k as f64 / (count - 1) as f64 };
     let at = |k: usize| match (k + 1 == count && count > 1, logarithmic) {
         (true, _) => to,
@@ -242,7 +264,7 @@ fn values(value: Value) -> Result<Vec<Value>> {
     Ok((0..count).map(|k| Value::Float(at(k))).collect())
 }
 
-/// Short names of the paths: as many of their last parts as make them different.
+/// Returns the short names of the paths: as many of their last parts as make them different.
 fn short_names(points: &[Point]) -> Vec<(String, String)> {
     let mut paths: Vec<&str> = points.iter().flatten().map(|(path, _)| path.as_str()).collect();
     paths.sort_unstable();
@@ -259,7 +281,7 @@ fn short_names(points: &[Point]) -> Vec<(String, String)> {
     paths.iter().map(short).collect()
 }
 
-/// Name of the folder of a run.
+/// Returns the name of the folder of a run.
 fn label(names: &[(String, String)], point: &Point, number: usize) -> String {
     let plain = |text: String| -> String {
         let kept = |c: char| if c.is_ascii_alphanumeric() || "+-.".contains(c) { c } else { '_' };

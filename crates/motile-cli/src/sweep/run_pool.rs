@@ -27,18 +27,18 @@ pub struct RunPool<'a> {
 }
 
 impl<'a> RunPool<'a> {
-    /// Pool that keeps its files in `directory`, which is created if needed; `hidden` shows no progress.
+    /// Creates a pool that keeps its files in `directory`, which is created if needed; `hidden` shows no progress.
     ///
     /// # Errors
-    /// A directory that cannot be created.
+    /// Returns an error for a directory that cannot be created.
     pub fn new(directory: &'a Path, threads: usize, hidden: bool) -> Result<Self> {
         make_directory(directory)?;
         Ok(Self { directory, threads: threads.max(1), hidden })
     }
 
-    /// Results of all jobs, in their order, in which they are also begun. A job is run by `run`, unless its file
-    /// `<name>.json` has its results already, of this version of the program. A job that fails does not keep the others
-    /// from running.
+    /// Returns the results of all jobs, in their order, in which they are also begun. A job is run by `run`, unless its
+    /// file `<name>.json` has its results already, of this version of the program. A job that fails does not keep the
+    /// others from running.
     pub fn run<J: Sync>(
         &self,
         jobs: &[J],
@@ -73,7 +73,7 @@ impl<'a> RunPool<'a> {
         results.into_iter().map(|result| result.unwrap_or_else(|| Err(anyhow!("a run was lost")))).collect()
     }
 
-    /// Finished jobs with their results, and the errors of the others, as by [`RunPool::run`].
+    /// Returns the finished jobs with their results, and the errors of the others, as by [`RunPool::run`].
     pub fn study<J: Sync>(
         &self,
         jobs: Vec<J>,
@@ -109,7 +109,7 @@ impl<'a> RunPool<'a> {
     }
 }
 
-/// Note about results of another version of the program.
+/// Returns the note about results of another version of the program.
 pub(super) fn made_again(path: &Path, version: Option<&str>) -> String {
     let (path, found, own) = (path.display(), version.unwrap_or("of an older version"), motile::VERSION);
     format!("{path} was written by motile {found}, and this is motile {own}: it is made again")

@@ -89,7 +89,7 @@ fn results_of_another_plan_are_none() {
     for action in [Action::Run, Action::Collect, Action::Status] {
         for activities in ["-2.0, -3.0", "-4.0, -5.0"] {
             let error = all.act(action, 0.1, 32, activities).unwrap_err();
-            assert!(error.to_string().contains("is of another plan: give another --out"), "{error}");
+            assert!(error.to_string().contains("belongs to another plan. Use another --out"), "{error}");
         }
     }
     assert!(written() == before);

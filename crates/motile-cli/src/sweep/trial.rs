@@ -9,6 +9,7 @@ use motile::setup::Setup;
 use serde_json::Value;
 
 use super::run_pool::made_again;
+use crate::keys::refuse_collapse;
 use crate::run::{CheckpointFlags, OutputFlags, SceneRun, Summary, Taken, View, explained, make_directory};
 
 /// Entry of a summary with the [`Trial::fingerprint`] of its run.
@@ -56,15 +57,15 @@ impl Trial {
         self.folder.join("summary.json")
     }
 
-    /// Fingerprint of scene, settings, time and version of the program ([`motile::VERSION`]), by which results of this
-    /// run are recognised.
+    /// Returns the fingerprint of scene, settings, time and version of the program ([`motile::VERSION`]), by which
+    /// results of this run are recognised.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let (scene, step) = (self.setup.fingerprint(), self.setup.step);
         format!("{scene}, steps {step:?}, to {}, motile {}", self.time, motile::VERSION)
     }
 
-    /// State of the run, by its folder. Files that cannot be read or have another fingerprint do not count.
+    /// Returns the state of the run, by its folder. Files that cannot be read or have another fingerprint do not count.
     pub fn state(&self) -> State {
         if let Some(summary) = self.results() {
             State::Finished(summary)
@@ -77,15 +78,15 @@ impl Trial {
         }
     }
 
-    /// Results in the folder, if they are of this run.
+    /// Returns the results in the folder, if they are of this run.
     fn results(&self) -> Option<Summary> {
         let summary = Summary::read(&self.summary()).ok().flatten()?;
         let own = summary.values().get(FINGERPRINT).and_then(Value::as_str) == Some(&self.fingerprint());
         own.then_some(summary)
     }
 
-    /// Version of the program that made the results in the folder, if it is another one than this; none is known of
-    /// results without one.
+    /// Returns the version of the program that made the results in the folder, if it is another one than this; none is
+    /// known of results without one.
     pub(super) fn other_version(&self) -> Option<Option<String>> {
         let summary = Summary::read(&self.summary()).ok().flatten()?;
         let version = summary.version().map(str::to_owned);
@@ -96,7 +97,7 @@ impl Trial {
     /// which a note is printed.
     ///
     /// # Errors
-    /// A file that cannot be removed.
+    /// Returns an error for a file that cannot be removed.
     pub fn discard_others(&self) -> Result<()> {
         let path = self.summary();
         if path.exists() && self.results().is_none() {
@@ -108,7 +109,8 @@ impl Trial {
         Ok(())
     }
 
-    /// Failure in the text of its file, if it is of this run. A file could be made but not written to if it is empty.
+    /// Returns the failure in the text of its file, if it is of this run. A file could be made but not written to if it
+    /// is empty.
     fn why(&self, text: &str) -> Option<String> {
         match text.trim().split_once('\n') {
             Some((failure, own)) => (own == self.fingerprint()).then(|| failure.to_owned()),
@@ -116,12 +118,12 @@ impl Trial {
         }
     }
 
-    /// Name of the run in its checkpoints.
+    /// Returns the name of the run in its checkpoints.
     fn name(&self) -> String {
         format!("sweep, {}", self.fingerprint())
     }
 
-    /// Checkpoint to continue from: not one at the end, broken, or of another run.
+    /// Returns the checkpoint to continue from: not one at the end, broken, or of another run.
     fn useful_checkpoint(&self) -> Option<PathBuf> {
         let saved = Checkpoint::read(&self.checkpoint()).ok()?;
         let own = saved.time() < self.time && saved.description().starts_with(&format!("{}:", self.name()));
@@ -131,15 +133,15 @@ impl Trial {
     /// Makes the run, from its checkpoint on if there is one, and returns its results.
     ///
     /// # Errors
-    /// [`Taken`]; the failure of the run, which is also written to the folder; a folder that has another scene.
+    /// Returns [`Taken`]; the failure of the run, which is also written to the folder; a folder that has another scene.
     pub fn run(&self) -> Result<Summary> {
         self.keep(Self::recorded)
     }
 
-    /// Results of `make` with the fingerprint added; a failure is written to the folder.
+    /// Returns the results of `make` with the fingerprint added; a failure is written to the folder.
     ///
     /// # Errors
-    /// Those of `make`.
+    /// Returns the errors of `make`.
     pub fn keep(&self, make: impl FnOnce(&Self) -> Result<Summary>) -> Result<Summary> {
         make_directory(&self.folder)?;
         let outcome = make(self);
@@ -157,6 +159,7 @@ impl Trial {
     }
 
     fn recorded(&self) -> Result<Summary> {
+        refuse_collapse(&self.setup)?;
         self.keep_scene()?;
         let (checkpoint, resume) = (Some(self.checkpoint()), self.useful_checkpoint());
         let checkpoints = CheckpointFlags { checkpoint, resume, ..CheckpointFlags::default() };
@@ -172,22 +175,26 @@ impl Trial {
         Ok(summary)
     }
 
-    /// True if the folder has the scene file of this run.
+    /// Returns true if the folder has the scene file of this run.
     ///
     /// # Errors
-    /// A folder that has another scene.
+    /// Returns an error for a folder that has another scene.
     pub fn check_scene(&self) -> Result<bool> {
         let path = self.folder.join("scene.toml");
         let text = fs::read_to_string(&path).map_err(anyhow::Error::from);
         let Ok(found) = text.and_then(|text| Ok(Setup::from_toml(&text)?)) else { return Ok(false) };
-        ensure!(found == self.setup, "{} is of another plan: give another --out, or remove the folder", path.display());
+        ensure!(
+            found == self.setup,
+            "{} belongs to another plan. Use another --out, or remove the folder",
+            path.display()
+        );
         Ok(true)
     }
 
     /// Writes the scene file if it does not exist.
     ///
     /// # Errors
-    /// A folder that has another scene; a file that cannot be written.
+    /// Returns an error for a folder that has another scene; a file that cannot be written.
     pub fn keep_scene(&self) -> Result<()> {
         if self.check_scene()? {
             return Ok(());

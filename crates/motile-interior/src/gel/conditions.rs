@@ -16,13 +16,13 @@ pub enum Anchoring {
     Homeotropic,
     /// Along the tangent, counter-clockwise.
     Planar,
-    /// At any angle: the interface exerts no couple on the director.
+    /// The director may have any angle: the interface exerts no couple on the director.
     #[default]
     Free,
 }
 
 impl Anchoring {
-    /// Angle from the counter-clockwise tangent to the director (radians); `None` where it is free.
+    /// Returns the angle from the counter-clockwise tangent to the director (radians); `None` if it is free.
     pub(super) fn angle_from_tangent(self) -> Option<f64> {
         match self {
             Self::Homeotropic => Some(-FRAC_PI_2),
@@ -60,11 +60,11 @@ pub enum DirectorStart {
 }
 
 impl DirectorStart {
-    /// Angle of the director to x (radians) as a function of position (length), around a centre; random ones are drawn
-    /// call by call.
+    /// Returns the angle of the director to x (radians) as a function of position (length), around a centre; random
+    /// ones are drawn call by call.
     ///
     /// # Errors
-    /// Angles that are not finite; a negative noise.
+    /// Returns an error for angles that are not finite, or a negative noise.
     pub fn angles(&self, centre: Vec2) -> Result<impl FnMut(Vec2) -> f64 + use<>, InteriorError> {
         let (around, turn, noise, seed) = match *self {
             Self::Uniform { angle, noise, seed } => {

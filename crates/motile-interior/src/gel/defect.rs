@@ -17,7 +17,7 @@ pub struct Defect {
     pub charge: i32,
 }
 
-/// Defects, one in each triangle around which the director turns.
+/// Returns the defects, one in each triangle around which the director turns.
 pub(super) fn defects(elements: &Elements, nodes: &[Vec2], angles: &[f64], directors: &[Vec2]) -> Vec<Defect> {
     let mut found = Vec::new();
     for (number, triangle) in elements.triangles.iter().enumerate() {
@@ -35,7 +35,7 @@ pub(super) fn defects(elements: &Elements, nodes: &[Vec2], angles: &[f64], direc
     found
 }
 
-/// Angle between -pi and pi, without whole turns.
+/// Returns the angle between -pi and pi, without whole turns.
 fn wrapped(angle: f64) -> f64 {
     let turn = angle.rem_euclid(TAU);
     if turn > PI { turn - TAU } else { turn }

@@ -7,14 +7,14 @@ use super::stabiliser::Stabiliser;
 use super::{defect, defect::Defect, elements::Elements, material::GelMaterial};
 use crate::InteriorError;
 
-/// Diffusivity of the stabiliser over the director's largest one: from 1 on the midpoint rule is stable at any step,
-/// and at 2 to 5 the shortest waves decay within a few steps.
+/// Diffusivity of the stabiliser over the director's largest one: at 1 or more, the midpoint rule is stable at any
+/// step, and at 2 to 5 the shortest waves decay within a few steps.
 const STABILISER: f64 = 2.0;
 /// Largest wave number, times the square root of the area, that stabilised steps resolve in time.
 const WAVES: f64 = 20.0;
 
 /// Variance along a coordinate of the blur of a velocity gradient, by the nodes' share of stresses and by their mean of
-/// gradients, over the squared side of triangles of equal sides: a wave k has `i k (1 - (k s)^2 / 8)` each time.
+/// gradients, over the squared side of triangles of equal sides. A wave k has `i k (1 - (k s)^2 / 8)` each time.
 const MESH_BLUR: f64 = 0.25;
 /// Variance of the blur by spreading and interpolation with a cubic B-spline, half of both, over the squared grid
 /// spacing.
@@ -47,7 +47,7 @@ pub struct GelObservables {
 /// move with the fluid, as in the continuum (Cowley (1.4)), and the forces have neither resultant nor torque.
 ///
 /// Mesh and grid blur the flow of a stress S to the flow of `S + b LAP S`. The active stress is therefore sharpened to
-/// `S - b LAP S` inside: without this its flow at the distance r from a defect is too weak by `4 b/r^2`, which adds up
+/// `S - b LAP S` inside. Without this, its flow at the distance r from a defect is too weak by `4 b/r^2`. This adds up
 /// to an error that falls more slowly than the square of the spacing.
 #[derive(Debug, Clone)]
 pub(super) struct Director {
@@ -76,7 +76,7 @@ pub(super) struct Director {
 }
 
 impl Director {
-    /// Director of given angles (radians); those at anchored nodes change once the nodes have positions.
+    /// Creates a director of given angles (radians); those at anchored nodes change once the nodes have positions.
     pub(super) fn new(
         material: GelMaterial,
         elements: Elements,
@@ -112,12 +112,12 @@ impl Director {
         }
     }
 
-    /// Number of anchored nodes, which come first.
+    /// Returns the number of anchored nodes, which come first.
     fn anchored(&self) -> usize {
         self.anchoring.map_or(0, |(_, count)| count)
     }
 
-    /// Angles at the nodes that are not anchored.
+    /// Returns the angles at the nodes that are not anchored.
     pub(super) fn free_angles(&self) -> &[f64] {
         &self.angles[self.anchored()..]
     }
@@ -145,7 +145,7 @@ impl Director {
         }
     }
 
-    /// Frank energy (force times length).
+    /// Returns the Frank energy (force times length).
     pub(super) fn energy(&self) -> f64 {
         let of = |(triangle, area): (usize, &f64)| {
             let [x, y] = self.elements.gradient(triangle, &self.directors);
@@ -154,14 +154,14 @@ impl Director {
         0.5 * self.material.frank * self.elements.areas.iter().enumerate().map(of).sum::<f64>()
     }
 
-    /// Mean director, weighted by area (no dimension).
+    /// Returns the mean director, weighted by area (no dimension).
     pub(super) fn polarisation(&self) -> Vec2 {
         let masses = &self.elements.masses;
         let sum: Vec2 = self.directors.iter().zip(masses).map(|(director, mass)| *mass * *director).sum();
         sum / masses.iter().sum::<f64>()
     }
 
-    /// Observables, with the nodes at their positions (length).
+    /// Returns the observables, with the nodes at their positions (length).
     pub(super) fn observables(&self, nodes: &[Vec2]) -> GelObservables {
         GelObservables {
             defects: self.defects(nodes),
@@ -170,7 +170,7 @@ impl Director {
         }
     }
 
-    /// Topological defects.
+    /// Returns the topological defects.
     pub(super) fn defects(&self, nodes: &[Vec2]) -> Vec<Defect> {
         defect::defects(&self.elements, nodes, &self.angles, &self.directors)
     }
@@ -272,7 +272,7 @@ impl Director {
         self.coming = Some(if stabilised { diffusivity } else { 0.0 });
     }
 
-    /// Tells the largest stable step of the midpoint rule in fluid of a viscosity (stress times time).
+    /// Reports the largest stable step of the midpoint rule in fluid of a viscosity (stress times time).
     pub(super) fn step_limits(&self, viscosity: f64, limits: &mut dyn FnMut(StepLimit)) {
         let Self { material, elements, .. } = self;
         let bare = 2.0 / self.fastest_rate(viscosity);
@@ -283,8 +283,8 @@ impl Director {
         limits(StepLimit { dt, reason: "the gel's director", cause: StepCause::Stabilised { bare } });
     }
 
-    /// Upper bound of the rates at which the director relaxes (1/time) in fluid of a viscosity (stress times time): by
-    /// the molecular field, the flow that it drives, and the activity.
+    /// Returns the upper bound of the rates at which the director relaxes (1/time) in fluid of a viscosity (stress
+    /// times time): by the molecular field, the flow that it drives, and the activity.
     fn fastest_rate(&self, viscosity: f64) -> f64 {
         let Self { material, elements, .. } = self;
         // No eigenvalue of the whole exceeds the largest of a single triangle: 3 times that of SUM g g over the
@@ -300,8 +300,8 @@ impl Director {
     }
 }
 
-/// Gradient of the angle in a triangle (1/length) from the differences D between corners, smooth also where a defect
-/// passes by: `(4 - cos D) sin D / 3 = D + O(D^5)`, less the mean over the edges, so that they add up to zero.
+/// Returns the gradient of the angle in a triangle (1/length) from the differences D between corners, smooth also where
+/// a defect passes by: `(4 - cos D) sin D / 3 = D + O(D^5)`, less the mean over the edges, so that they add up to zero.
 fn angle_gradient(elements: &Elements, triangle: usize, directors: &[Vec2]) -> Vec2 {
     let [a, b, c] = elements.triangles[triangle].map(|node| directors[node]);
     let turn = |from: Vec2, to: Vec2| from.perp_dot(to) * (4.0 - from.dot(to)) / 3.0;

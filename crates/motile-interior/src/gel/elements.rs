@@ -7,7 +7,7 @@ use motile_base::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Elements {
     pub(super) triangles: Vec<[usize; 3]>,
-    /// Periods in x and y, where nodes beside a seam belong to triangles across it.
+    /// Periods in x and y, where nodes at the periodic edge belong to triangles across it.
     periods: [Option<f64>; 2],
     /// Gradients of the three basis functions of each triangle (1/length).
     pub(super) gradients: Vec<[Vec2; 3]>,
@@ -15,7 +15,7 @@ pub(super) struct Elements {
     pub(super) areas: Vec<f64>,
     /// Mass of each node: a third of the areas around it (length squared).
     pub(super) masses: Vec<f64>,
-    /// Number of the triangle of least area.
+    /// Number of the triangle of minimum area.
     pub(super) least: usize,
 }
 
@@ -26,7 +26,7 @@ impl Elements {
         Self { triangles, periods, gradients, areas, masses: vec![0.0; nodes], least: 0 }
     }
 
-    /// Vector from one position to another, the shortest over periodic images.
+    /// Returns the vector from one position to another, the shortest over periodic images.
     fn between(&self, from: Vec2, to: Vec2) -> Vec2 {
         let mut way = to - from;
         let [x, y] = self.periods;
@@ -39,7 +39,7 @@ impl Elements {
         way
     }
 
-    /// Position of a point of a triangle (length) from the weights of its corners.
+    /// Returns the position of a point of a triangle (length) from the weights of its corners.
     pub(super) fn place(&self, triangle: usize, nodes: &[Vec2], weights: [f64; 3]) -> Vec2 {
         let [a, b, c] = self.triangles[triangle].map(|node| nodes[node]);
         a + weights[1] * self.between(a, b) + weights[2] * self.between(a, c)
@@ -66,7 +66,7 @@ impl Elements {
         }
     }
 
-    /// Gradient (d/dx, d/dy) in a triangle of vectors given at the nodes.
+    /// Returns the gradient (d/dx, d/dy) in a triangle of vectors given at the nodes.
     #[inline]
     pub(super) fn gradient(&self, triangle: usize, values: &[Vec2]) -> [Vec2; 2] {
         let corners = self.triangles[triangle].iter().zip(&self.gradients[triangle]);

@@ -20,12 +20,12 @@ pub struct GelInBox {
 }
 
 impl GelInBox {
-    /// Gel in a box of the given lengths about the origin (length), with numbers of nodes in x and y, and the
+    /// Creates a gel in a box of the given lengths about the origin (length), with numbers of nodes in x and y, and the
     /// director's angle to x (radians) as a function of position (length).
     ///
     /// # Errors
-    /// A material that [`GelMaterial::checked`] refuses; lengths that are not positive; fewer than 4 nodes along a
-    /// side; more than a million nodes.
+    /// Returns an error for a material that [`GelMaterial::checked`] refuses; lengths that are not positive; fewer than
+    /// 4 nodes along a side; more than a million nodes.
     pub fn new(
         material: GelMaterial,
         lengths: [f64; 2],
@@ -56,13 +56,13 @@ impl GelInBox {
         Ok(Self { director, rest: vec![Vec2::ZERO; nodes.len()], nodes })
     }
 
-    /// Angles of the director to x at the nodes (radians).
+    /// Returns the angles of the director to x at the nodes (radians).
     #[must_use]
     pub fn angles(&self) -> &[f64] {
         &self.director.angles
     }
 
-    /// Positions of the nodes (length), row after row from the lower left corner.
+    /// Returns the positions of the nodes (length), row after row from the lower left corner.
     #[must_use]
     pub fn nodes(&self) -> &[Vec2] {
         &self.nodes

@@ -4,16 +4,17 @@ use motile_base::{finite, not_negative, positive};
 
 use crate::InteriorError;
 
-/// Material constants of an active polar gel, in the notation of Cowley (1.5), (1.7). Its viscosity is that of the
-/// fluid around the nodes.
+/// Material constants of an active polar gel, in the notation of Cowley (1.5), (1.7). Its viscosity equals the
+/// viscosity of the fluid around the nodes.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("active gel", "nematic", "polar gel", "liquid crystal", "cytoskeleton"))]
 pub struct GelMaterial {
     /// Frank constant K (force times length), the stiffness against splay and bend of the director.
     pub frank: f64,
     /// Rotational viscosity gamma1 (stress times time), the resistance of the director to turning against the fluid.
     pub rotational_viscosity: f64,
-    /// Flow alignment nu1 (no dimension), negative for rods. In a shear flow the director takes a fixed angle if
+    /// Flow alignment nu1 (no dimension), negative for rods. In a shear flow, the director takes a fixed angle if
     /// |nu1| > 1, and tumbles otherwise.
     pub alignment: f64,
     /// Activity zeta_b (stress): negative for a contractile gel, positive for an extensile one.
@@ -21,17 +22,18 @@ pub struct GelMaterial {
 }
 
 impl Default for GelMaterial {
-    /// Contractile gel of rods whose director relaxes over a droplet of radius 1 in some ten units of time.
+    /// Creates a contractile gel of rods whose director relaxes over a droplet of radius 1 in about ten units of time.
     fn default() -> Self {
         Self { frank: 10.0, rotational_viscosity: 100.0, alignment: -0.5, activity: -100.0 }
     }
 }
 
 impl GelMaterial {
-    /// Material itself, if its constants are possible.
+    /// Returns the material itself, if its constants are possible.
     ///
     /// # Errors
-    /// A Frank constant that is negative; a rotational viscosity that is not positive; constants that are not finite.
+    /// Returns an error for a Frank constant that is negative; a rotational viscosity that is not positive; constants
+    /// that are not finite.
     pub fn checked(self) -> Result<Self, InteriorError> {
         not_negative("the Frank constant", self.frank)?;
         positive("the rotational viscosity", self.rotational_viscosity)?;
@@ -40,9 +42,9 @@ impl GelMaterial {
         Ok(self)
     }
 
-    /// Largest diffusivity of the director (length squared per time) in any direction, in fluid of viscosity eta
-    /// (stress times time): `K (1/gamma1 + (1 + |nu1|)^2/(4 eta))`, by the molecular field and by the flow that it
-    /// drives.
+    /// Returns the largest diffusivity of the director (length squared per time) in any direction, in fluid of
+    /// viscosity eta (stress times time): `K (1/gamma1 + (1 + |nu1|)^2/(4 eta))`, by the molecular field and by the
+    /// flow that it drives.
     #[must_use]
     pub fn largest_diffusivity(&self, viscosity: f64) -> f64 {
         let coupling = 1.0 + self.alignment.abs();

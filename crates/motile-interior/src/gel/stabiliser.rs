@@ -7,14 +7,14 @@ use crate::laplacian::{Laplacian, Sides, edges};
 const TOLERANCE: f64 = 1e-12;
 
 /// Diffusion of the director's angles that is added implicitly and subtracted explicitly, so that only its action on
-/// their change within a step remains: it damps short waves, and differences of whole turns between neighbours do not
-/// matter. Its geometry is that of the start of the step; anchored nodes take no part.
+/// their change within a step remains. It damps short waves, and differences of whole turns between neighbours do not
+/// matter. Its geometry is taken at the start of the step; anchored nodes take no part.
 #[derive(Debug, Clone)]
 pub(super) struct Stabiliser {
     laplacian: Laplacian,
     /// Edges of each triangle.
     sides: Vec<Sides>,
-    /// Diffusivity (length squared per time); 0 where there is no stabiliser.
+    /// Diffusivity (length squared per time); 0 if there is no stabiliser.
     diffusivity: f64,
 }
 

@@ -30,13 +30,13 @@ impl Ring {
 #[derive(Debug, Clone)]
 pub(super) struct RingValues {
     transform: ComplexTransform,
-    /// Factors `r^m exp(i m turn)` of the modes m = 0, 1 and on; those of -m are conjugate.
+    /// Factors `r^m exp(i m turn)` of the modes m = 0, 1 and on; the factors of -m are conjugate.
     factors: Vec<Complex64>,
     values: Vec<Complex64>,
 }
 
 impl RingValues {
-    /// Values on a ring of a radius, from series through so many samples.
+    /// Creates values on a ring of a radius, from series through so many samples.
     pub(super) fn new(ring: &Ring, radius: f64, samples: usize) -> Result<Self, InputError> {
         let factor = |m: usize| Complex64::from_polar(radius.powi(m as i32), m as f64 * ring.turn);
         let felt = |m: &usize| *m == 0 || radius.powi(*m as i32) > NEGLIGIBLE;
@@ -45,7 +45,7 @@ impl RingValues {
         Ok(Self { transform, factors, values: vec![Complex64::ZERO; ring.count] })
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(super) fn len(&self) -> usize {
         self.values.len()
     }

@@ -1,4 +1,4 @@
-//! Projection of fluxes between cells onto those of a given divergence.
+//! Projection of fluxes between cells onto fluxes of a given divergence.
 
 use motile_base::Vec2;
 
@@ -13,7 +13,7 @@ use crate::{InteriorError, factor::Factor};
 pub(super) struct Projection {
     weights: Vec<f64>,
     factor: Factor,
-    /// Potential at the nodes; that of the first one is zero.
+    /// Potential at the nodes; it is zero at the first one.
     potential: Vec<f64>,
 }
 

@@ -40,10 +40,10 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Longest stable step (time) of explicit transport beside an implicit diffusion of a constant (length squared per
-    /// time): no cell is emptied, or diffusion outweighs transport at all wave numbers. The midpoint rule multiplies a
-    /// wave of wave number q by `((1 - s)(1 + s) - b^2/2 + i b)/(1 + s)^2`, `s = D q^2 dt/2`, `b = u q dt`, which for
-    /// large s is less than one where `dt < 2 D/u^2`.
+    /// Returns the longest stable step (time) of explicit transport combined with an implicit diffusion of a constant
+    /// (length squared per time): no cell is emptied, or diffusion outweighs transport at all wave numbers. The
+    /// midpoint rule multiplies a wave of wave number q by `((1 - s)(1 + s) - b^2/2 + i b)/(1 + s)^2`, `s = D q^2
+    /// dt/2`, `b = u q dt`, which for large s is less than one where `dt < 2 D/u^2`.
     pub(super) fn longest_step(self, diffusion: f64) -> f64 {
         // As much as is in a cell leaves it: what flows in has been counted too.
         (2.0 / self.turnover).max(diffusion / self.speed.powi(2))

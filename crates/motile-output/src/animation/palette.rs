@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use crate::Rgb;
 
-/// Code of a colour: 5, 6 and 5 bits of red, green and blue.
+/// Returns the code of a colour: 5, 6 and 5 bits of red, green and blue.
 pub(crate) fn code(Rgb([r, g, b]): Rgb) -> u16 {
     (u16::from(r >> 3) << 11) | (u16::from(g >> 2) << 5) | u16::from(b >> 3)
 }
@@ -24,8 +24,8 @@ impl Histogram {
         sum.iter_mut().zip(colour.0).for_each(|(sum, channel)| *sum += u64::from(channel));
     }
 
-    /// Palette of the `size` (at most 256) most frequent colours, and for each code counted the index of the nearest of
-    /// them. Left out are mixtures at the edges of lines, most of which occur a few times only.
+    /// Returns the palette of the `size` (at most 256) most frequent colours, and for each code counted the index of
+    /// the nearest of them. Left out are mixtures at the edges of lines, most of which occur a few times only.
     pub(crate) fn palette(&self, size: usize) -> (Vec<Rgb>, Vec<u8>) {
         let mut used: Vec<usize> = (0..self.0.len()).filter(|&k| self.0[k].1 > 0).collect();
         used.sort_by_key(|&k| Reverse(self.0[k].1));

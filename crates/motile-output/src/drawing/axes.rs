@@ -19,7 +19,7 @@ pub enum AxisScale {
 }
 
 impl AxisScale {
-    /// Coordinate in which the scale is linear: the value or its decimal logarithm.
+    /// Returns the coordinate in which the scale is linear: the value or its decimal logarithm.
     pub(crate) fn straight(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -52,19 +52,19 @@ impl Axis {
         Self { ticks: Ticks::default(), ..Self::new("", [0.0, 1.0], AxisScale::Linear, 2) }
     }
 
-    /// Position along the axis, 0 to 1 within its ends.
+    /// Returns the position along the axis, 0 to 1 within its ends.
     fn fraction(&self, value: f64) -> f64 {
         let [low, high, value] = [self.low, self.high, value].map(|v| self.scale.straight(v));
         (value - low) / (high - low)
     }
 
-    /// Width of the widest tick label (pixels).
+    /// Returns the width of the widest tick label (pixels).
     fn label_width(&self, size: f64) -> f64 {
         let labels = self.ticks.ticks.iter().filter_map(|t| t.label.as_deref());
         labels.map(|l| text_width(l, size)).fold(0.0, f64::max)
     }
 
-    /// Power of ten that multiplies the tick labels, as text; empty for 1.
+    /// Returns the power of ten that multiplies the tick labels, as text; empty for 1.
     fn factor(&self) -> String {
         match self.ticks.exponent {
             0 => String::new(),
@@ -82,11 +82,11 @@ pub(crate) struct Frame {
     pub(crate) em: f64,
 }
 
-/// Size of tick labels relative to that of axis labels.
+/// Size of tick labels relative to axis labels.
 const TICK_SIZE: f64 = 0.88;
 
 impl Frame {
-    /// Position of a point of the data (pixels).
+    /// Returns the position of a point of the data (pixels).
     pub(crate) fn place(&self, x: f64, y: f64) -> Pixel {
         [
             self.area.left + self.x.fraction(x) * self.area.width,
@@ -94,13 +94,13 @@ impl Frame {
         ]
     }
 
-    /// Space that the vertical axis needs to the left of the rectangle (pixels).
+    /// Returns the space that the vertical axis needs to the left of the rectangle (pixels).
     pub(crate) fn left_margin(y: &Axis, em: f64) -> f64 {
         let label = if y.label.is_empty() { 0.3 } else { 1.8 };
         y.label_width(TICK_SIZE * em) + (1.0 + label) * em
     }
 
-    /// Space that the horizontal axis needs below the rectangle (pixels).
+    /// Returns the space that the horizontal axis needs below the rectangle (pixels).
     pub(crate) fn bottom_margin(x: &Axis, em: f64) -> f64 {
         if x.label.is_empty() { 2.0 * em } else { 3.7 * em }
     }

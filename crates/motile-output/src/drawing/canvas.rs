@@ -16,7 +16,7 @@ pub(crate) struct Drawing {
 }
 
 impl Drawing {
-    /// White drawing of a width and height (pixels).
+    /// Returns the white drawing of a width and height (pixels).
     pub(crate) fn new(size: [f64; 2]) -> Self {
         Self { size, per_cm: None, shapes: Vec::new() }
     }

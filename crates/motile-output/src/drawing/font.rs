@@ -56,8 +56,8 @@ impl OutlineBuilder for Pen {
     }
 }
 
-/// Outline of a line of text of a size (pixels) from the origin, y upwards, and its width (pixels). Characters that the
-/// font lacks are empty boxes.
+/// Returns the outline of a line of text of a size (pixels) from the origin, y upwards, and its width (pixels).
+/// Characters that the font lacks are empty boxes.
 fn outline(text: &str, size: f64) -> (PathBuilder, f64) {
     let mut pen = Pen { path: PathBuilder::new(), at: [0.0; 2], scale: 0.0 };
     // The bundled font is read in a test.
@@ -105,7 +105,7 @@ pub(crate) fn place(text: &str, at: Pixel, style: &TextStyle) -> Option<Path> {
     path.finish()?.transform(place)
 }
 
-/// Width of a line of text (pixels).
+/// Returns the width of a line of text (pixels).
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     outline(text, size).1
 }

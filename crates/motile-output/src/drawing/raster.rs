@@ -13,10 +13,10 @@ use crate::{OutputError, Rgb};
 const LARGEST: f64 = 16_384.0;
 
 impl Drawing {
-    /// Image of the drawing, with `scale` pixels for each of its own.
+    /// Returns the image of the drawing, enlarged `scale` times.
     ///
     /// # Errors
-    /// [`OutputError::Size`]: fewer than 1 pixel or more than 16384 in a direction.
+    /// Returns [`OutputError::Size`] for fewer than 1 pixel or more than 16384 in a direction.
     pub(crate) fn pixels(&self, scale: f64) -> Result<Pixmap, OutputError> {
         let size = self.size.map(|side| (side * scale).round());
         for side in size {
@@ -64,11 +64,11 @@ impl Drawing {
         Ok(image)
     }
 
-    /// Writes the drawing to `path`: vectors where the name ends in `.svg`, and PNG with `scale` pixels for each of its
-    /// own where it ends in `.png`.
+    /// Writes the drawing to `path`: vectors if the name ends in `.svg`, and PNG, enlarged `scale` times, if it ends in
+    /// `.png`.
     ///
     /// # Errors
-    /// [`OutputError::Write`], [`OutputError::Size`], [`OutputError::Format`].
+    /// Returns [`OutputError::Write`], [`OutputError::Size`], [`OutputError::Format`].
     pub(crate) fn write(&self, path: &Path, scale: f64) -> Result<(), OutputError> {
         OutputError::check_format(path, &["svg", "png"])?;
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {

@@ -25,13 +25,13 @@ impl Rect {
         self.top + self.height
     }
 
-    /// Rectangle with its edges on whole pixels.
+    /// Returns the rectangle with its edges on whole pixels.
     pub(crate) fn rounded(self) -> Self {
         let [left, top, width, height] = [self.left, self.top, self.width, self.height].map(f64::round);
         Self { left, top, width, height }
     }
 
-    /// Closed outline, counter-clockwise as seen from the upper left corner.
+    /// Returns the closed outline, counter-clockwise as seen from the upper left corner.
     pub(crate) fn outline(&self) -> Vec<Pixel> {
         let (l, t, r, b) = (self.left, self.top, self.right(), self.bottom());
         vec![[l, t], [l, b], [r, b], [r, t], [l, t]]
@@ -47,7 +47,7 @@ pub(crate) struct Pen {
 }
 
 impl Pen {
-    /// Pen of a solid, opaque line.
+    /// Creates a pen of a solid, opaque line.
     pub(crate) fn new(colour: Rgb, width: f64) -> Self {
         Self { colour, width, opacity: 1.0 }
     }
@@ -77,7 +77,7 @@ pub(crate) struct TextStyle {
 }
 
 impl TextStyle {
-    /// Text of a size in [`Rgb::INK`].
+    /// Creates text of a size in [`Rgb::INK`].
     pub(crate) fn new(size: f64, anchor: Anchor) -> Self {
         Self { size, colour: Rgb::INK, anchor, upwards: false }
     }
@@ -106,7 +106,7 @@ pub(crate) enum Shape {
 /// painted.
 const FARTHEST: f64 = 1e5;
 
-/// Lines through points as one path; `None` if a point is not finite or there are none.
+/// Returns the lines through points as one path; `None` if a point is not finite or there are none.
 pub(crate) fn joined(lines: &[Vec<Pixel>], closed: bool) -> Option<Path> {
     let mut builder = PathBuilder::new();
     for line in lines {

@@ -5,8 +5,8 @@ use tiny_skia::{Path, PathSegment};
 use super::{canvas::Drawing, raster, shapes::Shape};
 
 impl Drawing {
-    /// Text of an SVG file of the drawing. Lettering is drawn as outlines, so that it looks the same everywhere; its
-    /// wording is in `aria-label` attributes, for search and screen readers.
+    /// Returns the text of an SVG file of the drawing. Lettering is drawn as outlines, so that it looks the same
+    /// everywhere; its wording is in `aria-label` attributes, for search and screen readers.
     pub(crate) fn svg(&self) -> String {
         let (mut body, mut clips, mut clipped) = (String::new(), 0, false);
         for shape in &self.shapes {
@@ -67,19 +67,19 @@ impl Drawing {
     }
 }
 
-/// Coordinate with at most two decimals.
+/// Returns the coordinate with at most two decimals.
 fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// Attribute of an opacity below one; empty for one.
+/// Returns the attribute of an opacity below one; empty for one.
 fn faint(what: &str, opacity: f64) -> String {
     if opacity < 1.0 { format!(" {what}-opacity=\"{}\"", short(opacity)) } else { String::new() }
 }
 
-/// Path data of an element: steps from point to point in tenths of a pixel, between rounded points, so that errors do
-/// not add up.
+/// Returns the path data of an element: steps from point to point in tenths of a pixel, between rounded points, so that
+/// errors do not add up.
 fn data(path: &Path) -> String {
     let tenths = |p: tiny_skia::Point| [p.x, p.y].map(|v| (10.0 * v).round() as i64);
     let (mut data, mut last, mut at, mut start) = (String::new(), ' ', [0; 2], [0; 2]);
@@ -143,7 +143,7 @@ pub(crate) fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// Text with the characters escaped that XML reserves.
+/// Returns the text with the characters escaped that XML reserves.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

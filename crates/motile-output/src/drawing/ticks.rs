@@ -78,21 +78,21 @@ impl Ticks {
     }
 }
 
-/// Smallest of 1, 2, 5 times a power of ten that is not below `raw`, or by round-off only.
+/// Returns the smallest of 1, 2, 5 times a power of ten that is not below `raw`, or by round-off only.
 fn nice_step(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [1.0, 2.0, 5.0].into_iter().find(|m| m * decade >= raw * (1.0 - 1e-9)).unwrap_or(10.0);
     multiple * decade
 }
 
-/// Largest of 1, 2, 5 times a power of ten that is not above `raw`.
+/// Returns the largest of 1, 2, 5 times a power of ten that is not above `raw`.
 pub(crate) fn nice_step_below(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [5.0, 2.0].into_iter().find(|m| m * decade <= raw * (1.0 + 1e-9)).unwrap_or(1.0);
     multiple * decade
 }
 
-/// Number as text, to four significant figures without trailing zeros.
+/// Returns the number as text, to four significant figures without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { signed(&value.to_string()) };
@@ -108,7 +108,7 @@ pub(crate) fn number(value: f64) -> String {
     signed(text)
 }
 
-/// Number as text with a minus sign for the hyphen, and zero without a sign.
+/// Returns the number as text with a minus sign for the hyphen, and zero without a sign.
 fn signed(text: &str) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_string(),

@@ -1,7 +1,7 @@
 //! Files in the XML formats of VTK, which ParaView reads.
 //!
 //! Written here and not by a crate: the stable release of `vtkio` is years old, and the part of the format in use is
-//! small: three kinds of geometry, arrays in base64, and a list of files with their times.
+//! small. It consists of three kinds of geometry, arrays in base64, and a list of files with their times.
 
 use std::{
     fmt::Write as _,
@@ -44,6 +44,7 @@ impl Array {
 /// # Ok::<(), motile_output::OutputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[doc(alias("VTK", "ParaView"))]
 pub struct VtkFile {
     kind: &'static str,
     extension: &'static str,
@@ -67,7 +68,7 @@ impl VtkFile {
         Self { kind, extension, attributes, piece, geometry, points, cells, needed: points, point_data, cell_data }
     }
 
-    /// Cells of a raster (ImageData, `.vti`): samples at the points of the raster are cell data.
+    /// Creates cells of a raster (ImageData, `.vti`): samples at the points of the raster are cell data.
     #[must_use]
     pub fn image(raster: Raster) -> Self {
         let ([nx, ny], [x, y], [width, height]) = (raster.cells, raster.origin, raster.size);
@@ -77,14 +78,14 @@ impl VtkFile {
         Self { attributes, piece, ..Self::new("ImageData", "vti", (nx + 1) * (ny + 1), nx * ny) }
     }
 
-    /// Closed lines through points (PolyData, `.vtp`; length), each one cell; values at points are given line after
-    /// line.
+    /// Creates closed lines through points (PolyData, `.vtp`; length), each one cell; values at points are given line
+    /// after line.
     #[must_use]
     pub fn closed_lines(lines: &[Vec<Vec2>]) -> Self {
         Self::lines(lines, &[])
     }
 
-    /// Closed lines as in [`VtkFile::closed_lines`], then open ones.
+    /// Creates closed lines as in [`VtkFile::closed_lines`], then open ones.
     #[must_use]
     pub fn lines(closed: &[Vec<Vec2>], open: &[Vec<Vec2>]) -> Self {
         let (mut corners, mut ends, mut first): (Vec<i64>, Vec<i64>, i64) = Default::default();
@@ -105,7 +106,7 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 
-    /// Points (PolyData, `.vtp`; length), each one cell.
+    /// Creates points (PolyData, `.vtp`; length), each one cell.
     #[must_use]
     pub fn points(points: &[Vec2]) -> Self {
         let count = points.len();
@@ -119,9 +120,9 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", count, count) }
     }
 
-    /// Surfaces of revolution about the x axis (PolyData, `.vtp`; length) in three dimensions, in so many sectors: of
-    /// triangles at both ends of each meridian, which are on the axis, and of quadrilaterals between. Values at points
-    /// are given once at an end and for every sector between.
+    /// Creates surfaces of revolution about the x axis (PolyData, `.vtp`; length) in three dimensions, in so many
+    /// sectors: of triangles at both ends of each meridian, which are on the axis, and of quadrilaterals between.
+    /// Values at points are given once at an end and for every sector between.
     #[must_use]
     pub fn surfaces(meridians: &[Vec<Vec2>], sectors: usize) -> Self {
         let (mut points, mut corners, mut ends): (Vec<[f64; 3]>, Vec<i64>, Vec<i64>) = Default::default();
@@ -162,7 +163,7 @@ impl VtkFile {
         Self { piece, geometry, ..Self::new("PolyData", "vtp", count, cells) }
     }
 
-    /// Triangles (UnstructuredGrid, `.vtu`) of points (length), by the numbers of their corners.
+    /// Creates triangles (UnstructuredGrid, `.vtu`) of points (length), by the numbers of their corners.
     #[must_use]
     pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
         let cells = triangles.len();
@@ -205,11 +206,11 @@ impl VtkFile {
         self
     }
 
-    /// Text of the file.
+    /// Returns the text of the file.
     ///
     /// # Errors
-    /// [`OutputError::Count`]: arrays of the wrong length, corners of triangles that are not points.
-    /// [`OutputError::Name`]: names with other characters than letters, digits, `_`, `-` and space.
+    /// Returns [`OutputError::Count`] for arrays of the wrong length, corners of triangles that are not points.
+    /// [`OutputError::Name`] for names with other characters than letters, digits, `_`, `-` and space.
     pub fn document(&self) -> Result<String, OutputError> {
         let Self { kind, attributes, piece, geometry, points, cells, .. } = self;
         if self.needed > *points {
@@ -228,13 +229,13 @@ impl VtkFile {
     /// Writes the file.
     ///
     /// # Errors
-    /// As [`VtkFile::document`], and [`OutputError::Write`].
+    /// Returns the errors of [`VtkFile::document`], and [`OutputError::Write`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         fs::write(path.as_ref(), self.document()?).map_err(OutputError::writing(path.as_ref()))
     }
 }
 
-/// Element of a data array, with its bytes in base64 after their number.
+/// Returns the element of a data array, with its bytes in base64 after their number.
 fn array(kind: &str, name: &str, components: usize, bytes: &[u8]) -> String {
     let block = [&(bytes.len() as u64).to_le_bytes(), bytes].concat();
     format!(
@@ -258,7 +259,7 @@ fn data(tag: &str, arrays: &[Array], count: usize) -> Result<String, OutputError
     Ok(text + &format!("</{tag}>\n"))
 }
 
-/// Values at the points of [`VtkFile::surfaces`] of values on a meridian.
+/// Returns the values at the points of [`VtkFile::surfaces`] of values on a meridian.
 pub(crate) fn revolved(values: &[f64], sectors: usize) -> impl Iterator<Item = f64> {
     let pole = |k: usize| k == 0 || k + 1 == values.len();
     values.iter().enumerate().flat_map(move |(k, value)| std::iter::repeat_n(*value, if pole(k) { 1 } else { sectors }))
@@ -287,10 +288,10 @@ pub struct VtkSeries {
 }
 
 impl VtkSeries {
-    /// Empty series in `directory`, which is created if needed.
+    /// Creates empty series in `directory`, which is created if needed.
     ///
     /// # Errors
-    /// [`OutputError::Write`]: a directory that cannot be created.
+    /// Returns [`OutputError::Write`] for a directory that cannot be created.
     pub fn create(directory: impl AsRef<Path>, name: &str) -> Result<Self, OutputError> {
         let directory = directory.as_ref().to_path_buf();
         fs::create_dir_all(&directory).map_err(OutputError::writing(&directory))?;
@@ -302,11 +303,11 @@ impl VtkSeries {
         self.times = times.to_vec();
     }
 
-    /// Writes the next file, at a time, and the list anew: the series can be opened during a run and after it broke
+    /// Writes the next file, at a time, and rewrites the list: the series can be opened during a run and after it broke
     /// off. A file of the last time again replaces that file, so that runs one after the other list each time once.
     ///
     /// # Errors
-    /// As [`VtkFile::write`].
+    /// Returns the errors of [`VtkFile::write`].
     pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), OutputError> {
         let name = |number: usize| format!("{}_{number:04}.{}", self.name, file.extension);
         if self.times.last() == Some(&time) {

@@ -31,7 +31,7 @@ impl Triangles {
         self.numbers.resize(self.triangles.len(), number);
     }
 
-    /// File of the triangles; `None` if there are none.
+    /// Returns the file of the triangles; `None` if there are none.
     fn file(&self) -> Option<VtkFile> {
         (!self.points.is_empty()).then(|| VtkFile::triangles(&self.points, &self.triangles))
     }
@@ -40,7 +40,7 @@ impl Triangles {
 /// Sectors of a surface of revolution.
 const SECTORS: usize = 64;
 
-/// File of the surfaces of all droplets of revolution of a system; `None` if there are none.
+/// Returns the file of the surfaces of all droplets of revolution of a system; `None` if there are none.
 pub(crate) fn surfaces<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let (mut meridians, mut concentration, mut tension): (Vec<Vec<Vec2>>, Vec<f64>, Vec<f64>) = Default::default();
     for (_, droplet) in system.bodies::<ActiveDroplet>().filter(|(_, droplet)| droplet.is_axisymmetric()) {
@@ -55,7 +55,7 @@ pub(crate) fn surfaces<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> 
     (!meridians.is_empty()).then(|| if carries { file().point_scalars("concentration", concentration) } else { file() })
 }
 
-/// File of all gels of a system; `None` if there are none.
+/// Returns the file of all gels of a system; `None` if there are none.
 pub(crate) fn gels<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let (mut mesh, mut directors) = (Triangles::default(), Vec::new());
     for (_, gel) in system.bodies::<GelInDroplet>() {
@@ -65,7 +65,7 @@ pub(crate) fn gels<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     Some(mesh.file()?.point_vectors("director", directors).cell_scalars("gel", mesh.numbers))
 }
 
-/// File of the particles that diffuse inside all droplets of a system; `None` if there are none.
+/// Returns the file of the particles that diffuse inside all droplets of a system; `None` if there are none.
 pub(crate) fn particles<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let (mut mesh, mut densities) = (Triangles::default(), Vec::new());
     for (_, inside) in system.bodies::<ParticlesInDroplet>() {
@@ -75,7 +75,7 @@ pub(crate) fn particles<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile>
     Some(mesh.file()?.point_scalars("density", densities))
 }
 
-/// File of all solids of a system; `None` if there are none.
+/// Returns the file of all solids of a system; `None` if there are none.
 pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let mut pieces = Pieces::default();
     solids_of(system).for_each(|solid| pieces.add(solid));
@@ -102,7 +102,7 @@ pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     Some(file)
 }
 
-/// Triangles of solids with their values; triangles across the seam of a period have points of their own.
+/// Triangles of solids with their values; triangles across the edge of a period have separate points.
 #[derive(Debug, Default)]
 struct Pieces {
     mesh: Triangles,
@@ -112,7 +112,7 @@ struct Pieces {
     deviator: Vec<f64>,
     /// Stress that is not elastic.
     internal: Vec<Mat2>,
-    /// Part of the sides whose active springs are on.
+    /// Fraction of the sides whose active springs are on.
     active: Vec<f64>,
 }
 

@@ -26,7 +26,7 @@ impl Format {
         Self { width: 440.0, em: 12.0, per_cm: None, levels: 20, streamline_spacing: 2.0, follows: false };
 }
 
-/// Colour scales of the pressure, of concentrations and densities inside where there are particles, and of solids where
+/// Colour scales of the pressure, of concentrations and densities inside if there are particles, and of solids where
 /// they are coloured.
 #[derive(Debug)]
 pub(crate) struct Legends {

@@ -1,4 +1,4 @@
-//! Settings of pictures of scenes.
+//! Draws pictures of scenes with these settings.
 
 use std::path::Path;
 
@@ -18,16 +18,16 @@ const POINTS_PER_CM: f64 = 72.0 / 2.54;
 /// Path of a moving point, such as a centroid: times and positions (length).
 pub type Track = Vec<(f64, Vec2)>;
 
-/// Settings of pictures of scenes.
+/// Draws pictures of scenes with these settings.
 ///
 /// A picture shows pressure in colour ([`motile::base::FlowSample::pressure`]), streamlines in the laboratory frame,
 /// the interfaces of all droplets coloured by their concentrations (black without particles), densities of particles
 /// that diffuse inside in place of the pressure, directors and defects of gels, solids and rigid walls, the time and a
 /// scale bar; between walls also the paths of the droplets. In periodic directions everything is drawn with its
-/// periodic images, so positions need not be wrapped. Lines are as wide as fits the size of the droplets on paper.
-/// Where the flow has a mirror line, so have the streamlines.
+/// periodic images, so positions need not be wrapped. Lines are as wide as fits the size of the droplets on paper. If
+/// the flow has a mirror line, so have the streamlines.
 ///
-/// A panel of a figure, a column wide, with pressures from -20 to 20 in colour:
+/// This draws a panel of a figure, one column wide, with pressures from -20 to 20 in colour:
 ///
 /// ```
 /// use motile::prelude::*;
@@ -52,19 +52,19 @@ pub type Track = Vec<(f64, Vec2)>;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look {
-    /// Caption beside the time; empty by default.
+    /// Caption next to the time; empty by default.
     pub caption: String,
     /// Label of a panel of a figure, such as `a)`, at the upper left; none if empty, as by default.
     pub panel: String,
-    /// Width on paper (cm), 16 by default; the height follows from the region. Frames of a [`crate::Animation`] have a
-    /// size of their own.
+    /// Width on paper (cm), 16 by default; the height follows from the region. Frames of a [`crate::Animation`] have
+    /// their own size.
     pub width: f64,
     /// Size of the type (pt), 8 by default.
     pub font_size: f64,
     /// Resolution of PNG files and of the colours in SVG files (pixels per cm), 75 by default; 118 are 300 dpi.
     pub resolution: f64,
-    /// Lowest and highest pressure shown by colours (force per length); those of all samples but the lowest and highest
-    /// half percent if `None`, as by default. Ends of the colour bar that values exceed are triangles.
+    /// Lowest and highest pressure shown by colours (force per length); the pressures of all samples except the lowest
+    /// and highest half percent if `None`, as by default. Ends of the colour bar that values exceed are triangles.
     pub pressure_range: Option<[f64; 2]>,
     /// Colours of the pressure, blue over white at zero to red by default.
     pub pressure_colours: PressureColours,
@@ -114,7 +114,7 @@ impl Look {
         Self { length_unit: setup.length_unit().into(), ..Self::default() }
     }
 
-    /// Colour scales that serve all of some states.
+    /// Returns the colour scales that serve all of some states.
     pub(crate) fn legends(&self, all: &[Snapshot]) -> Legends {
         let pressures = all.iter().flat_map(|seen| seen.flow.iter().map(|sample| sample.pressure));
         let unit = self.concentration.unwrap_or(1.0);
@@ -139,7 +139,7 @@ impl Look {
         }
     }
 
-    /// Drawing of a state, with the tracks up to its time.
+    /// Returns the drawing of a state, with the tracks up to its time.
     pub(crate) fn draw(
         &self,
         seen: &Snapshot,
@@ -172,20 +172,20 @@ impl Look {
     /// the middle of its periods; between walls the tracks up to the time of the state are drawn.
     ///
     /// # Errors
-    /// [`OutputError::Size`]: a width outside of 1 to 100 cm, type outside of 1 to 72 pt, a resolution outside of 10 to
-    /// 1000 pixels per cm, or a PNG file with a side of more than 16384 pixels; [`OutputError::Range`]: a range of the
-    /// pressure that is empty or not finite; [`OutputError::Write`]; [`OutputError::Streamlines`];
-    /// [`OutputError::Count`]: a snapshot with other than one sample for each cell; [`OutputError::Format`]: a name
-    /// that ends in neither `.svg` nor `.png`.
+    /// Returns [`OutputError::Size`] for a width outside of 1 to 100 cm, type outside of 1 to 72 pt, a resolution
+    /// outside of 10 to 1000 pixels per cm, or a PNG file with a side of more than 16384 pixels; [`OutputError::Range`]
+    /// for a range of the pressure that is empty or not finite; [`OutputError::Write`]; [`OutputError::Streamlines`];
+    /// [`OutputError::Count`] for a snapshot with other than one sample for each cell; [`OutputError::Format`] for a
+    /// name that ends in neither `.svg` nor `.png`.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), OutputError> {
         OutputError::check_format(path.as_ref(), &["svg", "png"])?;
         self.picture(seen, tracks)?.write(path.as_ref(), 1.0)
     }
 
-    /// Text of the SVG file that [`Look::write_picture`] writes.
+    /// Returns the text of the SVG file that [`Look::write_picture`] writes.
     ///
     /// # Errors
-    /// As there, but for those of the file.
+    /// Returns the same errors, except for the errors of the file.
     pub fn svg(&self, seen: &Snapshot, tracks: &[Track]) -> Result<String, OutputError> {
         Ok(self.picture(seen, tracks)?.svg())
     }
@@ -193,7 +193,7 @@ impl Look {
     /// Refuses sizes and ranges that no picture can have.
     ///
     /// # Errors
-    /// [`OutputError::Size`] and [`OutputError::Range`], as in [`Look::write_picture`].
+    /// Returns [`OutputError::Size`] and [`OutputError::Range`], as in [`Look::write_picture`].
     pub fn check(&self) -> Result<(), OutputError> {
         OutputError::check_size("a picture with a width (cm)", self.width, 1.0, 100.0)?;
         OutputError::check_size("type of a size (pt)", self.font_size, 1.0, 72.0)?;
@@ -221,7 +221,8 @@ impl Look {
     }
 }
 
-/// End of a path that extends over at most three quarters of the period in x: more would be drawn over itself.
+/// Returns the end of a path that extends over at most three quarters of the period in x: more would be drawn over
+/// itself.
 fn last_period(path: &[Vec2], period: f64) -> &[Vec2] {
     let Some(&end) = path.last() else { return path };
     let start = path.iter().rposition(|p| (p.x - end.x).abs() > 0.75 * period).map_or(0, |k| k + 1);

@@ -37,7 +37,7 @@ const SPLITS: usize = 2;
 /// Smallest diameter of a droplet on a picture for lines as wide as the size of the type asks for (sizes of the type).
 const SLENDER: f64 = 17.0;
 
-/// Drawing of a picture.
+/// Returns the drawing of a picture.
 pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, OutputError> {
     let layout = Layout::new(picture);
     let mut drawing = Drawing::new([picture.format.width, layout.height]);
@@ -143,7 +143,8 @@ impl Layout {
         points.iter().map(|p| p + shift).map(|p| self.frame.place(p.x, p.y)).collect()
     }
 
-    /// Unit of the widths of lines for a droplet (pixels), in proportion to its diameter where that is small.
+    /// Returns the unit of the widths of lines for a droplet (pixels), in proportion to its diameter where that is
+    /// small.
     fn unit_of(&self, markers: &[Vec2]) -> f64 {
         let next = markers.iter().cycle().skip(1);
         let area = 0.5 * markers.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>().abs();

@@ -9,9 +9,9 @@ pub(crate) struct Sides {
     pub(crate) inside: Samples<f64>,
 }
 
-/// Fields outside and inside of closed curves, from samples of one that jumps across them. Samples nearer to a curve
-/// than `band` (length) are replaced by neighbours of the same side, with which each field is also continued across the
-/// curves; farther across it is not a number.
+/// Returns the fields outside and inside of closed curves, from samples of one that jumps across them. Samples nearer
+/// to a curve than `band` (length) are replaced by neighbours of the same side, with which each field is also continued
+/// across the curves; farther across it is not a number.
 pub(crate) fn sides(raster: &Raster, values: Vec<f64>, curves: &[&[Vec2]], band: f64) -> Result<Sides, OutputError> {
     let mut field = Samples::new(*raster, values)?;
     let cell = (0..2).map(|k| raster.size[k] / raster.cells[k] as f64).fold(0.0, f64::max);
@@ -62,7 +62,7 @@ fn grow(field: &mut Samples<f64>) {
     }
 }
 
-/// Numbers of the cell of a raster at integer coordinates, with its periods; `None` beyond a border.
+/// Returns the numbers of the cell of a raster at integer coordinates, with its periods; `None` beyond a border.
 fn number(raster: &Raster, at: [i64; 2]) -> Option<usize> {
     let wrapped = [0, 1].map(|k| {
         let n = raster.cells[k] as i64;
@@ -71,12 +71,12 @@ fn number(raster: &Raster, at: [i64; 2]) -> Option<usize> {
     Some(wrapped[1]? * raster.cells[0] + wrapped[0]?)
 }
 
-/// Point in units of the cells, in which samples have integer coordinates.
+/// Returns the point in units of the cells, in which samples have integer coordinates.
 fn in_cells(raster: &Raster, p: Vec2) -> [f64; 2] {
     [0, 1].map(|k| (p[k] - raster.origin[k]) / raster.size[k] * raster.cells[k] as f64 - 0.5)
 }
 
-/// Sides of a closed curve in units of the cells; none if a point is not finite or the curve is too large.
+/// Returns the sides of a closed curve in units of the cells; none if a point is not finite or the curve is too large.
 fn edges(raster: &Raster, curve: &[Vec2]) -> Vec<[[f64; 2]; 2]> {
     let points: Vec<[f64; 2]> = curve.iter().map(|&p| in_cells(raster, p)).collect();
     let longest = 10.0 * (raster.cells[0] + raster.cells[1]) as f64;
@@ -86,7 +86,7 @@ fn edges(raster: &Raster, curve: &[Vec2]) -> Vec<[[f64; 2]; 2]> {
     if all.iter().all(short) { all } else { Vec::new() }
 }
 
-/// Numbers of the samples within a closed curve, sorted.
+/// Returns the numbers of the samples within a closed curve, sorted.
 fn samples_within(raster: &Raster, curve: &[Vec2]) -> Vec<usize> {
     let edges = edges(raster, curve);
     let heights = || edges.iter().map(|[a, _]| a[1]);
@@ -108,7 +108,7 @@ fn samples_within(raster: &Raster, curve: &[Vec2]) -> Vec<usize> {
     found
 }
 
-/// Numbers of the samples nearer to a closed curve than a distance (length), sorted.
+/// Returns the numbers of the samples nearer to a closed curve than a distance (length), sorted.
 fn samples_near(raster: &Raster, curve: &[Vec2], distance: f64) -> Vec<usize> {
     let cell = [0, 1].map(|k| raster.size[k] / raster.cells[k] as f64);
     let mut found = Vec::new();

@@ -6,9 +6,9 @@ use motile::base::Vec2;
 const PARTS: usize = 4;
 const DENSE: usize = 2000;
 
-/// Smooth line through the points of one period of a curve, up to the next image of the first point, which is displaced
-/// by `around` (length; zero for a closed curve). Between two points it is the cubic whose slopes there are those of
-/// the chords of their neighbours (Catmull and Rom, "A class of local interpolating splines", 1974).
+/// Returns the smooth line through the points of one period of a curve, up to the next image of the first point, which
+/// is displaced by `around` (length; zero for a closed curve). Between two points it is the cubic whose slopes there
+/// are the slopes of the chords of their neighbours (Catmull and Rom, "A class of local interpolating splines", 1974).
 pub(crate) fn smooth(points: &[Vec2], around: Vec2) -> Vec<Vec2> {
     let count = points.len() as isize;
     let at = |k: isize| points[k.rem_euclid(count) as usize] + k.div_euclid(count) as f64 * around;
@@ -25,7 +25,7 @@ pub(crate) fn smooth(points: &[Vec2], around: Vec2) -> Vec<Vec2> {
     (0..count).flat_map(between).chain((count > 0).then(|| at(count))).collect()
 }
 
-/// Values at the points of [`smooth`], linear between those at the points of the curve.
+/// Returns the values at the points of [`smooth`], linear between those at the points of the curve.
 pub(crate) fn between(values: &[f64]) -> Vec<f64> {
     let parts = parts(values.len());
     let ends = values.iter().zip(values.iter().cycle().skip(1));

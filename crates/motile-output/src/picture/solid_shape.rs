@@ -31,7 +31,7 @@ pub struct SolidShape {
     pub displacement: Vec<f64>,
     /// Deviator of the Cauchy stress in each triangle (force per length); not a number if one is inverted.
     pub stress: Vec<f64>,
-    /// Deviator of the stress in each triangle that is not elastic (force per length); empty where there is none.
+    /// Deviator of the stress in each triangle that is not elastic (force per length); empty if there is none.
     pub internal_stress: Vec<f64>,
     /// Ends of the active springs that are on (length).
     pub bonds: Vec<Vec<Vec2>>,
@@ -40,7 +40,7 @@ pub struct SolidShape {
 }
 
 impl SolidShape {
-    /// Values that a colour shows, one for each triangle.
+    /// Returns the values that a colour shows, one for each triangle.
     pub(crate) fn values(&self, colour: SolidColour) -> &[f64] {
         match colour {
             SolidColour::Plain => &[],

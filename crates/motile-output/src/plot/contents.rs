@@ -31,7 +31,7 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Empty plot with a title.
+    /// Creates an empty plot with a title.
     #[must_use]
     pub fn new(title: &str) -> Self {
         Self { title: title.to_string(), ..Self::default() }

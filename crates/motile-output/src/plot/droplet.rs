@@ -7,11 +7,11 @@ use crate::plot::{contents::Plot, figure::Figure, series::Series};
 use crate::time_label::time_label;
 use crate::{CsvTable, OutputError};
 
-/// Figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height and gap.
-/// Quantities are in the units of the scene.
+/// Returns the figure of speed, aspect ratios, stresslet and squirmer parameter over time; between walls also of height
+/// and gap. Quantities are in the units of the scene.
 ///
 /// # Errors
-/// [`OutputError::Column`]: a table without these columns.
+/// Returns [`OutputError::Column`] for a table without these columns.
 pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
     let plot = |title: &str, label: &str| {
         Plot::new(title).x_axis("time t", AxisScale::Linear).y_axis(label, AxisScale::Linear)
@@ -39,8 +39,8 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
         .panel(plot("Gap to the walls", "gap").series(line("", "gap")?).horizontal(0.0, "")))
 }
 
-/// Figure of the concentration over `mean_concentration` (particles per length) along the interface, counter-clockwise
-/// from the front, at the start and at `time`.
+/// Returns the figure of the concentration over `mean_concentration` (particles per length) along the interface,
+/// counter-clockwise from the front, at the start and at `time`.
 #[must_use]
 pub fn concentration_plot(
     start: &ConcentrationProfile,

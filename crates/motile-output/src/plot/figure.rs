@@ -15,7 +15,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Figure without plots so far, in rows of `columns` plots.
+    /// Creates a figure without plots so far, in rows of `columns` plots.
     #[must_use]
     pub fn new(columns: usize) -> Self {
         Self { columns: columns.max(1), panels: Vec::new(), panel_size: [540.0, 340.0] }
@@ -39,10 +39,10 @@ impl Figure {
         draw(&self.panels, self.columns, self.panel_size)
     }
 
-    /// Text of an SVG file of the figure.
+    /// Returns the text of an SVG file of the figure.
     ///
     /// # Errors
-    /// [`OutputError::Empty`] without panels, [`OutputError::Size`] with panels too small or too large.
+    /// Returns [`OutputError::Empty`] without panels, [`OutputError::Size`] with panels too small or too large.
     pub fn svg(&self) -> Result<String, OutputError> {
         Ok(self.draw()?.svg())
     }
@@ -51,7 +51,7 @@ impl Figure {
     /// if needed.
     ///
     /// # Errors
-    /// As [`Figure::svg`], and [`OutputError::Write`].
+    /// Returns the errors of [`Figure::svg`], and [`OutputError::Write`].
     pub fn write(&self, directory: impl AsRef<Path>, name: &str) -> Result<(), OutputError> {
         let directory = directory.as_ref();
         fs::create_dir_all(directory).map_err(OutputError::writing(directory))?;

@@ -20,7 +20,7 @@ struct Panel<'a> {
     frame: Frame,
 }
 
-/// Drawing of plots in rows of `columns`, each of a width and height (pixels).
+/// Returns the drawing of plots in rows of `columns`, each of a width and height (pixels).
 pub(crate) fn draw(plots: &[Plot], columns: usize, [width, height]: [f64; 2]) -> Result<Drawing, OutputError> {
     if plots.is_empty() {
         return Err(OutputError::Empty("a figure without plots"));
@@ -38,7 +38,7 @@ pub(crate) fn draw(plots: &[Plot], columns: usize, [width, height]: [f64; 2]) ->
     Ok(drawing)
 }
 
-/// Axes of a plot within its panel.
+/// Returns the axes of a plot within its panel.
 fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
     let axis = |k: usize, range: [f64; 2], length: f64| {
         Axis::new(&plot.labels[k], range, plot.scales[k], ((length / (4.0 * em)) as usize).clamp(3, 9))
@@ -68,7 +68,7 @@ fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
     Frame { area, x, y, em }
 }
 
-/// Range of the data along an axis, with some space around it.
+/// Returns the range of the data along an axis, with some space around it.
 fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
     let scale = plot.scales[axis];
     let points = plot.series.iter().flat_map(|s| &s.points).map(|p| if axis == 0 { p.0 } else { p.1 });
@@ -107,7 +107,7 @@ impl Panel<'_> {
         drawing.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start));
     }
 
-    /// Series with their colours.
+    /// Returns the series with their colours.
     fn coloured(&self) -> Vec<(&Series, Rgb)> {
         let mut next = SERIES_COLOURS.iter().cycle();
         let colour = |s: &Series| s.colour.or_else(|| next.next().copied()).unwrap_or(Rgb::INK);

@@ -30,33 +30,33 @@ pub struct Series {
 }
 
 impl Series {
-    /// Series drawn as a line through points `(x, y)`, interrupted where a point is not finite. A series with an empty
-    /// label is not in the legend.
+    /// Creates series drawn as a line through points `(x, y)`, interrupted where a point is not finite. A series with
+    /// an empty label is not in the legend.
     #[must_use]
     pub fn line(label: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().collect();
         Self { label: label.to_string(), points, line: true, dashed: false, marker: None, colour: None }
     }
 
-    /// Series drawn as markers at points `(x, y)`, without a line.
+    /// Creates series drawn as markers at points `(x, y)`, without a line.
     #[must_use]
     pub fn points(label: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { line: false, marker: Some(Marker::Disc), ..Self::line(label, points) }
     }
 
-    /// Series with a dashed line.
+    /// Returns the series with a dashed line.
     #[must_use]
     pub fn dashed(self) -> Self {
         Self { dashed: true, ..self }
     }
 
-    /// Series with markers at its points.
+    /// Returns the series with markers at its points.
     #[must_use]
     pub fn marker(self, marker: Marker) -> Self {
         Self { marker: Some(marker), ..self }
     }
 
-    /// Series in a given colour instead of the next of [`crate::plot::SERIES_COLOURS`].
+    /// Returns the series in a given colour instead of the next of [`crate::plot::SERIES_COLOURS`].
     #[must_use]
     pub fn colour(self, colour: Rgb) -> Self {
         Self { colour: Some(colour), ..self }

@@ -109,9 +109,9 @@ fn names_of_other_formats_are_refused() {
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     for name in ["picture.jpg", "picture.pdf", "picture", "svg"] {
         let refused = Look::default().write_picture(&seen, &[], name).unwrap_err();
-        assert!(refused.to_string().ends_with("give a name that ends in .svg or .png"), "{refused}");
+        assert!(refused.to_string().ends_with("Use a name that ends in .svg or .png"), "{refused}");
         let refused = Animation::new(Look::default(), raster).write(&[], name).unwrap_err();
-        assert!(refused.to_string().ends_with("give a name that ends in .gif"), "{refused}");
+        assert!(refused.to_string().ends_with("Use a name that ends in .gif"), "{refused}");
     }
 }
 

@@ -18,8 +18,8 @@ pub(crate) struct Mirrors {
 }
 
 impl Mirrors {
-    /// Mirror lines through a point or the middle of the raster; in a direction that is not periodic only the middle
-    /// can be one.
+    /// Creates mirror lines through a point or the middle of the raster; in a direction that is not periodic only the
+    /// middle can be one.
     pub(crate) fn of(field: &Samples<Vec2>, through: Vec2, spacing: f64) -> Self {
         let raster = field.raster;
         let at = [0, 1].map(|k| {
@@ -30,14 +30,15 @@ impl Mirrors {
         Self { raster, at, spacing }
     }
 
-    /// Distance ahead of the mirror line across a direction, at most half a period either way, for a place with one.
+    /// Returns the distance ahead of the mirror line across a direction, at most half a period either way, for a place
+    /// with one.
     fn offset(&self, p: Vec2, k: usize) -> Option<f64> {
         let offset = p[k] - self.at[k]?;
         let period = self.raster.size[k];
         Some(if self.raster.periodic[k] { offset - period * (offset / period).round() } else { offset })
     }
 
-    /// Distance of a point from its image in the mirror line across a direction.
+    /// Returns the distance of a point from its image in the mirror line across a direction.
     fn gap(&self, p: Vec2, k: usize) -> Option<f64> {
         let offset = self.offset(p, k)?.abs();
         // Half a period away is a mirror line as well.
@@ -45,28 +46,28 @@ impl Mirrors {
         Some(2.0 * offset.min(other))
     }
 
-    /// True for points on a mirror line across a direction.
+    /// Returns true for points on a mirror line across a direction.
     fn is_on(&self, p: Vec2, k: usize) -> bool {
         self.gap(p, k).is_some_and(|gap| gap < 2.0 * ON * self.spacing)
     }
 
-    /// True for points ahead of all mirror lines or on them: lines elsewhere are images.
+    /// Returns true for points ahead of all mirror lines or on them: lines elsewhere are images.
     pub(crate) fn is_ahead(&self, p: Vec2) -> bool {
         (0..2).all(|k| self.offset(p, k).is_none_or(|offset| offset > 0.0) || self.is_on(p, k))
     }
 
-    /// True for points nearer to an image of their own than a distance, those on a mirror line apart.
+    /// Returns true for points nearer to an image of their own than a distance, those on a mirror line apart.
     pub(crate) fn is_near_image(&self, p: Vec2, distance: f64) -> bool {
         (0..2).any(|k| !self.is_on(p, k) && self.gap(p, k).is_some_and(|gap| gap < distance))
     }
 
-    /// Step that leads along the mirror line if it starts on one.
+    /// Returns the step that leads along the mirror line if it starts on one.
     pub(crate) fn along(&self, from: Vec2, mut to: Vec2) -> Vec2 {
         (0..2).filter(|&k| self.is_on(from, k)).for_each(|k| to[k] = from[k]);
         to
     }
 
-    /// Images of a line other than itself.
+    /// Returns the images of a line other than itself.
     pub(crate) fn images(&self, line: &[Vec2]) -> Vec<Vec<Vec2>> {
         let mut all = vec![line.to_vec()];
         for (k, at) in self.at.into_iter().enumerate() {
@@ -85,7 +86,7 @@ impl Mirrors {
     }
 }
 
-/// True if a flow is its image in the mirror line at a place across a direction.
+/// Returns true if a flow is its image in the mirror line at a place across a direction.
 fn is_mirrored(field: &Samples<Vec2>, k: usize, at: f64) -> bool {
     let (mut difference, mut total) = (0.0, 0.0);
     for (mut p, here) in field.raster.points().into_iter().zip(&field.values) {

@@ -40,7 +40,7 @@ pub enum SuspensionColour {
 
 /// Droplets of a scene at one time.
 ///
-/// The flow is computed at their markers, where it is known in a run, and at no further point.
+/// The flow is computed at their markers only, where a run knows it already.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -79,7 +79,8 @@ impl SuspensionPicture {
     /// Droplets in the present state; the flow at their markers is computed if it is not known yet.
     ///
     /// # Errors
-    /// [`OutputError::Scene`]: a flow that cannot be computed; [`OutputError::Empty`]: a scene without droplets.
+    /// Returns [`OutputError::Scene`] for a flow that cannot be computed; [`OutputError::Empty`] for a scene without
+    /// droplets.
     pub fn take<H: Hydrodynamics>(system: &mut System<H>) -> Result<Self, OutputError> {
         let members = Member::all(system)?;
         let droplets: Vec<Drop> = members
@@ -112,7 +113,7 @@ impl SuspensionPicture {
         Ok(Self { time: system.time(), droplets, corner, size, periodic: periods.map(|period| period.is_some()) })
     }
 
-    /// Displacements at which some of a curve is in the region.
+    /// Returns the displacements at which some of a curve is in the region.
     fn images(&self, markers: &[Vec2]) -> Vec<Vec2> {
         let axis = |k: usize| {
             if !self.periodic[k] {
@@ -127,7 +128,7 @@ impl SuspensionPicture {
         axis(0).into_iter().flat_map(|x| rows.iter().map(move |y| Vec2::new(x, *y))).collect()
     }
 
-    /// Drawing of so many pixels across.
+    /// Returns the drawing of so many pixels across.
     fn draw(&self, colour: SuspensionColour, width: f64, scale: Option<&ColourScale>) -> Drawing {
         let em = (width / 45.0).max(9.0);
         let margin = 0.8 * em;
@@ -193,8 +194,8 @@ impl SuspensionPicture {
     /// Writes a picture so many pixels wide, as SVG or PNG by the end of the name.
     ///
     /// # Errors
-    /// [`OutputError::Size`]: a width outside of 100 to 8000 pixels; [`OutputError::Format`]: a name that ends in
-    /// neither `.svg` nor `.png`; [`OutputError::Write`].
+    /// Returns [`OutputError::Size`] for a width outside of 100 to 8000 pixels; [`OutputError::Format`] for a name that
+    /// ends in neither `.svg` nor `.png`; [`OutputError::Write`].
     pub fn write_picture(
         &self,
         colour: SuspensionColour,
@@ -207,18 +208,18 @@ impl SuspensionPicture {
     }
 }
 
-/// Colour of a direction (radians).
+/// Returns the colour of a direction (radians).
 fn of_angle(angle: f64) -> Rgb {
     Rgb([0.0, 1.0, 2.0].map(|k| (BRIGHTNESS + CHROMA * (angle - k * TAU / 3.0).cos()).round() as u8))
 }
 
-/// Colour scale of the concentrations of some states.
+/// Returns the colour scale of the concentrations of some states.
 fn scale(all: &[SuspensionPicture]) -> Option<ColourScale> {
     let values = all.iter().flat_map(|crowd| &crowd.droplets).flat_map(|droplet| droplet.relative.iter().copied());
     ColourScale::from_zero(values, "concentration")
 }
 
-/// Parts of a path whose points are all marked.
+/// Returns the parts of a path whose points are all marked.
 fn runs(path: &[Pixel], marked: &[bool]) -> Vec<Vec<Pixel>> {
     let mut found: Vec<Vec<Pixel>> = vec![Vec::new()];
     for (point, marked) in path.iter().zip(marked) {
@@ -242,7 +243,7 @@ fn wheel(drawing: &mut Drawing, [x, y]: Pixel, radius: f64) {
     }
 }
 
-/// Observer that takes the [`SuspensionPicture`]s of a run and writes them as an animation in the end.
+/// Observer that takes the [`SuspensionPicture`]s of a run and writes them as an animation when the run ends.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -264,17 +265,17 @@ pub struct SuspensionAnimation {
 }
 
 impl SuspensionAnimation {
-    /// Film without frames yet, so many pixels wide.
+    /// Creates a film without frames yet, so many pixels wide.
     #[must_use]
     pub fn new(colour: SuspensionColour, width: f64) -> Self {
         Self { colour, width, crowds: Vec::new() }
     }
 
-    /// Writes the animation as a GIF that repeats for ever.
+    /// Writes the animation as a GIF that repeats forever.
     ///
     /// # Errors
-    /// [`OutputError::Empty`] without frames; [`OutputError::Size`]: a width outside of 100 to 2000 pixels;
-    /// [`OutputError::Write`].
+    /// Returns [`OutputError::Empty`] if there are no frames; [`OutputError::Size`] for a width outside of 100 to 2000
+    /// pixels; [`OutputError::Write`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         OutputError::check_size("an animation with a width (pixels)", self.width, 100.0, 2000.0)?;
         let (scale, mut frames) = (scale(&self.crowds), Frames::new());

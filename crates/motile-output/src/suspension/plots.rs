@@ -11,7 +11,7 @@ use crate::plot::{AxisScale, Figure, Plot, Series};
 /// ([`SuspensionCsv::diffusion`]); correlations of `pairs` over their distance.
 ///
 /// # Errors
-/// [`OutputError::Column`]: a table without the columns of a suspension.
+/// Returns [`OutputError::Column`] for a table without the columns of a suspension.
 pub fn suspension_plots(tables: &SuspensionCsv, from: f64, pairs: &PairCorrelations) -> Result<Figure, OutputError> {
     let plot =
         |title: &str, x: &str, y: &str| Plot::new(title).x_axis(x, AxisScale::Linear).y_axis(y, AxisScale::Linear);

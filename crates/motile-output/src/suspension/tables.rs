@@ -53,9 +53,9 @@ const MEMBERS: [&str; 12] = [
 
 /// Observer of all droplets of a scene together, which writes `suspension.csv` and `members.csv`.
 ///
-/// The columns of `suspension.csv`, of which fields are empty where a quantity does not exist: `time`; `polar_order`
-/// and `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean relative to the imposed flow (length
-/// per time); `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start;
+/// The columns of `suspension.csv`, of which fields are empty if a quantity does not exist: `time`; `polar_order` and
+/// `nematic_order` of the headings ([`Member::heading`]); `speed`, the mean relative to the imposed flow (length per
+/// time); `square_displacement`, the mean since the start (length squared); `heading_correlation` with the start;
 /// `contacts`, pairs of bodies closer than the reach; `largest_cluster` of droplets in contact; `smallest_gap` below
 /// the reach (length); `film`, the mean thickness of the films that a repulsion holds (length), and `film_pressure`,
 /// the largest pressure on one (force per length); `area_change` and `particle_change`, the largest relative ones of a
@@ -89,12 +89,12 @@ pub struct SuspensionCsv {
 }
 
 impl SuspensionCsv {
-    /// Observer that writes into a directory; bodies closer than `reach` (length) are in contact. In a resumed run,
-    /// past time 0, the tables begin with the rows that the checkpoint holds.
+    /// Creates an observer that writes into a directory; bodies closer than `reach` (length) are in contact. In a
+    /// resumed run, past time 0, the tables begin with the rows that the checkpoint holds.
     ///
     /// # Errors
-    /// [`OutputError::Empty`]: a scene without droplets; [`OutputError::Write`]; [`OutputError::Scene`]: a flow that
-    /// cannot be computed.
+    /// Returns [`OutputError::Empty`] for a scene without droplets; [`OutputError::Write`]; [`OutputError::Scene`] for
+    /// a flow that cannot be computed.
     pub fn create<H: Hydrodynamics>(
         directory: impl AsRef<Path>,
         system: &mut System<H>,
@@ -122,26 +122,26 @@ impl SuspensionCsv {
         Ok(Self { table: table?, members: members?, reach, stressed })
     }
 
-    /// Table over time, in a resumed run also of the time before.
+    /// Returns the table over time, in a resumed run also of the time before.
     #[must_use]
     pub fn table(&self) -> &CsvTable {
         &self.table
     }
 
-    /// Table of the droplets.
+    /// Returns the table of the droplets.
     #[must_use]
     pub fn members(&self) -> &CsvTable {
         &self.members
     }
 
-    /// The value of a column at the last time; `None` before the first row, and where there is no such value.
+    /// Returns the value of a column at the last time; `None` before the first row, and if there is no such value.
     #[must_use]
     pub fn last(&self, column: &str) -> Option<f64> {
         let k = COLUMNS.iter().position(|name| *name == column)?;
         self.table.rows().last()?.get(k).copied().filter(|value| value.is_finite())
     }
 
-    /// The times from `from` on, and what pairs of columns of the table of droplets say of all of them at each
+    /// Returns the times from `from` on, and what pairs of columns of the table of droplets say of all of them at each
     /// (`columns` is the number of the first one).
     fn states(&self, from: f64, columns: usize) -> (Vec<f64>, Vec<Vec<Vec2>>) {
         let (mut times, mut states) = (Vec::new(), Vec::<Vec<Vec2>>::new());
@@ -159,8 +159,8 @@ impl SuspensionCsv {
         (times, states)
     }
 
-    /// Mean square displacement (length squared) and correlation of headings (no dimension) over the time between two
-    /// states, from the time `from` on, all of them as far apart as on average.
+    /// Returns the mean square displacement (length squared) and correlation of headings (no dimension) over the time
+    /// between two states, from the time `from` on, all of them as far apart as on average.
     #[must_use]
     pub fn diffusion(&self, from: f64) -> Vec<[f64; 3]> {
         let ((times, places), (_, headings)) = (self.states(from, 2), self.states(from, 4));

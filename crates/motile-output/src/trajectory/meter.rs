@@ -8,7 +8,7 @@ use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{OutputError, SolidMeter};
 
-/// Columns that only channels have, and those of them that need rigid walls.
+/// Columns that only channels have, and which of them need rigid walls.
 const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
 const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 /// Columns that channels of curved walls do not have.
@@ -23,10 +23,10 @@ pub struct DropletMeter {
 }
 
 impl DropletMeter {
-    /// Meter of a droplet.
+    /// Creates a meter of a droplet.
     ///
     /// # Errors
-    /// [`OutputError::Observer`]: a state that cannot be measured.
+    /// Returns [`OutputError::Observer`] for a state that cannot be measured.
     pub fn of<H: Hydrodynamics>(system: &mut System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, OutputError> {
         let curved = system.hydrodynamics().walls().is_some();
         let walls = system.hydrodynamics().fluid_view().domain.walls.is_some();
@@ -45,16 +45,16 @@ impl DropletMeter {
         Ok(meter)
     }
 
-    /// Names of the values, the time first.
+    /// Returns the names of the values, the time first.
     #[must_use]
     pub fn names(&self) -> &[&'static str] {
         &self.names
     }
 
-    /// Record of the present state.
+    /// Returns the record of the present state.
     ///
     /// # Errors
-    /// A state that cannot be measured.
+    /// Returns an error for a state that cannot be measured.
     pub fn record<H: Hydrodynamics>(
         &self,
         system: &mut System<H>,
@@ -64,7 +64,7 @@ impl DropletMeter {
         Ok(recorder.records().last().cloned().ok_or("no record was made")?)
     }
 
-    /// Values of a record, in the order of the names; not a number where there is none.
+    /// Returns the values of a record, in the order of the names; not a number if there is none.
     #[must_use]
     pub fn row(&self, record: &TrajectoryRecord) -> Vec<f64> {
         let entries = record.entries();

@@ -1,4 +1,4 @@
-//! Bodies of one's own in a few lines.
+//! Write your own body in a few lines.
 
 mod decay;
 
@@ -12,8 +12,8 @@ use motile_base::{InputError, Vec2, internal::all_points_finite, not_negative};
 type ForceLaw = Box<dyn FnMut(&[Vec2], &mut [Vec2]) + Send>;
 type Motion = Box<dyn FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send>;
 
-/// A body that is nothing but markers, a law for their forces on the fluid, and how they move (with the fluid unless
-/// told otherwise). Its state is the positions; what has more of a state implements [`Body`].
+/// A body that is nothing but markers, a law for their forces on the fluid, and how they move (with the fluid by
+/// default). Its state is the positions; what has more of a state implements [`Body`].
 ///
 /// A fibre of springs that is tethered at one end:
 ///
@@ -42,6 +42,7 @@ type Motion = Box<dyn FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send>;
 /// assert!(end.x > 1.9 && end.x < 2.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias("fibre", "fiber", "filament", "flagellum", "swimmer"))]
 pub struct MarkerBody {
     name: String,
     kind: MarkerKind,
@@ -62,15 +63,15 @@ impl std::fmt::Debug for MarkerBody {
 }
 
 impl MarkerBody {
-    /// Markers at `positions` (length) that `forces` gives the forces on the fluid (force; all zero before the call),
-    /// and that move with the fluid.
+    /// Creates markers at `positions` (length) that `forces` gives the forces on the fluid (force; all zero before the
+    /// call), and that move with the fluid.
     ///
-    /// The fastest decay that the forces cause bounds the time step. It is found once, where the markers are when it
-    /// is first asked for, in at most thirty calls of `forces`: the largest eigenvalue, by the power method, of the
+    /// The fastest decay that the forces cause bounds the time step. It is found once, where the markers are when it is
+    /// first asked for, in at most thirty calls of `forces`. It is the largest eigenvalue, by the power method, of the
     /// derivative of the forces times a mobility of `(ln(L/r) + 1)/(4 pi eta)` between markers at the distance r, L
     /// being the smallest width of the domain and r the grid spacing for a marker's own force. It is an estimate from
     /// above: the mobility of a point of radius a in a square box is `(ln(L/a) - 1.31)/(4 pi eta)` (Hasimoto 1959). A
-    /// law that stiffens later, or depends on more than positions, needs [`MarkerBody::with_stiffness`]. Where nothing
+    /// law that stiffens later, or depends on more than positions, needs [`MarkerBody::with_stiffness`]. If nothing
     /// decays and nothing else in the scene bounds the time step, runs need [`crate::StepSize::Fixed`] or
     /// [`crate::StepSize::Adaptive`].
     pub fn new(
@@ -91,43 +92,44 @@ impl MarkerBody {
         self
     }
 
-    /// Sets how the markers move (with the fluid otherwise): from positions (length) and velocities of the fluid there
-    /// (length per time) `motion` writes their velocities (length per time; those of the fluid before the call).
+    /// Sets how the markers move (with the fluid otherwise). From positions (length) and velocities of the fluid there
+    /// (length per time) `motion` writes their velocities (length per time; before the call, the velocities of the
+    /// fluid).
     #[must_use]
     pub fn with_motion(mut self, motion: impl FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send + 'static) -> Self {
         self.motion = Some(Box::new(motion));
         self
     }
 
-    /// States how stiff the forces are, in place of looking for the fastest decay: they change by at most `stiffness`
+    /// States how stiff the forces are, in place of looking for the fastest decay. They change by at most `stiffness`
     /// (force per length) times a displacement, both as root sums of squares over the markers; zero for no bound on the
     /// time step.
     ///
-    /// The fastest decay is then taken to be that of all N markers together as if each were tethered,
-    /// `stiffness N (ln(L/r) + 1)/(4 pi eta)` with their radius of gyration r, or that of one alone with the grid
-    /// spacing for r, whichever is faster. Springs between markers allow much longer steps than that.
+    /// The fastest decay is then taken to be the decay of all N markers together as if each were tethered, `stiffness N
+    /// (ln(L/r) + 1)/(4 pi eta)` with their radius of gyration r, or of one alone with the grid spacing for r,
+    /// whichever is faster. Springs between markers allow much longer steps than that.
     ///
     /// # Errors
-    /// A stiffness that is negative or not finite.
+    /// Returns an error for a stiffness that is negative or not finite.
     pub fn with_stiffness(mut self, stiffness: f64) -> Result<Self, InputError> {
         self.stiffness = Some(not_negative("the stiffness", stiffness)?);
         self.decay.set(None);
         Ok(self)
     }
 
-    /// Positions of the markers (length).
+    /// Returns the positions of the markers (length).
     #[must_use]
     pub fn markers(&self) -> &[Vec2] {
         &self.positions
     }
 
-    /// Positions of the markers (length), to be changed between steps.
+    /// Returns the positions of the markers (length), to be changed between steps.
     pub fn markers_mut(&mut self) -> &mut [Vec2] {
         self.decay.set(None);
         &mut self.positions
     }
 
-    /// The fastest decay of displacements (1/time).
+    /// Returns the fastest decay of displacements (1/time).
     fn decay_rate(&self, view: &FluidView) -> f64 {
         let found = self.decay.get().unwrap_or_else(|| {
             let mobility = Mobility::new(view, &self.positions);

@@ -14,8 +14,8 @@ pub enum StepCause {
     },
     /// Transport with the flow, for which no integrator here allows longer steps.
     Transport,
-    /// A change that longer steps do not resolve: steps of a part of the limit and adaptive ones keep the bound, fixed
-    /// ones may be longer.
+    /// A change that longer steps do not resolve: steps of a fraction of the limit and adaptive ones keep the bound,
+    /// fixed ones may be longer.
     Accuracy,
 }
 
@@ -25,7 +25,7 @@ pub enum StepCause {
 /// bound runs with [`crate::StepSize::Fixed`] or [`crate::StepSize::Adaptive`] alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimit {
-    /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.
+    /// Largest stable step of the explicit midpoint rule (time); infinity if there is none.
     pub dt: f64,
     /// Reason, as it reads after "set by".
     pub reason: &'static str,
@@ -34,13 +34,14 @@ pub struct StepLimit {
 }
 
 impl StepLimit {
-    /// The bound for a mode that decays at the rate `2/dt`.
+    /// Creates the bound for a mode that decays at the rate `2/dt`.
     #[must_use]
     pub fn decay(dt: f64, reason: &'static str) -> Self {
         Self { dt, reason, cause: StepCause::Decay }
     }
 
-    /// The bound (time) for an integrator with that interval of stability, with or without the bodies' stabilisers.
+    /// Returns the bound (time) for an integrator with that interval of stability, with or without the bodies'
+    /// stabilisers.
     #[must_use]
     pub fn for_interval(&self, interval: f64, stabilised: bool) -> f64 {
         match self.cause {
@@ -50,7 +51,7 @@ impl StepLimit {
         }
     }
 
-    /// The rate of decay without a stabiliser (1/time); 0 for what does not decay.
+    /// Returns the rate of decay without a stabiliser (1/time); 0 for what does not decay.
     #[must_use]
     pub fn decay_rate(&self) -> f64 {
         match self.cause {

@@ -11,7 +11,7 @@ use motile_base::{Refusal, internal::Refuse};
 pub enum CheckpointError {
     /// The file could not be written or read.
     #[error(
-        "could not {action} the checkpoint {}: check the path, the permissions and the space on the disk",
+        "could not {action} the checkpoint {}. Check the path, the permissions and the space on the disk",
         path.display()
     )]
     File {
@@ -23,14 +23,14 @@ pub enum CheckpointError {
         source: std::io::Error,
     },
     /// No file at this path.
-    #[error("there is no checkpoint at {}: check the path", path.display())]
+    #[error("there is no checkpoint at {}. Check the path", path.display())]
     Missing {
         /// The path.
         path: PathBuf,
     },
     /// A checkpoint of another version of the format.
     #[error(
-        "the checkpoint has version {found} of the format, this program reads version {supported}: use the program \
+        "the checkpoint has version {found} of the format, this program reads version {supported}. Use the program \
          that wrote it"
     )]
     Version {
@@ -47,7 +47,7 @@ pub enum CheckpointError {
 motile_base::debug_as_explanation!(CheckpointError);
 
 impl CheckpointError {
-    /// A file that could not be read.
+    /// Returns the error for a file that could not be read.
     pub(super) fn reading(path: &Path, source: std::io::Error) -> Self {
         let path = path.to_owned();
         match source.kind() {
@@ -67,25 +67,25 @@ impl CheckpointError {
         Self::refused(what, "", "Change its permissions")
     }
 
-    /// Something else than a checkpoint.
+    /// Returns the error for something else than a checkpoint.
     pub(super) fn foreign() -> Self {
         let what = "this file is not a checkpoint, because it does not start as one does";
         Self::refused(what, "", "Use the path of a checkpoint")
     }
 
-    /// The end is missing, or there is something after it.
+    /// Returns the error for a file whose end is missing, or that continues after it.
     pub(super) fn length(expected: u64, found: u64) -> Self {
         let value = format!("it has {found} bytes where {expected} are needed");
         Self::refused("the checkpoint is incomplete or has been added to", value, ANOTHER)
     }
 
-    /// The contents are not those that were written, by their checksums.
+    /// Returns the error for contents that differ from what was written, by their checksums.
     pub(super) fn damaged(expected: u32, found: u32) -> Self {
         let value = format!("its checksum is {found:08x} where {expected:08x} was written");
         Self::refused("the checkpoint is damaged", value, ANOTHER)
     }
 
-    /// The contents are not those of a checkpoint, though they are what was written.
+    /// Returns the error for contents that do not form a checkpoint, though they are what was written.
     pub(super) fn contents(cause: &postcard::Error) -> Self {
         Self::refused("the contents of the checkpoint make no sense", cause.to_string(), ANOTHER)
     }

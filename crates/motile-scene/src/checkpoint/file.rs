@@ -1,7 +1,8 @@
 //! Checkpoints as bytes and as files.
 //!
-//! A file is a header of 24 bytes and the contents in the postcard format (all numbers little-endian): eight bytes that
-//! say what it is, the version of the format (four bytes), the length of the contents (eight), their CRC-32 (four).
+//! A file is a header of 24 bytes and the contents in the postcard format (all numbers little-endian). The header has
+//! eight bytes that say what it is, the version of the format (four bytes), the length of the contents (eight), their
+//! CRC-32 (four).
 
 use std::fs::{self, File};
 use std::io::{Error, Read, Write};
@@ -22,10 +23,10 @@ impl Checkpoint {
     /// First bytes of each file.
     pub const MARK: [u8; 8] = *b"motile\x00\x1a";
 
-    /// The bytes of a file.
+    /// Returns the bytes of a file.
     ///
     /// # Errors
-    /// None that is known.
+    /// Returns no error that is known.
     pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
         let contents = postcard::to_stdvec(self).map_err(|error| CheckpointError::contents(&error))?;
         let mut bytes = Vec::with_capacity(HEADER + contents.len());
@@ -37,10 +38,10 @@ impl Checkpoint {
         Ok(bytes)
     }
 
-    /// A checkpoint from the bytes of a file.
+    /// Creates a checkpoint from the bytes of a file.
     ///
     /// # Errors
-    /// Bytes that are not exactly those of a checkpoint.
+    /// Bytes that are not exactly the errors of a checkpoint.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
         if !bytes.starts_with(&Self::MARK) {
             return Err(CheckpointError::foreign());
@@ -66,10 +67,10 @@ impl Checkpoint {
         Self::from_contents(contents)
     }
 
-    /// A checkpoint from the contents of a file without its header.
+    /// Creates a checkpoint from the contents of a file without its header.
     ///
     /// # Errors
-    /// Contents that are not those of a checkpoint.
+    /// Contents that are not the errors of a checkpoint.
     pub fn from_contents(contents: &[u8]) -> Result<Self, CheckpointError> {
         match postcard::take_from_bytes(contents) {
             Ok((checkpoint, [])) => Ok(checkpoint),
@@ -82,7 +83,8 @@ impl Checkpoint {
     /// on the disk. However the program ends, there is a complete checkpoint at `path` if there was one before.
     ///
     /// # Errors
-    /// A file that cannot be written; a file at `path` that is no checkpoint, which would be lost.
+    /// Returns an error for a file that cannot be written; a file at `path` that is not a checkpoint, which would be
+    /// lost.
     pub fn write(&self, path: &Path) -> Result<(), CheckpointError> {
         let bytes = self.to_bytes()?;
         let temporary = temporary(path);
@@ -99,7 +101,7 @@ impl Checkpoint {
             let mut first = Vec::with_capacity(HEADER);
             found.take(MARK_LENGTH).read_to_end(&mut first).map_err(problem("write", path))?;
             if !first.is_empty() && first != Self::MARK {
-                let source = Error::other("there is a file of this name that is no checkpoint: give another name");
+                let source = Error::other("a file with this name exists and is not a checkpoint. Use another name");
                 return Err(problem("write", path)(source));
             }
         }
@@ -121,8 +123,8 @@ impl Checkpoint {
     /// Reads a file.
     ///
     /// # Errors
-    /// A file that is not there ([`CheckpointError::Missing`]) or cannot be read, or is not a complete and undamaged
-    /// checkpoint of this version.
+    /// Returns an error for a file that is not there ([`CheckpointError::Missing`]) or cannot be read, or is not a
+    /// complete and undamaged checkpoint of this version.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|mut file| {
@@ -131,7 +133,7 @@ impl Checkpoint {
             if kind.is_file() || kind.is_dir() {
                 file.read_to_end(&mut bytes)
             } else {
-                Err(Error::other("it is no regular file"))
+                Err(Error::other("this is not a file. Use the path of a file"))
             }
         });
         read.map_err(|source| CheckpointError::reading(path, source))?;
@@ -139,8 +141,8 @@ impl Checkpoint {
     }
 }
 
-/// Where a checkpoint is written before it is complete: beside its place, so that it can be moved there at once, under
-/// a name of this process' own.
+/// Returns the place where a checkpoint is written before it is complete: in the same directory, so that it can be
+/// moved there at once, under a name that only this process uses.
 fn temporary(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.{}.part", std::process::id()))

@@ -47,7 +47,7 @@ fn another_domain_is_told_by_a_length() {
 fn what_keeps_a_file_from_being_read_is_told() {
     use std::io::ErrorKind;
     let told = |kind: ErrorKind| CheckpointError::reading(std::path::Path::new("a/b"), kind.into()).to_string();
-    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b: check the path");
+    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b. Check the path");
     assert_eq!(
         told(ErrorKind::PermissionDenied),
         "there is no permission to read the checkpoint a/b. Change its permissions"

@@ -97,7 +97,7 @@ impl Nearest {
         }
     }
 
-    /// The signed distance (length). What is on a side has no height and is at no distance.
+    /// Returns the signed distance (length). What is on a side has no height and is at no distance.
     pub(super) fn distance(&self) -> f64 {
         self.squared.sqrt().copysign(self.height)
     }
@@ -121,7 +121,7 @@ impl Boundary {
         self.tree.clear();
     }
 
-    /// True without sides.
+    /// Returns true without sides.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.sides.is_empty()
@@ -132,40 +132,41 @@ impl Boundary {
         self.tree.build(self.sides.iter().map(|&side| Frame::around(side)));
     }
 
-    /// The box around all of it; `None` without sides.
+    /// Returns the box around all of it; `None` without sides.
     pub(crate) fn frame(&self) -> Option<Frame> {
         self.tree.frame()
     }
 
-    /// The sides, each with its start and end.
+    /// Returns the sides, each with its start and end.
     #[must_use]
     pub fn sides(&self) -> &[[Vec2; 2]] {
         &self.sides
     }
 
-    /// The longest side (length).
+    /// Returns the longest side (length).
     pub(super) fn longest_side(&self) -> f64 {
         self.sides.iter().map(|[start, end]| (end - start).length()).fold(0.0, f64::max)
     }
 
-    /// Where the sides start (length): the corners of closed polygons.
+    /// Returns the places where the sides start (length): the corners of closed polygons.
     pub fn corners(&self) -> impl Iterator<Item = Vec2> {
         self.sides.iter().map(|[start, _]| *start)
     }
 
-    /// The signed distance of `point` from the boundary (length), over all images where there are `periods` (length, in
-    /// x and y): negative inside the body, infinite without sides, not a number for a point that is not finite.
+    /// Returns the signed distance of `point` from the boundary (length), over all images where there are `periods`
+    /// (length, in x and y). It is negative inside the body, infinite without sides, not a number for a point that is
+    /// not finite.
     #[must_use]
     pub fn distance(&self, point: Vec2, periods: impl Into<Periods>) -> f64 {
         self.distance_if_within(point, periods.into(), f64::INFINITY).unwrap_or(f64::INFINITY)
     }
 
-    /// The signed distance if its magnitude is below `reach` (length); see [`Boundary::distance`].
+    /// Returns the signed distance if its magnitude is below `reach` (length); see [`Boundary::distance`].
     pub(crate) fn distance_within(&self, point: Vec2, periods: impl Into<Periods>, reach: f64) -> Option<f64> {
         self.nearest_within(point, periods, reach).map(|found| found.distance())
     }
 
-    /// The nearest place to `point` below `reach` (length).
+    /// Returns the nearest place to `point` below `reach` (length).
     pub(super) fn nearest_within(&self, point: Vec2, periods: impl Into<Periods>, reach: f64) -> Option<Nearest> {
         let periods = periods.into();
         let mut found = Nearest { squared: reach * reach, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
@@ -177,8 +178,8 @@ impl Boundary {
         (found.squared < reach * reach).then_some(found)
     }
 
-    /// The smallest signed distance of points, such as the markers of an interface, and the number of that point;
-    /// `None` without points or sides.
+    /// Returns the smallest signed distance of points, such as the markers of an interface, and the number of that
+    /// point; `None` without points or sides.
     #[must_use]
     pub fn smallest(&self, points: &[Vec2], periods: impl Into<Periods>) -> Option<(f64, usize)> {
         let periods = periods.into();
@@ -193,8 +194,8 @@ impl Boundary {
     }
 }
 
-/// The smallest signed distance of points from boundaries, `within(point, reach)` where its magnitude is below `reach`,
-/// and the number of that point.
+/// Returns the smallest signed distance of points from boundaries, `within(point, reach)` where its magnitude is below
+/// `reach`, and the number of that point.
 pub(super) fn smallest(
     points: impl Iterator<Item = Vec2>,
     within: impl Fn(Vec2, f64) -> Option<f64>,
@@ -220,8 +221,8 @@ pub(super) fn smallest(
     smallest
 }
 
-/// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that
-/// body's nearest image is looked for), for its own those of its images.
+/// Returns the displacements of an interface at which it is compared with a boundary: for one of another body its place
+/// (that body's nearest image is looked for), and for its own, the places of its images.
 pub(super) fn shifts(periods: Periods, own: bool) -> [Option<Vec2>; 4] {
     if !own {
         return [Some(Vec2::ZERO), None, None, None];

@@ -21,9 +21,9 @@ pub(super) struct Contact {
     pub(super) gap: f64,
 }
 
-/// Where the surfaces of bodies are close to one another or to walls; keeps its memory.
+/// The places where the surfaces of bodies are close to one another or to walls; keeps its memory.
 ///
-/// Gaps are those of corners from sides, measured both ways, of which each counts a half; at walls that of the corners
+/// Gaps are measured from corners to sides, measured both ways, of which each counts a half; at walls from the corners
 /// alone, which is the whole. Of what is fixed no force moves anything.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Films {
@@ -78,12 +78,12 @@ impl Films {
         });
     }
 
-    /// All contacts.
+    /// Returns all contacts.
     pub(super) fn contacts(&self) -> impl Iterator<Item = &Contact> {
         self.pieces.iter().flat_map(|piece| &piece.contacts)
     }
 
-    /// Adds the forces of a repulsion to `forces`, those of the markers (force).
+    /// Adds the forces of a repulsion to `forces`, the forces of the markers (force).
     pub(crate) fn push_apart(&mut self, repulsion: &Repulsion, surfaces: &Surfaces, forces: &mut [Vec2]) {
         let Self { weights, pieces, energies, axisymmetric } = self;
         energies.clear();
@@ -120,15 +120,16 @@ impl Films {
         }
     }
 
-    /// The energy of a repulsion (force times length).
+    /// Returns the energy of a repulsion (force times length).
     #[cfg(test)]
     pub(crate) fn energy(&self, repulsion: &Repulsion) -> f64 {
         let each = |c: &Contact| c.share() * self.weights[c.corner] * repulsion.energy(c.gap);
         self.contacts().map(each).sum()
     }
 
-    /// The fastest relaxation of films under a repulsion (1/time), in fluid of that viscosity (stress times time): that
-    /// of the gap, and that of what it adds to the tension, which relaxes at `unit` (1/(force times time)) times it.
+    /// Returns the fastest relaxation of films under a repulsion (1/time), in fluid of that viscosity (stress times
+    /// time). It is the rate of the gap, and the rate of what it adds to the tension, which relaxes at `unit` (1/(force
+    /// times time)) times it.
     pub(crate) fn relaxation(&self, repulsion: &Repulsion, viscosity: f64, unit: f64) -> f64 {
         let rate = |contact: &Contact| {
             let tension = contact.share() * repulsion.energy(contact.gap);
@@ -137,8 +138,8 @@ impl Films {
         self.contacts().map(rate).fold(0.0, f64::max)
     }
 
-    /// The time in which the film that closes fastest would be gone at the velocities of the markers (length per
-    /// time), and the body whose corner it is measured from; gaps below `least` (length) count as that.
+    /// Returns the time in which the film that closes fastest would be gone at the velocities of the markers (length
+    /// per time), and the body whose corner it is measured from. Gaps below `least` (length) count as that.
     pub(crate) fn closing(&self, surfaces: &Surfaces, velocities: &[Vec2], least: f64) -> Option<(f64, usize)> {
         let velocity = |corner: usize| surfaces.corners[corner].marker.map_or(Vec2::ZERO, |marker| velocities[marker]);
         let times = self.contacts().filter_map(|contact| {
@@ -247,7 +248,7 @@ impl Piece {
 }
 
 impl Surfaces {
-    /// The sides of all bodies that have corners: the corners at their ends, and where these are (length).
+    /// Returns the sides of all bodies that have corners: the corners at their ends, and where these are (length).
     fn sides(&self) -> impl Iterator<Item = ((usize, usize), [Vec2; 2])> {
         let corners = self.corners.iter().enumerate().map(|(start, corner)| (start, corner.next));
         corners.zip(self.boundaries.iter().flat_map(|boundary| boundary.sides().iter().copied()))
@@ -255,7 +256,7 @@ impl Surfaces {
 }
 
 impl Contact {
-    /// Part of its gap that a contact counts for: gaps between two surfaces are measured both ways.
+    /// Returns the part of its gap that a contact counts for: gaps between two surfaces are measured both ways.
     pub(super) fn share(&self) -> f64 {
         if self.ends.is_some() { 0.5 } else { 1.0 }
     }
@@ -266,7 +267,7 @@ fn half_circle([start, end]: [Vec2; 2]) -> f64 {
     0.5 * PI * (start.y + end.y)
 }
 
-/// A corner at a place found on a side; `sign` is -1 for what lies inside.
+/// Returns a corner at a place found on a side; `sign` is -1 for what lies inside.
 fn contact(corner: usize, ends: Option<[usize; 2]>, found: &Nearest, [from, to]: [Vec2; 2], sign: f64) -> Contact {
     let distance = found.distance();
     let outwards = Vec2::new(to.y - from.y, from.x - to.x).try_normalize().unwrap_or_default();

@@ -7,20 +7,20 @@ use motile_base::Vec2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RepulsionLoad {
-    /// Sum over pairs of bodies of `r F` (force times length): r from the mean place of the other body's corners to
-    /// that of the one that the force F acts on. Over the area of a box it is minus the stress that forces between
-    /// bodies transmit (Batchelor 1977), half of its trace the pressure.
+    /// Sum over pairs of bodies of `r F` (force times length): r from the mean place of the other body's corners to the
+    /// mean place of the one that the force F acts on. Over the area of a box it is minus the stress that forces
+    /// between bodies transmit (Batchelor 1977), half of its trace the pressure.
     pub virial: [[f64; 2]; 2],
     /// Largest pressure on a surface (force per length).
     pub largest_pressure: f64,
-    /// Mean thickness of the films within its range (length), weighted with the force; `None` where there is none.
+    /// Mean thickness of the films within its range (length), weighted with the force; `None` if there is none.
     pub mean_film: Option<f64>,
     /// Length of all surfaces within its range (length).
     pub length: f64,
 }
 
 impl Films {
-    /// The load of a repulsion on the films that were found last, within its range at least.
+    /// Returns the load of a repulsion on the films that were found last, within its range at least.
     pub(crate) fn load(&self, repulsion: &Repulsion, surfaces: &Surfaces) -> RepulsionLoad {
         let middles: Vec<Vec2> = surfaces
             .boundaries
@@ -54,7 +54,7 @@ impl Films {
 }
 
 impl Surfaces {
-    /// The body of a corner, and where it is (length).
+    /// Returns the body of a corner, and where it is (length).
     fn place(&self, corner: usize) -> (usize, Vec2) {
         let body = self.firsts.partition_point(|&first| first <= corner).saturating_sub(1);
         (body, self.boundaries[body].sides()[corner - self.firsts[body]][0])

@@ -7,7 +7,7 @@ use motile_base::{
     boxes::{Frame, Periods},
 };
 
-/// Depth to which an interface may be inside another one, in units of [`Surfaces::contact_scale`]: sides of length s
+/// Depth to which an interface may be inside another one, in units of [`Surfaces::contact_scale`]. Sides of length s
 /// leave a curve of radius R by s/(8R) of their length, which is this at R = 6 s.
 const CURVES: f64 = 0.02;
 /// The like of an interface and a solid, or of two solids: films that drain at rest on a surface that only a grid
@@ -33,7 +33,7 @@ pub struct Overlap {
 }
 
 impl Surfaces {
-    /// The first two bodies that overlap; images of one and the same body are not looked at.
+    /// Returns the first two bodies that overlap; images of one and the same body are not looked at.
     ///
     /// ```
     /// use motile_base::Vec2;
@@ -75,20 +75,20 @@ impl Surfaces {
         })
     }
 
-    /// Depth to which a body may be inside another one (length), of a [`Surfaces::contact_scale`].
+    /// Returns the depth to which a body may be inside another one (length), of a [`Surfaces::contact_scale`].
     pub(super) fn allowed(&self, scale: f64, bodies: [usize; 2]) -> f64 {
         let interfaces = bodies.iter().all(|&body| self.kinds[body].is_curve());
         (if interfaces { CURVES } else { CONTACT }) * scale
     }
 
-    /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface
-    /// (length).
+    /// Returns the length that contacts are measured in. It is the grid spacing, and without a grid the longest side of
+    /// an interface (length).
     pub(crate) fn contact_scale(&self, view: &FluidView) -> f64 {
         let interfaces = self.boundaries.iter().zip(&self.kinds).filter(|(_, kind)| kind.is_curve());
         view.spacing.unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
     }
 
-    /// The innermost interface that each body lies in.
+    /// Returns the innermost interface that each body lies in.
     pub(crate) fn surroundings(&self, periods: Periods, around: &mut Vec<Option<usize>>) {
         let of = |inner: usize| {
             let (frame, mut innermost) = (self.boundaries[inner].frame()?, None);
@@ -108,8 +108,8 @@ impl Surfaces {
         threads::each(0, around, self.corners.len(), &|inner, outer| *outer = of(inner));
     }
 
-    /// The deepest place that two bodies have in common, and how deep it is in both (length); for what lies inside an
-    /// interface, the place where it reaches out furthest.
+    /// Returns the deepest place that two bodies have in common, and how deep it is in both (length); for what lies
+    /// inside an interface, the place where it reaches out furthest.
     fn overlap(&self, a: usize, b: usize, periods: Periods, film: f64) -> Option<(Vec2, f64)> {
         let [first, second] = [&self.boundaries[a], &self.boundaries[b]];
         if !first.frame()?.is_near(&second.frame()?, periods, 0.0) {
@@ -136,8 +136,8 @@ impl Surfaces {
 }
 
 impl Boundary {
-    /// True where the body lies inside another one, or inside one of its images: most of its corners do, some of them
-    /// deeper than `film` (length).
+    /// Returns true if the body lies inside another one, or inside one of its images: most of its corners do, some of
+    /// them deeper than `film` (length).
     pub(super) fn lies_in(&self, outer: &Self, periods: Periods, film: f64) -> bool {
         let [Some(small), Some(large)] = [self, outer].map(Self::frame) else { return false };
         // A part of the inner one may have crossed.
@@ -148,7 +148,7 @@ impl Boundary {
         2 * asked().filter(|distance| *distance < 0.0).count() > asked().count() && asked().any(|d| d < -film)
     }
 
-    /// Places below its sides, some of them far inside.
+    /// Returns the places below its sides, some of them far inside.
     fn inner_places(&self) -> impl Iterator<Item = Vec2> {
         let size = self.frame().map_or(0.0, |frame| Frame::size(&frame));
         self.some_sides().flat_map(move |[start, end]| {

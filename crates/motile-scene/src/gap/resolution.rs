@@ -1,4 +1,4 @@
-//! Gaps beside rigid surfaces that are too narrow for the nodes there.
+//! Gaps at rigid surfaces that are too narrow for the nodes there.
 
 use super::{Boundary, Surfaces, boundary::shifts};
 use crate::{Domain, MarkerKind};
@@ -7,16 +7,16 @@ use motile_base::{
     boxes::{Frame, Periods},
 };
 
-/// Distance of nodes, over the breadth of a gap, up to which speeds are within a per cent. Measured for discs of radius
-/// 0.1 that approach discs of radius 0.1 to 3 at gaps of 0.001 to 0.1: at most 0.3 % off at 0.53, 2 % at 0.7, 11 % at
-/// 0.8, 77 % at 1.2. For discs of radius 0.1 and 0.4 that approach a disc of radius 1.5 as a wall, at gaps of 0.02 to
-/// 0.3: at most 0.3 % off at 0.55, 2 % at 0.7, 8 % at 1.
+/// Distance of nodes, over the breadth of a gap, up to which speeds are within 1 %. Measured for discs of radius 0.1
+/// that approach discs of radius 0.1 to 3 at gaps of 0.001 to 0.1. They are at most 0.3 % off at 0.53, 2 % at 0.7, 11 %
+/// at 0.8, 77 % at 1.2. For discs of radius 0.1 and 0.4 that approach a disc of radius 1.5 as a wall, at gaps of 0.02
+/// to 0.3: at most 0.3 % off at 0.55, 2 % at 0.7, 8 % at 1.
 const RESOLVED: f64 = 0.55;
 /// Distance of a wall's nodes, over the breadth of a gap, above which a solution is of no use: 0.4 above a disc of
 /// radius 1.5, discs turn the wrong way at 1.75, and approach it twice as fast as they should at 2.
 const NONSENSE: f64 = 1.5;
 
-/// A gap beside a rigid surface that is too narrow for the nodes there.
+/// A gap at a rigid surface that is too narrow for the nodes there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CoarseGap {
     /// Number of the body.
@@ -25,34 +25,34 @@ pub(crate) struct CoarseGap {
     pub(crate) other: Option<usize>,
     /// The gap (length).
     pub(crate) width: f64,
-    /// Where it is (length).
+    /// Its place (length).
     pub(crate) place: Vec2,
-    /// Distance of the nodes on either side (length): of the body, and of the other body or the wall. That of a droplet
-    /// beside a wall is 0, because the droplet gives way.
+    /// Distance of the nodes on either side (length): of the body, and of the other body or the wall. The value for a
+    /// droplet next to a wall is 0, because the droplet gives way.
     pub(crate) spacings: [f64; 2],
     /// Largest distance of nodes that resolves the gap (length).
     pub(crate) resolved: f64,
 }
 
 impl CoarseGap {
-    /// The largest distance of nodes over the one that resolves the gap.
+    /// Returns the largest distance of nodes over the one that resolves the gap.
     pub(crate) fn excess(&self) -> f64 {
         self.spacings[0].max(self.spacings[1]) / self.resolved
     }
 
-    /// True if what a wall does to the body is no solution in any sense.
+    /// Returns true if what a wall does to the body is not a solution in any sense.
     pub(crate) fn is_of_no_use(&self) -> bool {
         self.other.is_none() && self.spacings[1] * RESOLVED > NONSENSE * self.resolved
     }
 }
 
-/// Breadth of a gap (length) between surfaces of that sum of curvatures (1/length), over which it widens to about twice
-/// its width: half the distance of the poles of bipolar coordinates for two circles.
+/// Returns the breadth of a gap (length) between surfaces of that sum of curvatures (1/length), over which it widens to
+/// about twice its width. For two circles, it is half the distance of the poles of bipolar coordinates.
 fn breadth(width: f64, curvature: f64) -> f64 {
     if curvature > 0.0 { (width * (2.0 / curvature + width)).sqrt() } else { f64::INFINITY }
 }
 
-/// Where two boundaries are nearest.
+/// The place where two boundaries are nearest.
 #[derive(Debug, Clone, Copy)]
 struct Nearest {
     width: f64,
@@ -61,7 +61,7 @@ struct Nearest {
     sides: [usize; 2],
 }
 
-/// The nearest corner of a boundary, displaced, to another one below `reach` (length).
+/// Returns the nearest corner of a boundary, displaced, to another one below `reach` (length).
 fn nearest(from: &Boundary, shift: Vec2, to: &Boundary, periods: Periods, reach: f64) -> Option<Nearest> {
     let mut least: Option<Nearest> = None;
     for (corner, place) in from.corners().enumerate() {
@@ -74,8 +74,8 @@ fn nearest(from: &Boundary, shift: Vec2, to: &Boundary, periods: Periods, reach:
 }
 
 impl Boundary {
-    /// Curvature (1/length; positive where what is inside is convex) and mean length of the sides (length), over so
-    /// many sides before and after one.
+    /// Returns the curvature (1/length; positive where what is inside is convex) and mean length of the sides (length),
+    /// over so many sides before and after one.
     fn local(&self, side: usize, reach: usize) -> [f64; 2] {
         let (sides, len) = (self.sides(), self.sides().len());
         let after = |k: usize| Some((k + 1) % len).filter(|&next| sides[k][1] == sides[next][0]);
@@ -97,7 +97,7 @@ impl Boundary {
 }
 
 impl Surfaces {
-    /// Curvature of a body at one of its sides (1/length), and the distance of its nodes there (length).
+    /// Returns the curvature of a body at one of its sides (1/length), and the distance of its nodes there (length).
     fn at(&self, body: usize, side: usize, nodes: usize) -> [f64; 2] {
         let boundary = &self.boundaries[body];
         let per_node = boundary.sides().len() as f64 / nodes as f64;
@@ -105,24 +105,25 @@ impl Surfaces {
         [curvature, length * per_node]
     }
 
-    /// Largest distance of the nodes of a body (length).
+    /// Returns the largest distance of the nodes of a body (length).
     fn widest(&self, body: usize, nodes: usize) -> f64 {
         let boundary = &self.boundaries[body];
         boundary.longest_side() * boundary.sides().len() as f64 / nodes as f64
     }
 
-    /// The narrowest gap below `reach` (length) between two bodies, at least one of them an interface, images included
-    /// but no body and its own; for bodies that do not overlap.
+    /// Returns the narrowest gap below `reach` (length) between two bodies, at least one of them an interface, images
+    /// included but no body and its own; for bodies that do not overlap.
     pub(crate) fn narrower(&self, domain: &Domain, reach: f64) -> Option<f64> {
         self.least_between(domain.periods, reach, |one, other| one.is_curve() || other.is_curve()).map(|(gap, _)| gap)
     }
 
-    /// The narrowest gap below `reach` (length) between two solids, which may touch by design, and the solids.
+    /// Returns the narrowest gap below `reach` (length) between two solids, which may touch by design, and the solids.
     pub(crate) fn between_solids(&self, domain: &Domain, reach: f64) -> Option<(f64, [usize; 2])> {
         self.least_between(domain.periods, reach, |one, other| !one.is_curve() && !other.is_curve())
     }
 
-    /// The narrowest gap below `reach` (length) between two bodies of some kinds that do not overlap, and the bodies.
+    /// Returns the narrowest gap below `reach` (length) between two bodies of some kinds that do not overlap, and the
+    /// bodies.
     fn least_between(
         &self,
         periods: Periods,
@@ -150,7 +151,7 @@ impl Surfaces {
         least
     }
 
-    /// The pair of bodies, at least one of them rigid, whose gap so many nodes resolve worst, if they do not.
+    /// Returns the pair of bodies, at least one of them rigid, whose gap so many nodes resolve worst, if they do not.
     pub(crate) fn coarse_pair(&self, domain: &Domain, nodes: usize) -> Option<CoarseGap> {
         let rigid = |body: usize| self.kinds[body] == MarkerKind::Rigid;
         let curves = || (0..self.boundaries.len()).filter(|&body| self.kinds[body].is_curve());
@@ -172,7 +173,7 @@ impl Surfaces {
         worst
     }
 
-    /// The gap between two bodies, or a body and its own image, if the nodes do not resolve it.
+    /// Returns the gap between two bodies, or a body and its own image, if the nodes do not resolve it.
     fn gap_between(&self, pair: [usize; 2], periods: Periods, reach: f64, nodes: usize) -> Option<CoarseGap> {
         let [body, other] = pair;
         let [one, two] = pair.map(|body| &self.boundaries[body]);
@@ -197,8 +198,8 @@ impl Surfaces {
             .filter(|gap| gap.excess() > 1.0)
     }
 
-    /// The gap between a body and rigid walls, whose nodes are so far apart at each side (length), that nodes resolve
-    /// worst, if they do not.
+    /// Returns the gap between a body and rigid walls, whose nodes are so far apart at each side (length), that nodes
+    /// resolve worst, if they do not.
     pub(crate) fn coarse_wall(
         &self,
         domain: &Domain,
@@ -230,7 +231,7 @@ impl Surfaces {
     }
 }
 
-/// The gap of two that is resolved worse.
+/// Returns the gap of two that is resolved worse.
 fn worse(one: Option<CoarseGap>, other: Option<CoarseGap>) -> Option<CoarseGap> {
     one.into_iter().chain(other).max_by(|a, b| a.excess().total_cmp(&b.excess()))
 }

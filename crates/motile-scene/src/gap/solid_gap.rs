@@ -7,7 +7,7 @@ use motile_base::{Vec2, internal::told_apart};
 const RECORD: &str = "smallest gap to a solid";
 
 /// Measures the gap between the interfaces of a system and all its solids, keeps the smallest one, and ends the run
-/// where an interface enters a solid deeper than it may. Solids are all bodies that are no closed curves and have a
+/// where an interface enters a solid deeper than it may. Solids are all bodies that are not closed curves and have a
 /// surface ([`Body::surfaces`]), whatever their types. Checkpoints hold the smallest gap.
 ///
 /// ```no_run
@@ -33,9 +33,9 @@ pub struct SolidGap {
 /// An interface that has entered a solid.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[error(
-    "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {} inside a solid, more than {}: {}",
+    "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {} inside a solid, more than {}. {}",
     told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
-    if *at_start { "move them apart" } else { "use a smaller time step or a finer grid" }
+    if *at_start { "Move them apart" } else { "Use a smaller time step or a finer grid" }
 )]
 pub struct SolidEntered {
     /// Name of the interface.
@@ -57,27 +57,28 @@ pub struct SolidEntered {
 motile_base::debug_as_explanation!(SolidEntered);
 
 impl SolidGap {
-    /// A watch that lets interfaces enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of
-    /// a grid spacing.
+    /// Creates a watch that lets interfaces enter solids by `allowed` (length): the flow keeps surfaces apart to a
+    /// quarter of a grid spacing.
     #[must_use]
     pub fn new(allowed: f64) -> Self {
         Self { allowed, present: None, smallest: None }
     }
 
-    /// The gap at the last look (length; negative inside a solid); `None` before the first and without solids.
+    /// Returns the gap at the last look (length; negative inside a solid); `None` before the first and without solids.
     #[must_use]
     pub fn present(&self) -> Option<f64> {
         self.present
     }
 
-    /// The smallest gap so far (length) and when it was; in a run that goes on from a checkpoint also before that.
+    /// Returns the smallest gap so far (length) and when it was; in a run that continues from a checkpoint, also before
+    /// the checkpoint.
     #[must_use]
     pub fn smallest(&self) -> Option<(f64, f64)> {
         self.smallest
     }
 
-    /// The smallest gap at the present state of a system, the interface, and its marker where it is; `None` without
-    /// solids or interfaces.
+    /// Returns the smallest gap at the present state of a system, the interface, and its marker where it is; `None`
+    /// without solids or interfaces.
     pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Option<NearestSolid> {
         let found = system.nearest_solid();
         self.present = found.map(|place| place.gap);
@@ -85,7 +86,7 @@ impl SolidGap {
     }
 }
 
-/// Where an interface is nearest to a solid.
+/// The place where an interface is nearest to a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestSolid {
     /// The gap (length); negative inside the solid.
@@ -94,13 +95,13 @@ pub struct NearestSolid {
     pub interface: Handle<dyn Body>,
     /// Number of its marker.
     pub marker: usize,
-    /// Where the marker is (length).
+    /// Place of the marker (length).
     pub place: Vec2,
 }
 
 impl<H: Hydrodynamics> Observer<H> for SolidGap {
     /// # Errors
-    /// [`SolidEntered`].
+    /// Returns [`SolidEntered`] if an interface has entered a solid.
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let Some(NearestSolid { gap, interface, marker, place }) = self.measure(system) else { return Ok(()) };
         let (time, kept) = (system.time(), &mut system.record_mut(RECORD).numbers);

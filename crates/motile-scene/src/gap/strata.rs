@@ -15,13 +15,13 @@ impl Surfaces {
         strata.sort_by(|&a, &b| boundaries[a].height().total_cmp(&boundaries[b].height()));
     }
 
-    /// True where the inside of an interface that is periodic along x is above it.
+    /// Returns true if the inside of an interface that is periodic along x is above it.
     fn opens_up(&self, body: usize) -> bool {
         self.kinds[body].advance().is_some_and(|advance| advance > 0.0)
     }
 
-    /// Displacements of a body at which it is above or below the next images of an interface that is periodic along x,
-    /// with -1 where it is then on the inner side of that one, 1 on the outer.
+    /// Returns the displacements of a body at which it is above or below the next images of an interface that is
+    /// periodic along x. The value is -1 if it is then on the inner side of that one, and 1 on the outer.
     pub(super) fn images_across(
         &self,
         body: usize,
@@ -51,13 +51,13 @@ impl Surfaces {
         })
     }
 
-    /// True where a body is on the inner side of the nearest image of an interface that is periodic along x.
+    /// Returns true if a body is on the inner side of the nearest image of an interface that is periodic along x.
     pub(super) fn is_on_inner_side(&self, body: usize, interface: usize, periods: Periods) -> bool {
         let nearest = self.distances_across(body, interface, periods).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.is_some_and(|(_, sign)| sign < 0.0)
     }
 
-    /// The interface that a body lies inside of among those that are periodic along x.
+    /// Returns the interface that a body lies inside of among those that are periodic along x.
     pub(super) fn stratum(&self, body: usize, periods: Periods) -> Option<usize> {
         if let Some(place) = self.strata.iter().position(|&interface| interface == body) {
             return self.owner(place, !self.opens_up(body), periods[1].is_some());
@@ -70,7 +70,7 @@ impl Surfaces {
         self.owner(place, above, periods[1].is_some())
     }
 
-    /// The place in the stack of the neighbour above or below.
+    /// Returns the place in the stack of the neighbour above or below.
     fn neighbour(&self, place: usize, above: bool, periodic: bool) -> Option<usize> {
         let count = self.strata.len();
         let next = if above { place + 1 } else { place.wrapping_sub(1) };
@@ -80,8 +80,8 @@ impl Surfaces {
         (periodic && count > 1).then_some(if above { 0 } else { count - 1 })
     }
 
-    /// The interface that the fluid above or below another one is the inside of, the earlier one of two; `None` for
-    /// the exterior fluid. Where all interfaces of a box have their inside on one side none of the fluid is exterior,
+    /// Returns the interface that the fluid above or below another one is the inside of, the earlier one of two; `None`
+    /// for the exterior fluid. If all interfaces of a box have their inside on one side, none of the fluid is exterior,
     /// and all of it has to be alike.
     fn owner(&self, place: usize, above: bool, periodic: bool) -> Option<usize> {
         let turned = |place: usize| self.opens_up(self.strata[place]);
@@ -93,8 +93,8 @@ impl Surfaces {
         own.into_iter().chain(other.map(|next| self.strata[next])).min()
     }
 
-    /// Two neighbours, or one and its image, that give the fluid between them two viscosities, and these (stress times
-    /// time), in exterior fluid of the given one.
+    /// Returns two neighbours, or one and its image, that give the fluid between them two viscosities, and these
+    /// (stress times time), in exterior fluid of the given one.
     #[must_use]
     pub fn conflict(&self, periods: Periods, exterior: f64) -> Option<(usize, usize, [f64; 2])> {
         let periodic = periods[1].is_some();
@@ -125,8 +125,8 @@ impl Surfaces {
         })
     }
 
-    /// The place at which a body and an interface that is periodic along x, or two of these, have crossed furthest, and
-    /// how far (length; negative where they are apart).
+    /// Returns the place at which a body and an interface that is periodic along x, or two of these, have crossed
+    /// furthest, and how far (length; negative where they are apart).
     pub(super) fn crossing(&self, a: usize, b: usize, periods: Periods) -> Option<(Vec2, f64)> {
         let depths = [[a, b], [b, a]].into_iter().flat_map(|[body, other]| {
             let [from, to] = [body, other].map(|index| &self.boundaries[index]);
@@ -143,7 +143,7 @@ impl Surfaces {
 }
 
 impl Boundary {
-    /// Mean height of some of its corners (length).
+    /// Returns the mean height of some of its corners (length).
     pub(super) fn height(&self) -> f64 {
         let [sum, count] = self.some_sides().fold([0.0; 2], |[sum, count], [start, _]| [sum + start.y, count + 1.0]);
         sum / count

@@ -18,24 +18,25 @@ pub struct SurfaceCurve {
 pub enum SurfacePoint {
     /// A marker, by its number in the body.
     Marker(usize),
-    /// A place (length) at which the surface is held, such as that of a pinned point of a solid.
+    /// A place (length) at which the surface is held, such as a pinned point of a solid.
     Fixed(Vec2),
 }
 
 impl SurfaceCurve {
-    /// The curve through markers in their order, which meets itself after some periods in x.
+    /// Creates the curve through markers in their order, which meets itself after some periods in x.
     #[must_use]
     pub fn through(markers: impl IntoIterator<Item = usize>, periods: i32) -> Self {
         Self { points: markers.into_iter().map(|marker| (SurfacePoint::Marker(marker), 0)).collect(), periods }
     }
 
-    /// The markers in order, by their numbers in the body, each with the periods in x that are added to its place.
+    /// Returns the markers in order, by their numbers in the body, each with the periods in x that are added to its
+    /// place.
     pub fn markers(&self) -> impl Iterator<Item = (usize, i32)> {
         self.points.iter().filter_map(|&(point, shift)| Some((point.marker()?, shift)))
     }
 
     /// Adds its sides to a boundary, from the positions of the markers of its body (length) and the period in x
-    /// (length; 0 where there is none).
+    /// (length; 0 if there is none).
     pub(super) fn add_to(&self, boundary: &mut Boundary, positions: &[Vec2], period: f64) {
         let along = |periods: i32| Vec2::new(f64::from(periods) * period, 0.0);
         let mut places = self.points.iter().map(|&(point, shift)| {
@@ -55,7 +56,7 @@ impl SurfaceCurve {
 }
 
 impl SurfacePoint {
-    /// The number of the marker, if it is one.
+    /// Returns the number of the marker, if it is one.
     pub(super) fn marker(self) -> Option<usize> {
         match self {
             Self::Marker(marker) => Some(marker),

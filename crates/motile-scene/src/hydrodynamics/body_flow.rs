@@ -50,7 +50,7 @@ pub struct Enclosed {
 }
 
 impl BodyFlow<'_> {
-    /// Bodies inside this one, at any depth: those that lie in its interface, those that fill it
+    /// Returns the bodies inside this one, at any depth: those that lie in its interface, those that fill it
     /// ([`crate::InteriorBody`]), and of bodies without a surface the markers that lie in it.
     #[must_use]
     pub fn enclosed(&self) -> Vec<Enclosed> {

@@ -9,52 +9,52 @@ use motile_base::{InputError, Vec2, internal::all_finite, positive, within};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MarkerKind {
-    /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few per
-    /// cent), the last one next to the first.
+    /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few
+    /// percent), the last one next to the first.
     Interface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        /// Viscosity of the fluid inside (stress times time); `None` if it is the viscosity of the fluid outside.
         viscosity_inside: Option<f64>,
     },
     /// A closed curve whose markers are not equally spaced.
     UnevenInterface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        /// Viscosity of the fluid inside (stress times time); `None` if it is the viscosity of the fluid outside.
         viscosity_inside: Option<f64>,
     },
     /// A fluid interface that is periodic along x, the inside to its left: markers at equally spaced parameters over
     /// one period.
     OpenInterface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
+        /// Viscosity of the fluid inside (stress times time); `None` if it is the viscosity of the fluid outside.
         viscosity_inside: Option<f64>,
         /// Advance along x from the first marker to its next image (length): plus or minus the period of the region.
         advance: f64,
     },
     /// The closed outline of a rigid body that moves freely, markers in counter-clockwise order.
     Rigid,
-    /// Points in no particular order, such as those of an elastic solid.
+    /// Points in no particular order, such as the points of an elastic solid.
     Points,
 }
 
 impl MarkerKind {
-    /// True for the markers of a curve, closed or periodic along x.
+    /// Returns true for the markers of a curve, closed or periodic along x.
     #[must_use]
     pub fn is_curve(&self) -> bool {
         *self != Self::Points
     }
 
-    /// The surface of a body of this many markers, unless it is told otherwise.
+    /// Returns the surface of a body of this many markers, unless you say otherwise.
     pub(crate) fn surface(&self, count: usize) -> Vec<SurfaceCurve> {
         let periods = self.advance().map_or(0, |advance| if advance > 0.0 { 1 } else { -1 });
         if self.is_curve() { vec![SurfaceCurve::through(0..count, periods)] } else { Vec::new() }
     }
 
-    /// Advance along x over one period (length) of an interface that is periodic along x: positive where its inside is
-    /// above. `None` for what is closed.
+    /// Returns the advance along x over one period (length) of an interface that is periodic along x: positive where
+    /// its inside is above. `None` for what is closed.
     #[must_use]
     pub fn advance(&self) -> Option<f64> {
         if let Self::OpenInterface { advance, .. } = self { Some(*advance) } else { None }
     }
 
-    /// Viscosity of the fluid inside (stress times time), where it is another one than outside.
+    /// Returns the viscosity of the fluid inside (stress times time), where it is another one than outside.
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         match self {
@@ -65,7 +65,7 @@ impl MarkerKind {
         }
     }
 
-    /// True for the markers of a curve with fluid inside, in which other bodies may lie.
+    /// Returns true for the markers of a curve with fluid inside, in which other bodies may lie.
     #[must_use]
     pub fn holds_fluid(&self) -> bool {
         matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. } | Self::OpenInterface { .. })
@@ -81,21 +81,21 @@ pub struct MarkerGroup {
     pub kind: MarkerKind,
     /// The surface of the body.
     pub surfaces: Vec<SurfaceCurve>,
-    /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` where it is
-    /// that of the exterior fluid.
+    /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` if it is the
+    /// viscosity of the exterior fluid.
     pub viscosity_outside: Option<f64>,
-    /// Group of the interface that they fill, of points that do, where nothing else lies inside.
+    /// Group of the interface that they fill, of points that do, if nothing else lies inside.
     pub host: Option<usize>,
 }
 
 impl MarkerGroup {
-    /// The curves of the surface that can carry layers: those of which markers trace all.
+    /// Returns the curves of the surface that can carry layers: the curves that markers trace completely.
     pub fn layers(&self) -> impl Iterator<Item = &SurfaceCurve> {
         self.surfaces.iter().filter(|curve| curve.markers().count() == curve.points.len())
     }
 
-    /// Viscosities of the fluid inside and right outside of an interface (stress times time), where that of the
-    /// exterior fluid is `exterior`.
+    /// Returns the viscosities of the fluid inside and right outside of an interface (stress times time), if the
+    /// viscosity of the exterior fluid is `exterior`.
     #[must_use]
     pub fn viscosities(&self, exterior: f64) -> [f64; 2] {
         let outside = self.viscosity_outside.unwrap_or(exterior);
@@ -119,7 +119,7 @@ pub struct Markers {
 }
 
 impl Markers {
-    /// No markers.
+    /// Creates no markers.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -148,7 +148,7 @@ impl Markers {
     /// [`Scene`](crate::Scene) finds it out by itself.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, no group of that number.
+    /// Returns an error for a viscosity that is not positive and finite, no group of that number.
     pub fn set_viscosity_outside(&mut self, group: usize, viscosity: Option<f64>) -> Result<(), InputError> {
         if let Some(viscosity) = viscosity {
             positive("the viscosity around a group of markers", viscosity)?;
@@ -159,8 +159,9 @@ impl Markers {
         Ok(())
     }
 
-    /// Force dipole (force times length) by which the flow keeps the body of a group rigid, as of the last evaluation:
-    /// zero where the forces at its markers are all that it puts on the fluid, and where there is no such group.
+    /// Returns the force dipole (force times length) by which the flow keeps the body of a group rigid, as of the last
+    /// evaluation. It is zero if the forces at its markers are all that it puts on the fluid, and if there is no such
+    /// group.
     #[must_use]
     pub fn rigid_dipole(&self, group: usize) -> [[f64; 2]; 2] {
         self.rigid_dipoles.get(group).copied().unwrap_or_default()
@@ -170,7 +171,7 @@ impl Markers {
     /// [`Hydrodynamics::velocities`](crate::Hydrodynamics::velocities).
     ///
     /// # Errors
-    /// A value that is not finite, no group of that number.
+    /// Returns an error for a value that is not finite, no group of that number.
     pub fn set_rigid_dipole(&mut self, group: usize, dipole: [[f64; 2]; 2]) -> Result<(), InputError> {
         all_finite("the force dipole of a rigid body", dipole.as_flattened())?;
         let most = self.groups.len().saturating_sub(1);
@@ -199,40 +200,40 @@ impl Markers {
         }
     }
 
-    /// Positions (length), not wrapped into the box.
+    /// Returns the positions (length), not wrapped into the box.
     #[must_use]
     pub fn positions(&self) -> &[Vec2] {
         &self.positions
     }
 
-    /// Positions (length), to be changed.
+    /// Returns the positions (length), to be changed.
     pub fn positions_mut(&mut self) -> &mut [Vec2] {
         &mut self.positions
     }
 
-    /// Forces on the fluid (force, not force per length).
+    /// Returns the forces on the fluid (force, not force per length).
     #[must_use]
     pub fn forces(&self) -> &[Vec2] {
         &self.forces
     }
 
-    /// Forces on the fluid (force), to be changed.
+    /// Returns the forces on the fluid (force), to be changed.
     pub fn forces_mut(&mut self) -> &mut [Vec2] {
         &mut self.forces
     }
 
-    /// Velocities (length per time).
+    /// Returns the velocities (length per time).
     #[must_use]
     pub fn velocities(&self) -> &[Vec2] {
         &self.velocities
     }
 
-    /// Velocities (length per time), to be changed.
+    /// Returns the velocities (length per time), to be changed.
     pub fn velocities_mut(&mut self) -> &mut [Vec2] {
         &mut self.velocities
     }
 
-    /// Positions, forces and velocities to be changed, at once.
+    /// Returns the positions, forces and velocities to be changed, at once.
     pub fn lists_mut(&mut self) -> [&mut [Vec2]; 3] {
         [&mut self.positions, &mut self.forces, &mut self.velocities]
     }
@@ -242,19 +243,19 @@ impl Markers {
         (&self.groups, &self.positions, &mut self.velocities)
     }
 
-    /// The groups, one a body.
+    /// Returns the groups, one per body.
     #[must_use]
     pub fn groups(&self) -> &[MarkerGroup] {
         &self.groups
     }
 
-    /// Number of markers.
+    /// Returns the number of markers.
     #[must_use]
     pub fn len(&self) -> usize {
         self.positions.len()
     }
 
-    /// True without markers.
+    /// Returns true without markers.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()

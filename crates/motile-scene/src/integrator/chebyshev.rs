@@ -8,7 +8,7 @@ use super::spectral_radius::PowerMethod;
 use super::{Dynamics, Integrator, IntegratorWork};
 use crate::{SceneError, saved_state::SavedState};
 
-/// Where the fastest rate of decay comes from, which says how many stages a step needs.
+/// Source of the fastest rate of decay, which says how many stages each step needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpectralEstimate {
     /// From the bodies' own limits ([`crate::Body::step_limits`]): costs nothing.
@@ -29,9 +29,9 @@ const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 /// nothing of accuracy.
 const ERROR_BOUND: f64 = 3e-4;
 
-/// The second-order method of Runge, Kutta and Chebyshev (Sommeijer, Shampine and Verwer 1998), for stiff bodies: s
+/// The second-order method of Runge, Kutta and Chebyshev (Sommeijer, Shampine and Verwer 1998), for stiff bodies. S
 /// stages, each an evaluation of forces and flow, are stable up to `dt rate < 0.65 (s^2 - 1)` where the midpoint rule's
-/// two reach 2. For a given step it takes as many stages as the fastest rate of decay asks for.
+/// two reach 2. For a given step, it takes as many stages as the fastest rate of decay requires.
 ///
 /// The bodies' implicit parts (diffusion along an interface) are solved for in each stage, as in Verwer and Sommeijer
 /// (2004):
@@ -95,28 +95,29 @@ impl Default for RungeKuttaChebyshev {
 }
 
 impl RungeKuttaChebyshev {
-    /// At most 16 stages, the spectral radius measured every 25 steps.
+    /// Creates an at most 16 stages, the spectral radius measured every 25 steps.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The method with at most this many stages a step (2 to 200; others are taken as the nearest of these). Runs
-    /// shorten their steps where more would be needed.
+    /// Returns the method with at most this many stages per step (2 to 200; others are taken as the nearest of these).
+    /// Runs shorten their steps where more would be needed.
     #[must_use]
     pub fn with_most_stages(mut self, stages: usize) -> Self {
         self.most_stages = stages.clamp(2, 200);
         self
     }
 
-    /// The method with another estimate of the spectral radius.
+    /// Returns the method with another estimate of the spectral radius.
     #[must_use]
     pub fn with_estimate(mut self, estimate: SpectralEstimate) -> Self {
         self.estimate = estimate;
         self
     }
 
-    /// The fastest decay that was found last, in units of what the bodies' limits say; 0 before any measurement.
+    /// Returns the fastest decay that was found last, in units of what the bodies' limits say; 0 before any
+    /// measurement.
     #[must_use]
     pub fn measured(&self) -> f64 {
         self.measured
@@ -128,7 +129,7 @@ impl RungeKuttaChebyshev {
         (MARGIN * self.measured).clamp(CORRECTION[0], CORRECTION[1])
     }
 
-    /// The fastest rate of decay (1/time), from the bodies' limits and what was measured.
+    /// Returns the fastest rate of decay (1/time), from the bodies' limits and what was measured.
     fn spectral_radius(&mut self, system: &mut dyn Dynamics) -> Result<f64, SceneError> {
         let predicted = system.fastest_decay();
         let SpectralEstimate::Measured(every) = self.estimate else { return Ok(predicted) };

@@ -34,9 +34,9 @@ impl ErrorEstimate {
         system.write_state(&mut self.after);
     }
 
-    /// The error of a step of `dt` (time) from `start`, whose parts had the lengths `lengths`: the root mean square
-    /// over a body, in units of its scales, of the worst body (no dimension). `None` where markers have been inserted
-    /// or removed, so that states cannot be compared.
+    /// Returns the error of a step of `dt` (time) from `start`, whose parts had the lengths `lengths`. It is the root
+    /// mean square over a body, in units of its scales, of the worst body (no dimension). `None` if markers have been
+    /// inserted or removed, so that states cannot be compared.
     pub(crate) fn end<H: Hydrodynamics>(
         &mut self,
         system: &mut System<H>,
@@ -58,7 +58,7 @@ impl ErrorEstimate {
         Ok(Some(system.error_norm(rate_after, scales)))
     }
 
-    /// After a step that does not stay: what the bodies keep of the flow is that of the present state again.
+    /// After a step that does not stay: what the bodies keep of the flow belongs to the present state again.
     pub(crate) fn return_to<H: Hydrodynamics>(
         &mut self,
         system: &mut System<H>,

@@ -6,8 +6,8 @@ use crate::{SceneError, saved_state::SavedState};
 /// Between the 1/24 of a rate that depends on time alone and the 1/6 of a decay.
 const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 
-/// The midpoint rule (Cowley (2.37)), second order, two evaluations a step, with the bodies' implicit parts by backward
-/// Euler in the first half step and by the trapezoidal rule over the whole step:
+/// The midpoint rule (Cowley (2.37)), second order, two evaluations per step, with the bodies' implicit parts by
+/// backward Euler in the first half step and by the trapezoidal rule over the whole step:
 ///
 /// `y_m = y + dt/2 (f(y) + L y_m)`, `y' = y + dt f(y_m) + dt/2 (L(y) y + L(y') y')`.
 #[derive(Debug, Clone, Default)]

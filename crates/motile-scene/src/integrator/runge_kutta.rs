@@ -6,10 +6,10 @@ use crate::{SceneError, saved_state::SavedState};
 /// That of the midpoint rule: adaptive steps are as long as its steps would be, and their errors far smaller.
 const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 
-/// The classical Runge-Kutta method, fourth order, four evaluations a step, for smooth motions without particles, whose
-/// implicit parts it refuses: drops, shells and rigid bodies in flows.
+/// The classical Runge-Kutta method, fourth order, four evaluations per step, for smooth motions without particles,
+/// whose implicit parts it refuses: drops, shells and rigid bodies in flows.
 ///
-/// Errors of steps that are told to be adaptive are taken for those of a method of second order.
+/// Adaptive steps take its errors for errors of a method of second order.
 #[derive(Debug, Clone, Default)]
 pub struct RungeKutta {
     start: Vec<f64>,
@@ -50,7 +50,7 @@ impl Integrator for RungeKutta {
         system.read_state(&self.start)
     }
 
-    /// The root of `1 - x + x^2/2 - x^3/6 + x^4/24 = 1`.
+    /// Returns the root of `1 - x + x^2/2 - x^3/6 + x^4/24 = 1`.
     fn stability_interval(&self) -> f64 {
         2.785_293_563_405_282
     }

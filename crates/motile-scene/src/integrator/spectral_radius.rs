@@ -7,14 +7,14 @@ use crate::SceneError;
 const MOST: [usize; 2] = [30, 5];
 /// Size of the perturbation, in units of the scales of the state.
 const PERTURBATION: f64 = 1e-6;
-/// Part of the estimate that may be missing when it is taken.
+/// Fraction of the estimate that may be missing when it is taken.
 const TOLERANCE: f64 = 0.1;
 
 /// The nonlinear power method (Sommeijer, Shampine and Verwer 1998): differences of rates between a state and a
 /// perturbed one, the perturbation being turned towards the fastest mode. Starts from the direction found last.
 ///
 /// The rates of elastic walls and of interfaces lie densely up to the fastest, so that the estimate approaches it only
-/// as `1 - c/k` after k evaluations: what is missing is k times the last change, however small that is.
+/// as `1 - c/k` after k evaluations. What is missing is k times the last change, however small that is.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PowerMethod {
     pub(super) direction: Vec<f64>,
@@ -23,18 +23,18 @@ pub(super) struct PowerMethod {
     rate: Vec<f64>,
 }
 
-/// Root mean square of `values` in units of `scales`.
+/// Returns the root mean square of `values` in units of `scales`.
 fn norm(values: &[f64], scales: &[f64]) -> f64 {
     let sum: f64 = values.iter().zip(scales).map(|(value, scale)| (value / scale).powi(2)).sum();
     (sum / values.len().max(1) as f64).sqrt()
 }
 
 impl PowerMethod {
-    /// The spectral radius (1/time) of the derivative of the explicit rate at `state`, whose rate is `rate`, and the
-    /// evaluations that it took. The bodies are left in another state.
+    /// Returns the spectral radius (1/time) of the derivative of the explicit rate at `state`, whose rate is `rate`,
+    /// and the evaluations that it took. The bodies are left in another state.
     ///
     /// # Errors
-    /// Those of the bodies and of the flow.
+    /// Returns the errors of the bodies and of the flow.
     pub(super) fn estimate(
         &mut self,
         system: &mut dyn Dynamics,

@@ -54,8 +54,8 @@ pub struct Deformation {
     pub waist_speed: f64,
     /// Largest speed of the fluid on the curve relative to the centroid (length per time).
     pub largest_speed: f64,
-    /// Time of a point of the curve for a turn along it, `INT ds/|v_t|` (time): that of tank-treading where the shape
-    /// is steady; `None` where the velocity along the curve changes its sign.
+    /// Time of a point of the curve for a turn along it, `INT ds/|v_t|` (time): the period of tank-treading if the
+    /// shape is steady; `None` if the velocity along the curve changes its sign.
     pub period: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ impl Series {
         Ok(Self(terms.map(|(index, c)| (spectrum::wave(index, len), *c)).collect()))
     }
 
-    /// Value, first and second derivative at a parameter.
+    /// Returns the value, first and second derivative at a parameter.
     fn at(&self, parameter: f64) -> [Complex64; 3] {
         let mut sums = [Complex64::ZERO; 3];
         for (wave, c) in &self.0 {
@@ -82,7 +82,7 @@ impl Series {
         sums
     }
 
-    /// Parameter of the largest (`sign` 1) or smallest (-1) distance from `centre`, for `count` markers.
+    /// Returns the parameter of the largest (`sign` 1) or smallest (-1) distance from `centre`, for `count` markers.
     fn extreme(&self, centre: Complex64, sign: f64, count: usize) -> f64 {
         let step = TAU / (FINER * count) as f64;
         let places = (0..FINER * count).map(|k| step * k as f64);
@@ -91,7 +91,7 @@ impl Series {
         self.stationary(centre, best.map_or(0.0, |(parameter, _)| parameter), step)
     }
 
-    /// Parameter near `start` at which the distance from `centre` is stationary.
+    /// Returns the parameter near `start` at which the distance from `centre` is stationary.
     fn stationary(&self, centre: Complex64, start: f64, widest: f64) -> f64 {
         let mut parameter = start;
         for _ in 0..MOST_ITERATIONS {
@@ -112,11 +112,11 @@ impl Series {
 }
 
 impl Deformation {
-    /// Deformation of the closed curve through markers, counter-clockwise (length), with these velocities (length per
-    /// time).
+    /// Creates a deformation of the closed curve through markers, counter-clockwise (length), with these velocities
+    /// (length per time).
     ///
     /// # Errors
-    /// Lists of different length, fewer than eight markers.
+    /// Returns an error for lists of different length, fewer than eight markers.
     pub fn of(markers: &[Vec2], velocities: &[Vec2]) -> Result<Self, InputError> {
         let count = at_least("markers of a curve", markers.len(), 8)?;
         same_length("velocities", count, velocities.len())?;
@@ -161,7 +161,7 @@ impl Deformation {
     }
 }
 
-/// Angle of the line along a vector (radians, from -pi/2 to pi/2).
+/// Returns the angle of the line along a vector (radians, from -pi/2 to pi/2).
 fn axis(z: Complex64) -> f64 {
     let angle = z.arg();
     if angle > 0.5 * PI {

@@ -76,7 +76,7 @@ impl MomentEllipse {
     }
 
     /// Returns the ellipse of an area (length squared) with its centroid (length) and the means of x^2, x y and y^2
-    /// over it, measured from the centroid (length squared); of a body of revolution the spheroid of its volume.
+    /// over it, measured from the centroid (length squared). Of a body of revolution, it is the spheroid of its volume.
     #[must_use]
     pub fn of_moments(area: f64, centroid: Vec2, [xx, xy, yy]: [f64; 3], axisymmetric: bool) -> Self {
         let square_over_mean = if axisymmetric { 5.0 } else { 4.0 };

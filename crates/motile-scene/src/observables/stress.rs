@@ -15,6 +15,7 @@ use crate::{FlowError, Hydrodynamics, Markers, SceneError, System};
 /// with the strain rate e of the imposed flow, the area V of the box, and F the forces of the bodies on the fluid. A
 /// positive S_xy in a shear of positive rate raises the viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("effective viscosity", "stresslet", "Batchelor stress", "rheology"))]
 pub struct Stress {
     /// Stresslet S of all bodies together, symmetric and without trace (force times length).
     pub stresslet: [[f64; 2]; 2],
@@ -27,13 +28,13 @@ pub struct Stress {
 }
 
 impl Stress {
-    /// Mean particle stress S/V (stress).
+    /// Returns the mean particle stress S/V (stress).
     #[must_use]
     pub fn of_particles(&self) -> [[f64; 2]; 2] {
         self.stresslet.map(|row| row.map(|entry| entry / self.area))
     }
 
-    /// Mean stress without its trace, 2 eta e + S/V (stress).
+    /// Returns the mean stress without its trace, 2 eta e + S/V (stress).
     #[must_use]
     pub fn mean(&self) -> [[f64; 2]; 2] {
         let [[ux, uy], [vx, vy]] = self.imposed.gradient;
@@ -42,15 +43,15 @@ impl Stress {
         std::array::from_fn(|i| std::array::from_fn(|j| self.viscosity * rate[i][j] + particles[i][j]))
     }
 
-    /// Shear viscosity of the box, the mean stress Sigma_xy over the shear rate (stress times time); `None` without a
-    /// shear.
+    /// Returns the shear viscosity of the box, the mean stress Sigma_xy over the shear rate (stress times time); `None`
+    /// without a shear.
     #[must_use]
     pub fn effective_viscosity(&self) -> Option<f64> {
         let [[_, uy], [vx, _]] = self.imposed.gradient;
         (uy + vx != 0.0).then(|| self.mean()[0][1] / (uy + vx))
     }
 
-    /// First normal stress difference Sigma_xx - Sigma_yy (stress).
+    /// Returns the first normal stress difference Sigma_xx - Sigma_yy (stress).
     #[must_use]
     pub fn normal_difference(&self) -> f64 {
         let mean = self.mean();
@@ -58,13 +59,13 @@ impl Stress {
     }
 }
 
-/// Symmetric part without trace.
+/// Returns the symmetric part without trace.
 fn deviator([[xx, xy], [yx, yy]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let (half, off) = (0.5 * (xx - yy), 0.5 * (xy + yx));
     [[half, off], [off, -half]]
 }
 
-/// Particle stress of the body of a group of markers (force times length).
+/// Returns the particle stress of the body of a group of markers (force times length).
 fn stresslet(markers: &Markers, group: usize, exterior: f64) -> Result<[[f64; 2]; 2], InputError> {
     let of = &markers.groups()[group];
     let lists = [markers.positions(), markers.forces(), markers.velocities()];
@@ -94,12 +95,13 @@ fn stresslet(markers: &Markers, group: usize, exterior: f64) -> Result<[[f64; 2]
 }
 
 impl<H: Hydrodynamics> System<H> {
-    /// Stresslets of all bodies in the order in which they were added, as in [`Stress`] (force times length): those of
-    /// bodies inside others are apart. Closed curves are integrated by their trigonometric interpolants.
+    /// Returns the stresslets of all bodies in the order in which they were added, as in [`Stress`] (force times
+    /// length): bodies inside others have separate entries. Closed curves are integrated by their trigonometric
+    /// interpolants.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`]; [`FlowError::Refused`] beside interfaces that are periodic along x, whose
-    /// tension pulls across the ends of a period.
+    /// Returns the errors of [`System::evaluate`]; [`FlowError::Refused`] if there are interfaces that are periodic
+    /// along x, whose tension pulls across the ends of a period.
     pub fn stresslets(&mut self) -> Result<Vec<[[f64; 2]; 2]>, SceneError> {
         if self.markers().groups().iter().any(|group| group.kind.advance().is_some()) {
             let what = "the stresslet of an interface that is periodic along x";
@@ -113,10 +115,10 @@ impl<H: Hydrodynamics> System<H> {
         Ok(groups.map(|group| stresslet(markers, group, viscosity)).collect::<Result<_, _>>()?)
     }
 
-    /// Mean stress of a periodic box.
+    /// Returns the mean stress of a periodic box.
     ///
     /// # Errors
-    /// Those of [`System::stresslets`]; [`FlowError::Refused`] where the region is no box.
+    /// Returns the errors of [`System::stresslets`]; [`FlowError::Refused`] if the region is not a box.
     pub fn stress(&mut self) -> Result<Stress, SceneError> {
         let view = self.hydrodynamics().fluid_view();
         let [Some(lx), Some(ly)] = *view.domain.periods else {

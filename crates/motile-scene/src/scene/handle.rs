@@ -8,15 +8,15 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) struct SceneId(u64);
 
 impl SceneId {
-    /// A number that no other scene has.
+    /// Creates a number that no other scene has.
     pub(crate) fn unique() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 }
 
-/// A body of type B in the scene that it was added to, and in no other: there it is
-/// [`crate::SceneError::Refused`]. Valid for as long as the scene lives.
+/// A body of type B in the scene that it was added to. Other scenes refuse it ([`crate::SceneError::Refused`]). It is
+/// valid for as long as the scene lives.
 pub struct Handle<B: ?Sized> {
     scene: SceneId,
     index: usize,
@@ -47,7 +47,7 @@ impl<B: ?Sized> Handle<B> {
         Self { scene, index, body: PhantomData }
     }
 
-    /// Handle of the body as one of another type.
+    /// Returns the handle of the body as one of another type.
     pub(crate) fn cast<C: ?Sized>(self) -> Handle<C> {
         Handle::new(self.scene, self.index)
     }
@@ -56,7 +56,8 @@ impl<B: ?Sized> Handle<B> {
         self.scene
     }
 
-    /// Number of the body, in the order of addition; also that of its group in [`crate::System::markers`].
+    /// Returns the number of the body, in the order of addition; also the number of its group in
+    /// [`crate::System::markers`].
     #[must_use]
     pub fn index(&self) -> usize {
         self.index

@@ -25,7 +25,7 @@ struct Pair {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Mirror {
     pairs: Vec<Pair>,
-    /// Ranges of the states of the bodies in that of the scene.
+    /// Ranges of the states of the bodies in the state of the scene.
     ranges: Vec<Range<usize>>,
     state: Vec<f64>,
     scales: Vec<f64>,
@@ -36,7 +36,7 @@ impl Mirror {
     /// Finds the mirror image of each body of a scene, and makes the scene symmetric to round-off.
     ///
     /// # Errors
-    /// [`SceneError::NotSymmetric`].
+    /// Returns [`SceneError::NotSymmetric`] if a body has no mirror image.
     pub(crate) fn of<H: Hydrodynamics>(system: &mut System<H>) -> Result<Self, SceneError> {
         let mut mirror = Self::default();
         mirror.find(system)?;
@@ -100,7 +100,7 @@ impl Mirror {
     /// Takes each body and its image to the mean of the two.
     ///
     /// # Errors
-    /// [`SceneError::NotSymmetric`] where this changes a state by more than round-off.
+    /// Returns [`SceneError::NotSymmetric`] if this changes a state by more than round-off.
     pub(crate) fn project<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), SceneError> {
         if self.ranges.len() != system.all_bodies().len() {
             self.find(system)?;
@@ -132,15 +132,15 @@ impl Mirror {
     }
 }
 
-/// Marker positions of a body (length).
+/// Returns the marker positions of a body (length).
 fn places(body: &dyn Body) -> Vec<Vec2> {
     let mut places = vec![Vec2::ZERO; body.marker_count()];
     body.write_markers(&mut places);
     places
 }
 
-/// The number of the image of each point of one list in another, or a point without one and how far its image is from
-/// the nearest of them.
+/// Returns the number of the image of each point of one list in another, or a point without one and how far its image
+/// is from the nearest of them.
 fn images(one: &[Vec2], other: &[Vec2]) -> Result<Vec<usize>, (f64, Vec2)> {
     if one.len() != other.len() {
         return Err((f64::INFINITY, one.first().copied().unwrap_or_default()));
@@ -158,7 +158,7 @@ fn images(one: &[Vec2], other: &[Vec2]) -> Result<Vec<usize>, (f64, Vec2)> {
     one.iter().filter_map(image).collect()
 }
 
-/// A property of which a body and its image have different amounts.
+/// Returns a property of which a body and its image have different amounts.
 fn other_property(one: &dyn Body, other: &dyn Body) -> Option<(String, [String; 2])> {
     let shown = |value: Option<f64>| value.map_or_else(|| "not given".to_owned(), |value| value.to_string());
     let (here, there) = (one.properties(), other.properties());

@@ -7,13 +7,13 @@ use motile_base::{not_negative, positive, within};
 
 use crate::{Hydrodynamics, Scene, SceneError, StepSize, System, integrator::Dynamics as _};
 
-/// Looks on while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
+/// Records data while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
 pub trait Observer<H> {
     /// Called at the start of a run, when due, and at its end. It may evaluate and sample the flow; it cannot change
     /// the bodies.
     ///
     /// # Errors
-    /// Whatever goes wrong; the run ends with [`SceneError::Observer`].
+    /// Returns whatever goes wrong; the run ends with [`SceneError::Observer`].
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>>;
 }
 
@@ -34,8 +34,7 @@ pub enum Every {
     /// After every n steps (0 counts as 1).
     Steps(usize),
     /// At all multiples of this time, exactly: steps are shortened to end there as they are at the end of a run. At
-    /// most ten million of them a run. Multiples are counted from time 0, so that a run that is resumed goes on with
-    /// them.
+    /// most ten million of them a run. Multiples are counted from time 0, so that a resumed run continues with them.
     Time(f64),
     /// At the end of the first step that reaches a multiple of this time, counted from time 0; no step is shortened for
     /// it.
@@ -53,7 +52,7 @@ struct Watch<'a, H> {
 const MOST_STEPS: f64 = 1e10;
 /// Most reports of an observer at exact times.
 const MOST_REPORTS: f64 = 1e7;
-/// Part of an interval that is taken for round-off of the summed steps.
+/// Fraction of an interval that is taken for round-off of the summed steps.
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl Every {
@@ -92,7 +91,7 @@ impl<H: std::fmt::Debug> std::fmt::Debug for Run<'_, H> {
     }
 }
 
-/// Adaptive steps take at most this part of the stability limit.
+/// Adaptive steps take at most this fraction of the stability limit.
 const OF_LIMIT: f64 = 0.9;
 /// The first adaptive step, as part of the stability limit.
 const FIRST: f64 = 0.05;
@@ -100,9 +99,9 @@ const FIRST: f64 = 0.05;
 const LEAST: f64 = 1e-6;
 
 impl<H: Hydrodynamics> Scene<H> {
-    /// A run up to time `until` (time), to be given a time step and observers.
+    /// Returns a run up to time `until` (time), to be given a time step and observers.
     ///
-    /// A scene without bodies, or whose bodies have no markers, has nothing to resolve: where steps are a part of the
+    /// A scene without bodies, or whose bodies have no markers, has nothing to resolve. If steps are a fraction of the
     /// stability limit, as by default, it takes a single one to the end or to the next exact report.
     pub fn run(&mut self, until: f64) -> Run<'_, H> {
         Run::new(self, until)
@@ -123,7 +122,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
     }
 
     /// Sets the shortest step (time) that automatic and adaptive steps may fall to; below it the run ends with
-    /// [`SceneError::Stagnation`]. By default a millionth of the stability limit at the start.
+    /// [`SceneError::Stagnation`]. By default, a millionth of the stability limit at the start.
     #[must_use]
     pub fn least_step(mut self, least: f64) -> Self {
         self.least = Some(least);
@@ -161,11 +160,11 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         self
     }
 
-    /// Runs. After an error the scene holds the last good state.
+    /// Starts the run. After an error, the scene holds the last good state.
     ///
     /// # Errors
-    /// A time or time step that makes no sense or is above the stability limit, before any work; those of
-    /// [`Scene::step`]; those of observers.
+    /// Returns an error for a time or time step that makes no sense or is above the stability limit, before any work;
+    /// the errors of [`Scene::step`]; those of observers.
     pub fn go(mut self) -> Result<(), SceneError> {
         self.check()?;
         self.start = self.scene.time();
@@ -197,7 +196,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         Ok(())
     }
 
-    /// True if a checkpoint is saved after the present number of steps.
+    /// Returns true if a checkpoint is saved after the present number of steps.
     fn is_due(&self) -> bool {
         self.saver.as_ref().is_some_and(|saver| self.scene.steps().is_multiple_of(saver.every))
     }
@@ -265,7 +264,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         }
     }
 
-    /// The largest error of a step, where errors are estimated.
+    /// Returns the largest error of a step, where errors are estimated.
     fn tolerance(&self) -> Option<f64> {
         match self.step {
             StepSize::Fixed(_) => None,
@@ -274,12 +273,12 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         }
     }
 
-    /// A remainder of the run below this is round-off of the summed steps (time).
+    /// Returns the remainder of a run (time) below which it is round-off of the summed steps.
     fn negligible(&self) -> f64 {
         NEGLIGIBLE * self.until.abs().max(f64::MIN_POSITIVE)
     }
 
-    /// The next time that a step has to end at: that of a report or the end of the run.
+    /// Returns the next time that a step has to end at. It is the time of a report or the end of the run.
     fn goal(&self) -> f64 {
         let due = self.watches.iter().filter_map(|watch| match watch.every {
             Every::Time(interval) => Some((watch.reached + 1.0) * interval),
@@ -294,13 +293,14 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         if dt == remaining { self.scene.system_mut().set_time(goal) } else { Ok(()) }
     }
 
-    /// The bound on the next step (time), what sets it, and of which body; `None` where there is none.
+    /// Returns the bound on the next step (time), what sets it, and of which body; `None` if there is none.
     fn limit(&self) -> Option<(f64, &'static str, String)> {
         let limit = self.scene.step_limit().filter(|(dt, ..)| !dt.is_infinite());
         limit.map(|(dt, reason, body)| (dt, reason, body.to_owned()))
     }
 
-    /// The length of the next step (time) if it need not end after `remaining`, what sets it, and of which body.
+    /// Returns the length of the next step (time) if it need not end after `remaining`, what sets it, and of which
+    /// body.
     fn length(&mut self, remaining: f64) -> Result<(f64, &'static str, String), SceneError> {
         if let StepSize::Fixed(dt) = self.step {
             self.scene.check_step(dt)?;
@@ -357,7 +357,7 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
         Ok(())
     }
 
-    /// Refuses a step size that is a part of the stability limit where nothing that moves has one.
+    /// Refuses a step size that is a fraction of the stability limit if nothing that moves has one.
     fn check_limit(&mut self) -> Result<(), SceneError> {
         if !matches!(self.step, StepSize::OfLimit(_)) || self.scene.system().state_len() == 0 {
             return Ok(());

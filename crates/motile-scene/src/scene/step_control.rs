@@ -7,23 +7,25 @@ use crate::saved_state::SavedState;
 
 /// Length of the steps of a run.
 ///
-/// Errors are of second order in the step, but for two parts that a swimmer has under the midpoint rule: its stabiliser
-/// (orders of 1.5 to 1.9 where steps are longer than the marker spacing squared over its diffusivity, and two below)
-/// and, on a grid, its filter of short waves (of first order, `dt gamma (q h/2)^4 / (4 eta h)` of a displacement of
-/// wave number q). A swimmer of activity -2 in Cowley's units changes by 4e-7 R0 and 2.6e-6 of its mean number of
-/// particles by each between steps of 0.002 and 0.001 at h = R0/5.
+/// Errors are of second order in the step, except for two parts that a swimmer has under the midpoint rule: its
+/// stabiliser (orders of 1.5 to 1.9 where steps are longer than the marker spacing squared over its diffusivity, and
+/// two below) and, on a grid, its filter of short waves (of first order, `dt gamma (q h/2)^4 / (4 eta h)` of a
+/// displacement of wave number q). A swimmer of activity -2 in Cowley's units changes by 4e-7 R0 and 2.6e-6 of its mean
+/// number of particles by each between steps of 0.002 and 0.001 at h = R0/5.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum StepSize {
-    /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
-    /// limit falls below it.
+    /// All steps have this length (time). A run refuses it at the start if it is above the stability limit, and returns
+    /// an error if the limit falls below it later.
     Fixed(f64),
-    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error
-    /// of such steps ([`crate::integrator::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
+    /// All steps have this fraction of the stability limit, from 1e-6 to 1. They are shorter if the integrator bounds
+    /// the error of such steps ([`crate::integrator::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method
+    /// does.
     OfLimit(f64),
-    /// As long as accuracy and stability allow, the default at a tolerance of 1e-4: the error of each step is
-    /// estimated, steps whose error is above the tolerance or that fail otherwise are retried with a shorter one.
+    /// Steps are as long as accuracy and stability allow. This is the default, at a tolerance of 1e-4. The error of
+    /// each step is estimated, and steps whose error is above the tolerance or that fail otherwise are retried with a
+    /// shorter one.
     Adaptive {
         /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
         /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
@@ -37,7 +39,7 @@ impl StepSize {
     /// tolerance that is not positive and at most 0.5.
     ///
     /// # Errors
-    /// The value.
+    /// Returns an error for the value.
     pub fn check(self) -> Result<(), InputError> {
         match self {
             Self::Fixed(dt) => positive("the time step", dt),
@@ -68,14 +70,14 @@ const RETREAT: f64 = 0.25;
 pub(crate) struct StepControl {
     /// Length that accuracy allows for the next step (time); 0 before the first.
     pub(crate) next: f64,
-    /// Length and error of the last accepted step; 0 where there is none.
+    /// Length and error of the last accepted step; 0 if there is none.
     last: [f64; 2],
     /// True after an attempt that was rejected.
     retreated: bool,
 }
 
 impl StepControl {
-    /// An attempt of length `dt` had the error `error` in units of the tolerance; whether it is accepted.
+    /// Returns true if an attempt of length `dt` with the error `error` (in units of the tolerance) is accepted.
     pub(crate) fn judge(&mut self, dt: f64, error: f64) -> bool {
         let error = error.max(1e-10);
         let accepted = error <= 1.0;
@@ -97,7 +99,7 @@ impl StepControl {
         accepted
     }
 
-    /// Something went wrong in an attempt of length `dt`.
+    /// Records that something went wrong in an attempt of length `dt`.
     pub(crate) fn retreat(&mut self, dt: f64) {
         self.next = RETREAT * dt;
         self.retreated = true;

@@ -27,8 +27,8 @@ pub(crate) use imposed::flow_properties;
 use motile_base::{FlowSample, SolveReport, Vec2};
 use resistance::Resistance;
 
-/// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and
-/// by this multiple of the residual where they are iterated.
+/// Velocities at the same state by the same method differ by at most this fraction of the fastest one, on any machine,
+/// and by this multiple of the residual where they are iterated.
 const SAME_FLOW: f64 = 1e-9;
 const REACHED: f64 = 10.0;
 
@@ -37,7 +37,7 @@ const REACHED: f64 = 10.0;
 enum Known {
     /// A body may have been changed in any way.
     Nothing,
-    /// The bodies are those of the groups of markers, and have another state.
+    /// The bodies belong to the groups of markers, and have another state.
     Bodies,
     /// The markers are where the bodies have them.
     Places,
@@ -55,13 +55,13 @@ struct Clock {
     /// Time (time).
     time: f64,
     steps: usize,
-    /// The next step is the first since bodies were put in or changed: no step before it tells how fast they move,
+    /// The next step is the first since bodies were put in or changed: no step before it shows how fast they move,
     /// which bounds its length.
     first_step: bool,
 }
 
 impl Clock {
-    /// Time 0, before the first step.
+    /// Creates the time 0, before the first step.
     fn new() -> Self {
         Self { time: 0.0, steps: 0, first_step: true }
     }
@@ -75,7 +75,7 @@ impl Clock {
 
 /// The bodies of a scene, the fluid between them, and the time.
 ///
-/// Integrators advance it, observers look at it.
+/// Integrators advance it, and observers measure it.
 #[derive(Debug)]
 pub struct System<H> {
     hydrodynamics: H,
@@ -113,13 +113,13 @@ impl<H: Hydrodynamics> System<H> {
         handle
     }
 
-    /// Time since the start (time).
+    /// Returns the time since the start (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.clock.time
     }
 
-    /// Steps since the start.
+    /// Returns the number of steps since the start.
     #[must_use]
     pub fn steps(&self) -> usize {
         self.clock.steps
@@ -131,7 +131,7 @@ impl<H: Hydrodynamics> System<H> {
         self.set_flow_time()
     }
 
-    /// A step is over and stays.
+    /// Records that a step has ended and is accepted.
     pub(crate) fn commit(&mut self, dt: f64) {
         self.clock.advance(dt);
         self.bodies.list.iter_mut().for_each(|body| body.keep_step());
@@ -139,40 +139,40 @@ impl<H: Hydrodynamics> System<H> {
         self.record_gap();
     }
 
-    /// Method that computes the flow.
+    /// Returns the method that computes the flow.
     #[must_use]
     pub fn hydrodynamics(&self) -> &H {
         &self.hydrodynamics
     }
 
-    /// Positions, forces and velocities of all markers as of the last evaluation; [`System::evaluate`] makes them those
-    /// of the present state.
+    /// Returns the positions, forces and velocities of all markers as of the last evaluation; [`System::evaluate`]
+    /// brings them to the present state.
     #[must_use]
     pub fn markers(&self) -> &Markers {
         &self.bodies.markers
     }
 
-    /// Iterations, residual and mean pressure gradient of the last evaluation.
+    /// Returns the iterations, residual and mean pressure gradient of the last evaluation.
     #[must_use]
     pub fn report(&self) -> &SolveReport {
         &self.report
     }
 
-    /// Work of all evaluations since the start, those before a checkpoint included ([`Hydrodynamics::work`] counts from
-    /// where the program began, and all that looks at the flow).
+    /// Returns the work of all evaluations since the start, those before a checkpoint included ([`Hydrodynamics::work`]
+    /// counts from where the program began, and all that looks at the flow).
     #[must_use]
     pub fn work(&self) -> FlowWork {
         self.findings.work
     }
 
-    /// Record that an observer keeps under a name; `None` if there is none.
+    /// Returns the record that an observer keeps under a name; `None` if there is none.
     #[must_use]
     pub fn record(&self, name: &str) -> Option<&Record> {
         self.findings.records.get(name)
     }
 
-    /// Record that an observer keeps under a name, empty at first. Checkpoints hold it, so that what is measured over a
-    /// run is that of the whole run where this goes on from one.
+    /// Returns the record that an observer keeps under a name, empty at first. Checkpoints hold it, so that what is
+    /// measured over a run covers the whole run if the run continues from a checkpoint.
     pub fn record_mut(&mut self, name: &str) -> &mut Record {
         self.findings.records.entry(name.to_owned()).or_default()
     }
@@ -195,13 +195,13 @@ impl<H: Hydrodynamics> System<H> {
         properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// True where [`System::markers`] holds the flow of the present state.
+    /// Returns true if [`System::markers`] holds the flow of the present state.
     #[must_use]
     pub fn is_evaluated(&self) -> bool {
         self.known == Known::Flow
     }
 
-    /// True where bodies have been put in or changed since the last step.
+    /// Returns true if bodies have been put in or changed since the last step.
     pub(crate) fn is_unmoved(&self) -> bool {
         self.clock.first_step
     }
@@ -263,7 +263,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Computes forces and velocities at the present state, unless they are known already.
     ///
     /// # Errors
-    /// Those of the bodies' forces and of the flow.
+    /// Returns the errors of the bodies' forces and of the flow.
     pub fn evaluate(&mut self) -> Result<&Markers, SceneError> {
         if self.known != Known::Flow {
             self.check_bodies()?;
@@ -273,18 +273,19 @@ impl<H: Hydrodynamics> System<H> {
         Ok(&self.bodies.markers)
     }
 
-    /// The flow at `points` in the present state; see [`Hydrodynamics::sample`]. Points beyond a wall are not refused:
-    /// they get a continuation of the flow that means nothing.
+    /// Writes the flow at `points` in the present state; see [`Hydrodynamics::sample`]. Points beyond a wall are not
+    /// refused: they get a continuation of the flow that means nothing.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`] and of the sampling.
+    /// Returns the errors of [`System::evaluate`] and of the sampling.
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), SceneError> {
         self.evaluate()?;
         let time = self.clock.time;
         self.hydrodynamics.sample(&self.bodies.markers, points, out).map_err(|source| SceneError::Flow { time, source })
     }
 
-    /// The smallest of the bodies' stable time steps at the present state for the midpoint rule, with the body's name.
+    /// Returns the smallest of the bodies' stable time steps at the present state for the midpoint rule, with the
+    /// body's name.
     #[must_use]
     pub fn step_limit(&self) -> Option<(StepLimit, &str)> {
         let mut least: Option<(StepLimit, &str)> = None;
@@ -296,7 +297,7 @@ impl<H: Hydrodynamics> System<H> {
         least
     }
 
-    /// Tells `each` all bounds on the time step at the present state, with the names of the bodies that set them.
+    /// Reports to `each` all bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn each_limit<'a>(&'a self, each: &mut dyn FnMut(StepLimit, &'a str)) {
         let view = self.hydrodynamics.fluid_view();
         for (body, &outside) in self.bodies.list.iter().zip(&self.bodies.viscosity_around) {
@@ -344,7 +345,7 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Measures the films in the flow that the markers hold, which is that of the present state.
+    /// Measures the films in the flow that the markers hold, which belongs to the present state.
     fn take_films(&mut self) {
         self.lay_out();
         self.contacts.measure_films(&self.bodies, &self.hydrodynamics);
@@ -362,7 +363,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 }
 
-/// Numbers by which walls are told from others: of sides, their length, and a mean that any displacement changes.
+/// Returns the numbers that distinguish walls: of sides, their length, and a mean that any displacement changes.
 fn wall_properties(walls: &Boundary) -> [(&'static str, f64); 3] {
     let sides = walls.sides();
     let [count, length] = [sides.len() as f64, sides.iter().map(|[start, end]| start.distance(*end)).sum()];

@@ -6,9 +6,9 @@ use crate::{Hydrodynamics, Warning};
 /// Bodies of a scene above which their warnings of one cause are one.
 const MANY: usize = 8;
 
-/// The warnings of a scene's runs ([`System::warnings`]): of each body and cause the worst, and when it was; in scenes
-/// of more than eight bodies of each cause, with the body that it was worst of.
-/// Checkpoints hold them, so that a run that goes on from one tells those from before it too.
+/// The warnings of a scene's runs ([`System::warnings`]): the worst of each body and cause, and its time. In scenes of
+/// more than eight bodies, it is the worst of each cause, together with its body. Checkpoints hold them, so that a run
+/// that continues from one reports the earlier warnings too.
 ///
 /// ```no_run
 /// # use motile_scene::{Hydrodynamics, Scene, SceneError};
@@ -29,7 +29,7 @@ pub struct Warnings {
 }
 
 impl Warnings {
-    /// The worst warning of each body and cause, in the order in which they first came, and its time (time).
+    /// Returns the worst warning of each body and cause, in the order in which they first came, and its time (time).
     #[must_use]
     pub fn worst(&self) -> &[(f64, Warning)] {
         &self.worst

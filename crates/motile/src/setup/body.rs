@@ -6,16 +6,16 @@ use motile_scene::{Body, MarkerKind, Scene, gap::Boundary};
 use super::{AnyFlow, MethodKind, Setup, checked::Checked};
 use crate::SetupError;
 
-/// An entry of a description that becomes a body of the scene. A kind of body is a list of [`Setup`] with entries that
-/// implement this.
+/// An entry of a description that becomes a body of the scene. Each kind of body is a list of [`Setup`], whose entries
+/// implement this trait.
 pub(super) trait BodySetup {
-    /// The key of its list, and the name of an entry without one of its own.
+    /// Returns the key of its list, and the name of an entry that has none.
     fn kind(&self) -> [&'static str; 2];
 
     /// Its name.
     fn name(&self) -> &str;
 
-    /// Name of its kind in the plural and the methods that compute it, where not every method does.
+    /// Returns the name of its kind in the plural and the methods that compute it, where not every method does.
     fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
         None
     }
@@ -23,14 +23,14 @@ pub(super) trait BodySetup {
     /// Refuses values out of their range, and values that do not fit together.
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError>;
 
-    /// The body before anything is meshed.
+    /// Returns the body before anything is meshed.
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError>;
 }
 
 /// Puts a body that has been planned, and what fills it, into the scene.
 type Adding<'a> = Box<dyn FnOnce(&mut Scene<AnyFlow>) -> Result<(), SetupError> + 'a>;
 
-/// A body on its way into a scene: where it is, and how it is made and added.
+/// A body before it is added to a scene: where it is, and how it is made and added.
 pub(super) struct Planned<'a> {
     pub(super) boundary: Boundary,
     pub(super) kind: MarkerKind,
@@ -40,7 +40,7 @@ pub(super) struct Planned<'a> {
 }
 
 impl Planned<'_> {
-    /// A body that needs no mesh.
+    /// Creates a body that needs no mesh.
     pub(super) fn of(body: impl Body) -> Self {
         let (boundary, kind, mut corners) =
             (Boundary::of(&body, [None; 2]), body.kind(), vec![Vec2::ZERO; body.marker_count()]);
@@ -53,7 +53,7 @@ impl Planned<'_> {
     }
 }
 
-/// The entries of a list with their numbers.
+/// Returns the entries of a list with their numbers.
 pub(super) fn numbered<B: BodySetup>(list: &[B]) -> impl Iterator<Item = (usize, &dyn BodySetup)> {
     list.iter().map(|body| -> &dyn BodySetup { body }).enumerate()
 }

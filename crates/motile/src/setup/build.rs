@@ -17,7 +17,7 @@ use super::{
 };
 use crate::SetupError;
 
-/// Hydrodynamics by whatever method a scene was made with.
+/// The flow of a scene, computed with whatever method you chose.
 pub type AnyFlow = Box<dyn Hydrodynamics>;
 
 /// A scene and what is in it, in the order of the description.
@@ -39,27 +39,27 @@ pub struct Built {
     pub interfaces: Vec<Handle<ActiveInterface>>,
 }
 
-/// Accuracy of layers beside solids, whose inner points see them through a grid.
+/// Accuracy of layers next to solids, whose inner points feel them through a grid.
 const LAYER_TOLERANCE: f64 = 1e-6;
-/// Film that is left beside a droplet squeezed to fit, over its radius.
+/// Gap that is left on each side of a droplet squeezed to fit, over its radius.
 const FILM: f64 = 0.05;
-/// Part of its radius by which a circle may miss a wall that it touches: round-off of positions.
+/// Fraction of its radius by which a circle may miss a wall that it touches: round-off of positions.
 const TOUCHING: f64 = 1e-12;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
 
-/// Spacing of a mesh over that of the markers where there is no grid, and the largest one over the droplet's radius:
-/// with 0.33 of it a swimmer of activity -4 is 8 per cent too fast, with 0.1 two (diffusion constant inside 0.05).
+/// Spacing of a mesh over the marker spacing if there is no grid, and the largest one over the droplet's radius. With
+/// 0.33 of it a swimmer of activity -4 is 8 % too fast, with 0.1 two (diffusion constant inside 0.05).
 const MARKERS_APART: f64 = 5.0;
 const COARSEST: f64 = 0.1;
 
 impl Setup {
-    /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
+    /// Builds the scene. It allocates nothing large before [`Setup::check`] has passed.
     ///
     /// # Errors
-    /// Errors of [`Setup::check`]; before anything is meshed, bodies that do not fit into the region or overlap one
-    /// another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]); shapes that
-    /// cannot be meshed.
+    /// Returns the errors of [`Setup::check`]; before anything is meshed, bodies that do not fit into the region or
+    /// overlap one another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]); shapes that cannot be
+    /// meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
         let built = if self.suspension.is_empty() {
@@ -72,7 +72,7 @@ impl Setup {
         Ok(Built { scene: built.scene.described_by(self.entries()), ..built })
     }
 
-    /// The scene of a description that has been checked and has no suspensions.
+    /// Returns the scene of a description that has been checked and has no suspensions.
     fn assembled(&self) -> Result<Built, SetupError> {
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
         let plans = self.bodies().enumerate().map(|(k, (_, body))| body.plan(self).map_err(keyed(k)));
@@ -108,7 +108,7 @@ impl Setup {
         Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels, interfaces })
     }
 
-    /// The particles that diffuse inside a droplet, made to be the body `host`.
+    /// Returns the particles that diffuse inside a droplet, made to be the body `host`.
     fn particles_inside(
         &self,
         setup: &DropletSetup,
@@ -127,10 +127,10 @@ impl Setup {
         Ok(Some(ParticlesInDroplet::new(droplet, host, exchange.rates()?, diffusion, |_| density, spacing)?))
     }
 
-    /// A droplet of this scene, for scenes that are put together by hand.
+    /// Returns a droplet of this scene, for scenes that are put together by hand.
     ///
     /// # Errors
-    /// Parameters out of their range.
+    /// Returns an error for parameters out of their range.
     pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
         let shape = self.shape(droplet)?;
         let (curve, turned, round, share) = match (&shape, self.region.is_axisymmetric()) {
@@ -192,8 +192,8 @@ impl Setup {
     }
 
     /// So many markers of a droplet's outline. In an imposed flow, which deforms bodies as precisely as it is known,
-    /// and in three dimensions, they are those of [`Setup::true_outline`]; otherwise the area of their polygon is that of
-    /// the outline, as on grids.
+    /// and in three dimensions, they come from [`Setup::true_outline`]; otherwise their polygon has the area of the
+    /// outline, as on grids.
     pub(super) fn outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         if self.flow.is_none() && !self.region.is_axisymmetric() {
             return Ok(curve.markers(count)?);
@@ -201,8 +201,8 @@ impl Setup {
         self.true_outline(curve, count)
     }
 
-    /// So many markers of a body's outline, so that the area of the smooth curve through them is that of the outline,
-    /// except on grids, where that of their polygon is: thin films beside rigid bodies see a difference of the radius.
+    /// So many markers of a body's outline, so that the smooth curve through them has the area of the outline, except
+    /// on grids, where their polygon has it. Narrow gaps at rigid bodies are sensitive to a difference of the radius.
     pub(super) fn true_outline(&self, curve: &Curve, count: usize) -> Result<Vec<Vec2>, SetupError> {
         let mut markers = curve.markers(count)?;
         if !matches!(self.method, Method::Grid(_)) {
@@ -215,7 +215,7 @@ impl Setup {
         Ok(markers)
     }
 
-    /// Number of markers of a body's outline.
+    /// Returns the number of markers of a body's outline.
     pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         let grid = match self.method.resolution() {
             Ok([nodes, elements]) => return Ok(elements.max(nodes)),
@@ -223,23 +223,23 @@ impl Setup {
         };
         let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
         let wanted = curve.perimeter() / spacing;
-        let remedy = format!("{name} would have {wanted:.1e} markers: give more than that");
+        let remedy = format!("{name} would have {wanted:.1e} markers, too many to compute. Use a larger spacing");
         let many = wanted.is_nan() || wanted > MARKERS[1];
         Checked { place: "method.grid" }.refuse_if(many, "marker-spacing", spacing, remedy)?;
         Ok(fast_count(wanted))
     }
 
-    /// The like for an elastic membrane, of at least three markers for each two modes of its shape: products of more
-    /// modes than that would pass for others in its energy, and waves that do not exist grow.
+    /// Returns the like for an elastic membrane, of at least three markers for each two modes of its shape. Products of
+    /// more modes than that would pass for others in its energy, and waves that do not exist grow.
     pub(super) fn membrane_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
         let count = self.marker_count(curve, name)?;
         Ok(self.method.resolution().map_or(count, |[nodes, _]| count.max(nodes + nodes.div_ceil(2))))
     }
 
-    /// The flow of this scene, for scenes that are put together by hand.
+    /// Returns the flow of this scene, for scenes that are put together by hand.
     ///
     /// # Errors
-    /// A region that the method does not have, lengths that do not hold a whole number of cells.
+    /// Returns an error for a region that the method does not have, lengths that do not hold a whole number of cells.
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
         Ok(match &self.method {
             Method::Integral(method) => self.integrals(method)?,
@@ -271,18 +271,18 @@ impl Setup {
         })
     }
 
-    /// True if the forces of a solid are spread over its triangles.
+    /// Returns true if the forces of a solid are spread over its triangles.
     pub(super) fn spreads(&self) -> bool {
         self.solids.iter().any(|solid| solid.spread_over_triangles)
     }
 
-    /// True if a flow is found by iterations on a grid: with other viscosities and with solids that damp.
+    /// Returns true if a flow is found by iterations on a grid: with other viscosities and with solids that damp.
     fn iterates(&self) -> bool {
         let damps = |solid: &SolidSetup| solid.viscosity.is_some_and(|own| own > self.viscosity);
         self.has_contrast() || self.solids.iter().any(damps)
     }
 
-    /// The projection solver on a grid; boxed like the other one.
+    /// Returns the projection solver on a grid; boxed like the other one.
     fn projection(&self, spacing: f64, treatment: WallTreatment) -> Result<Box<dyn StokesSolver>, SetupError> {
         let [nx, ny] = self.cells(spacing, self.region.lengths())?;
         let Region::Channel { drive, .. } = self.region else {
@@ -294,7 +294,7 @@ impl Setup {
         Ok(Box::new(solver))
     }
 
-    /// A solver on a grid; boxed, so that methods are compiled once, not once for each kind.
+    /// Returns a solver on a grid; boxed, so that methods are compiled once, not once for each kind.
     fn streamfunction(&self, spacing: f64) -> Result<Box<dyn StokesSolver>, SetupError> {
         let [nx, ny] = self.cells(spacing, self.region.lengths())?;
         if let Region::Channel { drive, .. } = self.region {
@@ -323,7 +323,7 @@ impl Setup {
         }))
     }
 
-    /// Perimeter of the smallest droplet, shell or rigid body (length), and a period of interfaces along x.
+    /// Returns the perimeter of the smallest droplet, shell or rigid body (length), and a period of interfaces along x.
     fn shortest_perimeter(&self) -> Result<Option<f64>, SetupError> {
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape).chain(self.shells.iter().map(|s| &s.shape));
         let shapes = shapes.chain(self.rigid_bodies.iter().map(|body| &body.shape));
@@ -336,19 +336,20 @@ impl Setup {
         Ok(lengths.into_iter().reduce(f64::min))
     }
 
-    /// True if there is fluid of another viscosity than the exterior one.
+    /// Returns true if there is fluid of another viscosity than the exterior one.
     pub(super) fn has_contrast(&self) -> bool {
         let inside = self.droplets.iter().map(|droplet| droplet.viscosity);
         let mut inside = inside.chain(self.shells.iter().map(|shell| shell.viscosity));
         inside.any(|viscosity| viscosity.is_some_and(|inside| inside != self.viscosity))
     }
 
-    /// The shape of a droplet at the start: its own, or the shape of a circle that is squeezed between walls. The walls
-    /// squeeze a circle by a film if it is just as wide as the place between them, so that it touches both. They
-    /// squeeze it by more only if it is [`DropletSetup::squeezed`]. A circle with a gap, however narrow, stays a circle.
+    /// Returns the shape of a droplet at the start: its own, or the shape of a circle that is squeezed between walls.
+    /// The walls squeeze a circle by a film if it is just as wide as the place between them, so that it touches both.
+    /// They squeeze it by more only if it is [`DropletSetup::squeezed`]. A circle with a gap, however narrow, stays a
+    /// circle.
     ///
     /// # Errors
-    /// A circle that is wider than its surroundings.
+    /// Returns an error for a circle that is wider than its surroundings.
     pub fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
@@ -403,12 +404,12 @@ impl Setup {
     }
 }
 
-/// The bodies of a type, in the order in which they were added.
+/// Returns the bodies of a type, in the order in which they were added.
 fn handles<B: Body>(scene: &Scene<AnyFlow>) -> Vec<Handle<B>> {
     scene.system().bodies().map(|(handle, _)| handle).collect()
 }
 
-/// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
+/// Returns the even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
 fn fast_count(wanted: f64) -> usize {
     let wanted = wanted.round().clamp(8.0, MARKERS[1]) as usize;
     (0..wanted)

@@ -31,7 +31,7 @@ impl Setup {
     /// only shows when shapes are made is refused by [`Setup::build`].
     ///
     /// # Errors
-    /// [`SetupError::Value`] with the key, the value and what to give instead.
+    /// Returns [`SetupError::Value`] with the key, the value and what to give instead.
     pub fn check(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
@@ -48,13 +48,13 @@ impl Setup {
             Region::Channel { length, width, drive } => {
                 top.length("region.channel.length", length)?;
                 top.length("region.channel.width", width)?;
-                let remedy = "it is less than a hundredth of the width: give more";
+                let remedy = "the length is less than a hundredth of the width. Use a longer channel";
                 let wide = self.method.kind() == MethodKind::Integral && width > WIDEST * length;
                 top.require(!wide, "region.channel.length", length, remedy)?;
                 let long = self.method.kind() == MethodKind::Integral && length > LONGEST * width;
                 let most = short(LONGEST * width);
                 let remedy = format!(
-                    "it is more than {LONGEST} widths, whereas flow in a channel decays within a few widths: give at \
+                    "this is more than {LONGEST} widths, but flow in a channel decays within a few widths. Use at \
                      most {most}"
                 );
                 top.require(!long, "region.channel.length", length, &remedy)?;
@@ -73,10 +73,10 @@ impl Setup {
         }
         if let Some(tolerance) = self.tolerance {
             let [least, most] = TOLERANCES;
-            let remedy = format!("give a number from {least:e} to {most:e}");
+            let remedy = format!("use a number from {least:e} to {most:e}");
             let holds = (least..=most).contains(&tolerance);
             top.require(holds, "tolerance", tolerance, &remedy)?;
-            self.computed("accuracy of its own", &[MethodKind::Integral, MethodKind::Layers])?;
+            self.computed("an an accuracy of its own", &[MethodKind::Integral, MethodKind::Layers])?;
         }
         self.flow.check(self)?;
         if !self.flow.is_none() {
@@ -124,7 +124,7 @@ impl Setup {
             if let Some(last) = pushed.filter(|_| sum.abs() > BALANCED * most) {
                 let remedy = format!(
                     "in the plane nothing holds a fluid that is pushed, and the forces on all bodies add up to {}: \
-                     give {} here, or a box or a channel",
+                     set this force to {}, or use a box or a channel",
                     short(sum),
                     short(self.rigid_bodies[last].force[axis] - sum)
                 );
@@ -142,7 +142,7 @@ impl Setup {
             return Ok(());
         }
         let (key, value) = if x < y { ("lengths[0]", x) } else { ("lengths[1]", y) };
-        let remedy = format!("it is less than a {most:.0}th of the other one: give a box that is less narrow");
+        let remedy = format!("this is less than a {most:.0}th of the other side. Use a wider box");
         Checked { place: "region.box" }.refuse(key, &value, remedy)
     }
 
@@ -151,7 +151,7 @@ impl Setup {
         let top = Checked { place: "" };
         let Region::Tube { shape, drive, .. } = self.region else { return Ok(()) };
         self.region.check().or_else(|error| top.refuse("region.tube", &"given", error.to_string()))?;
-        let remedy = "only straight tubes have a prescribed pressure: give zero-flux or a flux";
+        let remedy = "a pressure can be prescribed in straight tubes only. Use zero-flux or a flux";
         let pressed = shape != TubeShape::Straight && drive.flux().is_none();
         top.refuse_if(pressed, "region.tube.drive", format!("{drive:?}"), remedy)
     }
@@ -161,7 +161,7 @@ impl Setup {
         let has = self.droplets.iter().any(|droplet| droplet.particles.is_some() || droplet.gel.is_some())
             || self.interfaces.iter().any(|interface| interface.particles.is_some())
             || !self.gels.is_empty();
-        let remedy = "it does not step particles or gels, whose diffusion is implicit: give \"midpoint\" or \
+        let remedy = "it cannot step particles or gels, because their diffusion is implicit. Use \"midpoint\" or \
                       \"runge-kutta-chebyshev\"";
         Checked { place: "" }.refuse_if(has, "integrator", "runge-kutta", remedy)
     }
@@ -169,10 +169,10 @@ impl Setup {
     /// Refuses what has no meaning or no method for bodies of revolution in three dimensions.
     fn check_revolution(&self) -> Result<(), SetupError> {
         let refuse_if = |wrong: bool, place: &str, key: &str, value: &dyn std::fmt::Display, remedy: &str| {
-            Checked { place }.refuse_if(wrong, key, value, format!("{remedy}, or a region of the plane"))
+            Checked { place }.refuse_if(wrong, key, value, format!("{remedy}, or use a two-dimensional region"))
         };
         let kind = self.method.kind();
-        let remedy = "three dimensions have no grid: give integral";
+        let remedy = "the grid is two-dimensional, but this region is axisymmetric. Use integral";
         refuse_if(kind != MethodKind::Integral, "", "method", &kind.name(), remedy)?;
         let planar = [
             ("solids", self.solids.len()),
@@ -183,21 +183,26 @@ impl Setup {
             ("interfaces", self.interfaces.len()),
         ];
         for (key, count) in planar {
-            refuse_if(count > 0, "", key, &count, "they are bodies of two dimensions: leave them out")?;
+            refuse_if(count > 0, "", key, &count, "these bodies exist in two dimensions only. Remove them")?;
         }
         for (number, DropletSetup { centre, angle, motion, gel, particles, .. }) in self.droplets.iter().enumerate() {
             let refuse_if = |wrong: bool, key: &str, value: &dyn std::fmt::Display, remedy: &str| {
                 refuse_if(wrong, &format!("droplets[{number}]"), key, value, remedy)
             };
-            let remedy = "bodies of revolution are on the x axis: give 0";
+            let remedy = "axisymmetric bodies lie on the x axis. Use 0";
             refuse_if(centre[1] != 0.0, "centre[1]", &centre[1], remedy)?;
-            let remedy = "a droplet swims along the x axis: give 0, or pi for backwards";
+            let remedy = "an axisymmetric droplet swims along the x axis. Use 0, or pi for backwards";
             refuse_if(angle.sin().abs() > 1e-12, "angle", angle, remedy)?;
-            let remedy = "its markers lose their images: give equidistributed";
+            let remedy = "markers that move with the fluid lose their mirror images. Use equidistributed";
             refuse_if(*motion == Motion::WithFluid, "motion", &"with-fluid", remedy)?;
-            refuse_if(gel.is_some(), "gel", &"given", "gels are of two dimensions: leave it out")?;
+            refuse_if(gel.is_some(), "gel", &"given", "gels exist in two dimensions only. Remove the gel")?;
             let exchange = particles.is_some_and(|particles| particles.exchange.is_some());
-            refuse_if(exchange, "particles.exchange", &"given", "it is one of two dimensions: leave it out")?;
+            refuse_if(
+                exchange,
+                "particles.exchange",
+                &"given",
+                "the exchange is implemented in two dimensions only. Remove the key",
+            )?;
         }
         Ok(())
     }
@@ -214,7 +219,7 @@ impl Setup {
             return Ok(());
         }
         let able = able.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(" or ");
-        Checked { place: "" }.refuse("method", &kind.name(), format!("it has no {what}: give {able}"))
+        Checked { place: "" }.refuse("method", &kind.name(), format!("it does not support {what}. Use {able}"))
     }
 
     fn check_grid(&self, grid: &GridMethod) -> Result<(), SetupError> {
@@ -223,19 +228,20 @@ impl Setup {
         checked.positive("marker-spacing", grid.marker_spacing)?;
         self.cells(grid.spacing, self.region.lengths())?;
         let mut droplets = self.droplets.iter();
-        let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets with \
+        let remedy = "markers that move with the fluid are not equally spaced. Use false, or droplets with \
                       equidistributed markers";
         let carried = !self.droplets.is_empty() && droplets.all(|droplet| droplet.motion == Motion::WithFluid);
         checked.refuse_if(grid.corrected && carried, "corrected", true, remedy)
     }
 
-    /// Refuses the mobility correction where nothing has one.
+    /// Refuses the mobility correction if nothing has one.
     fn check_correction(&self) -> Result<(), SetupError> {
         if !matches!(self.method, Method::Grid(GridMethod { corrected: true, .. })) {
             return Ok(());
         }
         for (what, present) in [("viscosity contrasts", self.has_contrast()), ("solids", !self.solids.is_empty())] {
-            let remedy = format!("{what} on the grid leave no mobility correction: give false, or the method layers");
+            let remedy =
+                format!("the mobility correction cannot handle {what} on the grid. Use false, or the method layers");
             Checked { place: "method.grid" }.refuse_if(present, "corrected", true, remedy)?;
         }
         Ok(())
@@ -251,13 +257,13 @@ impl Setup {
             self.cells(0.5 * spacing, self.region.lengths())?;
         }
         if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = kernel {
-            let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4";
+            let remedy = "with this kernel solids lose volume. Use a composite B-spline, such as bspline4";
             checked.refuse("kernel", &format!("{kernel:?}"), remedy)?;
         }
         Ok(())
     }
 
-    /// Cells of the grid over these lengths.
+    /// Returns the cells of the grid over these lengths.
     pub(super) fn cells(&self, spacing: f64, lengths: [f64; 2]) -> Result<[usize; 2], SetupError> {
         let place = format!("method.{}", self.method.kind().name());
         let checked = Checked { place: &place };
@@ -266,18 +272,24 @@ impl Setup {
         for (length, cells) in lengths.into_iter().zip(counts) {
             let whole = cells.round();
             let [most, in_all] = MOST_CELLS;
-            let remedy = "the plane has no grid: give a box or a channel, or the method integral";
+            let remedy = "the plane is unbounded, so no grid covers it. Use a box or a channel, or the method integral";
             Checked { place: "" }.refuse_if(length.is_infinite(), "region", "plane", remedy)?;
             if cells > most || product > in_all {
                 let count = if cells < 1e6 { format!("{cells:.0}") } else { format!("{cells:.1e}") };
-                let remedy =
-                    format!("a length of {} would take {count} cells, {product:.1e} in all: give more", short(length));
+                let remedy = format!(
+                    "a length of {} would need {count} cells, {product:.1e} in all. Use a larger spacing",
+                    short(length)
+                );
                 return checked.refuse("spacing", &spacing, remedy);
             }
             if whole < 4.0 || (cells - whole).abs() > 1e-6 * whole {
-                let nearest = length / whole.max(4.0);
-                let remedy =
-                    format!("a length of {length} is not a whole number of at least 4 cells: give {nearest}, say");
+                // As many digits as it takes to divide the length.
+                let nearest: f64 = format!("{:.7e}", length / whole.max(4.0)).parse().unwrap_or(spacing);
+                let remedy = format!(
+                    "a length of {} is not a whole number of at least 4 cells. Use {}, for example",
+                    short(length),
+                    short(nearest)
+                );
                 return checked.refuse("spacing", &spacing, remedy);
             }
         }

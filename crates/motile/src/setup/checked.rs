@@ -10,10 +10,10 @@ const MAGNITUDES: [f64; 2] = [1e-50, 1e50];
 /// Most amplitudes of the waves of a shape, about as many as half of the most nodes resolve.
 const MOST_WAVES: usize = 2000;
 
-/// Most characters of a number that is told as it was given.
+/// Most characters of a number that is printed as it was given.
 const MOST_DIGITS: usize = 20;
 
-/// A number as it was given, but not with hundreds of digits.
+/// Returns a number as it was given, but not with hundreds of digits.
 pub(super) fn short(value: f64) -> String {
     let text = value.to_string();
     if text.len() > MOST_DIGITS { format!("{value:e}") } else { text }
@@ -48,29 +48,29 @@ impl Checked<'_> {
 
     pub(super) fn positive(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
         let Some(value) = value.into() else { return Ok(()) };
-        self.require(value.is_finite() && value > 0.0, key, value, "give a positive finite number")?;
+        self.require(value.is_finite() && value > 0.0, key, value, "use a positive finite number")?;
         let [least, most] = MAGNITUDES;
-        self.require((least..=most).contains(&value), key, value, &format!("give a number from {least:e} to {most:e}"))
+        self.require((least..=most).contains(&value), key, value, &format!("use a number from {least:e} to {most:e}"))
     }
 
-    /// A length of a region.
+    /// Returns a length of a region.
     pub(super) fn length(&self, key: &str, value: f64) -> Result<(), SetupError> {
         let [least, most] = MAGNITUDES;
-        let remedy = format!("give a number from {least:e} to {most:e}, or the region plane where nothing is near");
+        let remedy = format!("use a number from {least:e} to {most:e}, or the region plane if nothing is near");
         self.require((least..=most).contains(&value), key, value, &remedy)
     }
 
     pub(super) fn not_negative(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
         let Some(value) = value.into() else { return Ok(()) };
-        self.require(value >= 0.0, key, value, "give a finite number that is not negative")?;
+        self.require(value >= 0.0, key, value, "use a finite number that is not negative")?;
         self.finite(key, value)
     }
 
     pub(super) fn finite(&self, key: &str, value: impl Into<Option<f64>>) -> Result<(), SetupError> {
         let Some(value) = value.into() else { return Ok(()) };
-        self.require(value.is_finite(), key, value, "give a finite number")?;
+        self.require(value.is_finite(), key, value, "use a finite number")?;
         let [_, most] = MAGNITUDES;
-        self.require(value.abs() <= most, key, value, &format!("give a number from -{most:e} to {most:e}"))
+        self.require(value.abs() <= most, key, value, &format!("use a number from -{most:e} to {most:e}"))
     }
 
     pub(super) fn all_finite(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
@@ -80,7 +80,7 @@ impl Checked<'_> {
     /// Amplitudes of the waves of a shape.
     pub(super) fn amplitudes(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
         if values.len() > MOST_WAVES {
-            let remedy = format!("no method resolves so many waves: give at most {MOST_WAVES}");
+            let remedy = format!("no method resolves so many modes. Use at most {MOST_WAVES}");
             return self.refuse(key, &format!("{} amplitudes", values.len()), remedy);
         }
         self.all_finite(key, values)

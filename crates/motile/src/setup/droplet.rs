@@ -14,7 +14,7 @@ use super::{
 };
 use crate::SetupError;
 
-/// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
+/// A droplet: a closed fluid interface with its own tension and, unless it is passive, active particles.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -25,6 +25,7 @@ use crate::SetupError;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("drop", "swimmer", "microswimmer", "cell", "squirmer"))]
 pub struct DropletSetup {
     /// Name for messages.
     pub name: String,
@@ -32,9 +33,11 @@ pub struct DropletSetup {
     pub centre: [f64; 2],
     /// Direction of swimming at the start (radians from the x axis), by which the shape is turned.
     pub angle: f64,
-    /// Viscosity of the droplet (stress times time); `None` for that of the fluid around it.
+    /// Viscosity of the droplet (stress times time); `None` for the viscosity of the fluid around it.
+    #[doc(alias("viscosity ratio", "viscosity contrast"))]
     pub viscosity: Option<f64>,
     /// Tension gamma0 of the interface without particles (force).
+    #[doc(alias("surface tension"))]
     pub tension: f64,
     /// Bending modulus B of the interface (force times length squared), whose energy is
     /// `B/2 INT (kappa - kappa0)^2 ds`.
@@ -45,10 +48,10 @@ pub struct DropletSetup {
     pub motion: Motion,
     /// Area restored to the initial one after each step.
     pub area_constraint: bool,
-    /// Its shape at the start.
+    /// Shape at the start.
     pub shape: DropletShape,
-    /// Leave for a round droplet that is wider than the walls of a channel or tube leave it to start squeezed between
-    /// them; without it such a droplet is refused.
+    /// Permission for a round droplet that is too wide for its channel or tube to start squeezed between the walls.
+    /// Without it, such a droplet is refused.
     pub squeezed: bool,
     /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
     #[serde(with = "super::particles_entry")]
@@ -58,7 +61,7 @@ pub struct DropletSetup {
 }
 
 impl Default for DropletSetup {
-    /// An active droplet of activity -2 and radius 1 in the origin.
+    /// Creates an active droplet of activity -2 and radius 1 in the origin.
     fn default() -> Self {
         Self {
             name: "droplet".to_owned(),
@@ -79,29 +82,29 @@ impl Default for DropletSetup {
 }
 
 impl DropletSetup {
-    /// The default droplet with this activity zeta delta-mu (force times length; negative if contractile).
+    /// Creates the default droplet with this activity zeta delta-mu (force times length; negative if contractile).
     #[must_use]
     pub fn active(activity: f64) -> Self {
         Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
     }
 
-    /// The default droplet with this activity and this strength A of the step-like excluded volume (both force times
-    /// length).
+    /// Creates the default droplet with this activity and this strength A of the step-like excluded volume (both force
+    /// times length).
     #[must_use]
     pub fn contractile(activity: f64, excluded_volume: f64) -> Self {
         let excluded_volume = ExcludedVolume::Step(excluded_volume);
         Self { particles: Some(Particles { activity, excluded_volume, ..Particles::default() }), ..Self::default() }
     }
 
-    /// A droplet without particles, of constant tension (force).
+    /// Creates a droplet without particles, of constant tension (force).
     #[must_use]
     pub fn passive(tension: f64) -> Self {
         Self { tension, particles: None, ..Self::default() }
     }
 
-    /// The default droplet by Cowley's method: markers that move with the fluid and are inserted and removed, an
-    /// area constraint. What Cowley does not state is a reading of it: a first-order upwind flux; diffusion is
-    /// implicit as in the default.
+    /// Creates the default droplet by Cowley's method: markers that move with the fluid and are inserted and removed,
+    /// an area constraint. Where Cowley leaves the choice open, this uses a first-order upwind flux, and implicit
+    /// diffusion as by default.
     #[must_use]
     pub fn thesis() -> Self {
         Self {
@@ -112,12 +115,12 @@ impl DropletSetup {
         }
     }
 
-    /// The droplet as a circle of that radius R (length), all else as it was.
+    /// Returns the droplet as a circle of that radius R (length), all else as it was.
     ///
     /// The concentration c0 of the particles stays, so that their number, 2 pi R c0, grows with R. Below a threshold a
     /// round droplet does not swim: |activity| has to exceed `2 D (eta_in + eta_ext) / (R c0)`, Cowley (2.20), which a
-    /// large droplet does at less activity (excluded volume aside, which matters near 2 c0 only). The region does not
-    /// grow with the droplet, and on a grid the spacing does not.
+    /// large droplet does at less activity (without the effect of the excluded volume, which matters near 2 c0 only).
+    /// The region does not grow with the droplet, and on a grid the spacing does not.
     ///
     /// ```
     /// use motile::active_interface::theory::{LinearTheory, RoundDroplet};
@@ -141,7 +144,7 @@ impl DropletSetup {
         Self { shape: DropletShape::Round { radius }, ..self }
     }
 
-    /// Activity zeta delta-mu (force times length); 0 without particles.
+    /// Returns the activity zeta delta-mu (force times length); 0 without particles.
     #[must_use]
     pub fn activity(&self) -> f64 {
         self.particles.map_or(0.0, |particles| particles.activity)
@@ -151,6 +154,7 @@ impl DropletSetup {
 /// Active particles on an interface. They raise its tension: `gamma = gamma0 - zeta_dmu c - Pi(c)`, Cowley (2.39).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("surfactant", "motors", "myosin", "concentration"))]
 pub struct Particles {
     /// Activity zeta delta-mu (force times length; in three dimensions force times length squared), negative if
     /// contractile. Forces are line tensions.
@@ -163,7 +167,7 @@ pub struct Particles {
     pub concentration: f64,
     /// Spread over the interface at the start.
     pub start: Start,
-    /// Flux that carries them from segment to segment; with [`Flux::Upwind`] speeds are some 3 to 7 per cent too high.
+    /// Flux that carries them from element to element; with [`Flux::Upwind`] speeds are about 3 to 7 % too high.
     pub flux: Flux,
     /// Their exchange with the inside of the droplet; `None` for particles that stay on the interface.
     pub exchange: Option<ExchangeSetup>,
@@ -184,21 +188,21 @@ impl Default for Particles {
 }
 
 impl Particles {
-    /// The law of the tension with these particles on an interface of the tension gamma0 (force).
+    /// Returns the law of the tension with these particles on an interface of the tension gamma0 (force).
     ///
     /// # Errors
-    /// A negative tension, values that are out of their range.
+    /// Returns an error for a negative tension, values that are out of their range.
     pub fn law(&self, tension: f64) -> Result<ContractileTension, InterfaceError> {
         ContractileTension::new(tension, self.activity, self.excluded_volume, self.concentration)
     }
 
-    /// Refuses values out of their range, but for the exchange with an inside.
+    /// Refuses values out of their range, except in the exchange with an inside.
     pub(super) fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
         checked.finite("particles.activity", self.activity)?;
         checked.not_negative("particles.diffusion", self.diffusion)?;
         checked.positive("particles.concentration", self.concentration)?;
         let (key, tension) = ("particles.activity", self.activity * self.concentration);
-        let remedy = "the tension that it makes at the mean concentration is not finite: give less";
+        let remedy = "the tension at the mean concentration would not be finite. Use a smaller number";
         checked.require(tension.is_finite(), key, self.activity, remedy)?;
         match self.excluded_volume {
             ExcludedVolume::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
@@ -209,12 +213,12 @@ impl Particles {
         }
         let Start::Perturbed { amplitude, .. } = self.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
-        checked.require(holds, key, amplitude, "give a number from 0 to below 1")
+        checked.require(holds, key, amplitude, "use a number from 0 to below 1")
     }
 }
 
-/// Exchange of particles with the inside of the droplet: `dc/dt = ... + k_on C - k_off c`, C the density beside the
-/// interface.
+/// Exchange of particles with the inside of the droplet: `dc/dt = ... + k_on C - k_off c`, C the density inside, next
+/// to the interface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ExchangeSetup {
@@ -225,30 +229,31 @@ pub struct ExchangeSetup {
     /// Number inside at the start; `None` for as many as are at rest with the concentration on the interface.
     #[serde(default)]
     pub number_inside: Option<f64>,
-    /// Their diffusion constant inside (length squared per time), where the flow carries them along too; `None` where
-    /// they are well mixed.
+    /// Their diffusion constant inside (length squared per time), where the flow carries them along too; `None` if they
+    /// are well mixed.
     #[serde(default)]
     pub diffusion_inside: Option<f64>,
-    /// Spacing of the mesh for them (length); `None` for that of the grid, or without a grid that of five markers, at
-    /// most a tenth of the radius.
+    /// Spacing of the mesh for them (length); `None` for the spacing of the grid, or without a grid the distance of
+    /// five markers, at most a tenth of the radius.
     #[serde(default)]
     pub spacing_inside: Option<f64>,
 }
 
 impl ExchangeSetup {
-    /// Exchange with a well-mixed inside that is at rest with the interface at the start, from the rates of binding
-    /// (length per time) and unbinding (1/time).
+    /// Creates the exchange with a well-mixed inside that is at rest with the interface at the start, from the rates of
+    /// binding (length per time) and unbinding (1/time).
     #[must_use]
     pub fn new(binding: f64, unbinding: f64) -> Self {
         Self { binding, unbinding, number_inside: None, diffusion_inside: None, spacing_inside: None }
     }
 
-    /// The rates.
+    /// Returns the rates.
     pub(super) fn rates(&self) -> Result<Exchange, InterfaceError> {
         Exchange::new(self.binding, self.unbinding)
     }
 
-    /// The number inside at the start of a droplet of that concentration and area, which has been checked to exist.
+    /// Returns the number inside at the start of a droplet of that concentration and area, which has been checked to
+    /// exist.
     pub(super) fn number(&self, concentration: f64, area: f64) -> Result<f64, InterfaceError> {
         let density = self.rates()?.concentration_at_rest(concentration);
         Ok(self.number_inside.or_else(|| density.map(|density| density * area)).unwrap_or(0.0))
@@ -279,8 +284,8 @@ pub enum Start {
 #[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 #[non_exhaustive]
 pub enum DropletShape {
-    /// A circle. If it touches the walls on both sides, it starts as an ellipse, or between elastic walls as a
-    /// stadium, that leaves a film of a twentieth of the radius, with the area and the particles of the circle. If it
+    /// A circle. If it touches the walls on both sides, it starts as an ellipse, or between elastic walls as a stadium.
+    /// This shape leaves a film of a twentieth of the radius, and has the area and the particles of the circle. If it
     /// is wider, it is refused, unless it is [`DropletSetup::squeezed`] to such a shape. With a gap, however narrow, it
     /// stays a circle. In a tube, a sphere, which starts as a spheroid of its volume there. [`Setup::shape`] returns
     /// the shape at the start.
@@ -335,8 +340,8 @@ impl Default for DropletShape {
 }
 
 impl DropletShape {
-    /// The curve about the origin before it is turned, whether it is to be turned, and the circle that particles are
-    /// spread on where that is another curve.
+    /// Returns the curve about the origin before it is turned, whether it is to be turned, and the circle that
+    /// particles are spread on where that is another curve.
     pub(super) fn curve(&self) -> Result<(Curve, bool, Option<f64>), InterfaceError> {
         Ok(match self {
             &Self::Round { radius } => (Curve::circle(radius)?, true, None),
@@ -357,8 +362,8 @@ impl DropletShape {
     }
 }
 
-/// The meridian of a squeezed sphere with its mirror image, a spheroid or a cylinder with round ends of the volume of
-/// the sphere, and the area of the sphere over that of its surface.
+/// Returns the meridian of a squeezed sphere with its mirror image, a spheroid or a cylinder with round ends of the
+/// volume of the sphere, and the area of the sphere over the area of its surface.
 pub(super) fn squeezed_sphere(radius: f64, half: f64, to: Squeezed) -> Result<(Curve, f64), InterfaceError> {
     let sphere = 4.0 * PI * radius * radius;
     Ok(match to {
@@ -406,11 +411,11 @@ impl BodySetup for DropletSetup {
         checked.not_negative("tension", self.tension)?;
         checked.not_negative("bending", self.bending)?;
         checked.finite("reference-curvature", self.reference_curvature)?;
-        let remedy = "bending is that of curves in two dimensions: give none to bodies of revolution";
+        let remedy = "bending stiffness exists in two dimensions only. Remove the key";
         let plane = self.bending == 0.0 || !setup.region.is_axisymmetric();
         checked.require(plane, "bending", self.bending, remedy)?;
         let carried = self.motion == Motion::WithFluid;
-        let remedy = "bending needs a fixed number of markers: give equidistributed ones";
+        let remedy = "bending needs a fixed number of markers. Use equidistributed";
         checked.refuse_if(self.bending > 0.0 && carried, "motion", "with-fluid", remedy)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
@@ -426,11 +431,11 @@ impl BodySetup for DropletSetup {
             checked.not_negative("particles.exchange.unbinding", unbinding)?;
             checked.positive("particles.exchange.diffusion-inside", diffusion_inside)?;
             checked.positive("particles.exchange.spacing-inside", spacing_inside)?;
-            let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
+            let remedy = "a droplet with a mesh inside needs a fixed number of markers. Use equidistributed";
             checked.refuse_if(diffusion_inside.is_some() && carried, "motion", "with-fluid", remedy)?;
             checked.not_negative("particles.exchange.number-inside", number_inside)?;
             let rests = number_inside.is_some() || binding > 0.0 || unbinding == 0.0;
-            let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+            let remedy = "nothing that unbinds comes back, so the number inside has no steady value. Set it";
             checked.require(rests, "particles.exchange.binding", binding, remedy)?;
         }
         Ok(())
@@ -445,7 +450,10 @@ impl DropletShape {
             Self::Round { radius } => checked.positive(&key("round.radius"), *radius),
             Self::Squeezed { radius, half_height, .. } => {
                 checked.positive(&key("squeezed.radius"), *radius)?;
-                let (key, remedy) = (key("squeezed.half-height"), "give less than the radius");
+                let (key, remedy) = (
+                    key("squeezed.half-height"),
+                    "a squeezed circle is less high than round. Use a number below the radius",
+                );
                 checked.positive(&key, *half_height)?;
                 checked.require(half_height <= radius, &key, *half_height, remedy)
             }
@@ -464,7 +472,7 @@ impl DropletShape {
 
 /// Refuses points of a shape under that key.
 pub(super) fn check_points(points: &[[f64; 2]], checked: &Checked<'_>, key: &str) -> Result<(), SetupError> {
-    let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
+    let remedy = format!("use from {} to {} points", MARKERS[0], MARKERS[1]);
     let wrong = points.len() < 8 || points.len() as f64 > MARKERS[1];
     checked.refuse_if(wrong, key, format!("{} points", points.len()), remedy)?;
     checked.all_finite(key, points.as_flattened())

@@ -9,9 +9,9 @@ use super::{GridMethod, GridSolver, LayersMethod, Method, Particles, Setup};
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
 impl Setup {
-    /// The description with all that a resumed run may change at its default: `step`, `integrator`, `tolerance`,
-    /// `least-gap`, spacing, kernel, correction and solver of the grid, and the flux of particles. A drive of zero is
-    /// the same however it is written.
+    /// Returns the description with all that a resumed run may change at its default: `step`, `integrator`,
+    /// `tolerance`, `least-gap`, spacing, kernel, correction and solver of the grid, and the flux of particles. A drive
+    /// of zero is the same however it is written.
     fn kept(&self) -> Self {
         let region = match self.region {
             Region::Channel { length, width, drive } => Region::Channel { length, width, drive: zero_drive(drive) },
@@ -46,10 +46,10 @@ impl Setup {
         kept
     }
 
-    /// Keys and values that a resumed run has to agree with ([`motile_scene::Scene::described_by`]), as they are in a
-    /// scene file: all except `step`, `integrator`, `tolerance`, `least-gap`, the grid's `spacing`, `kernel`,
-    /// `corrected` and `solver`, and the particles' `flux`. Without the feature `toml` there is one entry, a number
-    /// that stands for all of them.
+    /// Returns the keys and values that a resumed run has to agree with ([`motile_scene::Scene::described_by`]), as
+    /// they are in a scene file. These are all except `step`, `integrator`, `tolerance`, `least-gap`, the grid's
+    /// `spacing`, `kernel`, `corrected` and `solver`, and the particles' `flux`. Without the feature `toml` there is
+    /// one entry, a number that stands for all of them.
     #[must_use]
     pub fn entries(&self) -> BTreeMap<String, String> {
         let mut entries = BTreeMap::new();
@@ -64,7 +64,8 @@ impl Setup {
         entries
     }
 
-    /// The first of the [`Setup::entries`] that is not the same as in a saved description, with both values, in words.
+    /// Returns the first of the [`Setup::entries`] that is not the same as in a saved description, with both values, in
+    /// words.
     ///
     /// ```
     /// use motile::prelude::*;
@@ -107,7 +108,7 @@ fn add(key: &str, value: &toml::Value, entries: &mut BTreeMap<String, String>) {
     }
 }
 
-/// The drive, if it is zero in the shorter way of writing that.
+/// Returns the drive, if it is zero in the shorter way of writing that.
 fn zero_drive(drive: Drive) -> Drive {
     match drive {
         Drive::Gradient(0.0) => Drive::ZeroGradient,

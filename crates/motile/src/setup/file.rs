@@ -7,8 +7,8 @@ impl Setup {
     /// Text of a scene file that has every key, with its dimension and its default.
     pub const ANNOTATED: &str = include_str!("../../scene.toml");
 
-    /// The description in a TOML text. What is left out is as in [`Setup::default`] and
-    /// [`crate::setup::DropletSetup::default`], but droplets that are not named are not there. A droplet is active
+    /// Reads the description from a TOML text. What you leave out is as in [`Setup::default`] and
+    /// [`crate::setup::DropletSetup::default`], but there are no droplets unless you list them. A droplet is active
     /// unless it says `particles = "none"`. [`Setup::ANNOTATED`] shows every key with its dimension and its default.
     ///
     /// ```
@@ -18,27 +18,35 @@ impl Setup {
     /// let setup = Setup::from_toml(text)?;
     /// assert_eq!((setup.viscosity, setup.droplets[0].activity()), (50.0, -3.0));
     /// let refused = Setup::from_toml("viscosty = 50.0").unwrap_err().to_string();
-    /// assert!(refused.contains("unknown field `viscosty`"), "{refused}");
+    /// assert!(refused.contains("unknown key `viscosty`"), "{refused}");
     /// # Ok::<(), motile::SetupError>(())
     /// ```
     ///
     /// # Errors
-    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::Refused`], with the
-    /// line), keys of earlier versions, with what to give instead, and what [`Setup::check`] refuses.
+    /// Returns an error for a text that is not TOML, keys that do not exist, values of the wrong type
+    /// ([`SetupError::Refused`], with the line), keys of earlier versions, with what to give instead, and what
+    /// [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let problem = |error: toml::de::Error| match replaced(text) {
             Some(error) => error,
             None => SetupError::file(error),
         };
-        let setup: Self = toml::from_str(text).map_err(problem)?;
+        let setup = Self::read(text).map_err(problem)?;
         setup.check()?;
         Ok(setup)
     }
 
-    /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
+    /// Reads a description that may break the rules of [`Setup::check`], for programs that change its entries first.
+    /// Reading is compiled here once, and not again in each program.
+    #[doc(hidden)]
+    pub fn read(text: &str) -> Result<Self, toml::de::Error> {
+        toml::from_str(text)
+    }
+
+    /// Returns the description as a TOML text, with all entries written out. [`Setup::from_toml`] reads it back.
     ///
     /// # Errors
-    /// [`SetupError::Refused`]: a seed above 9223372036854775807, which TOML has no number for.
+    /// Returns [`SetupError::Refused`] for a seed above 9223372036854775807, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
         // By way of a table: the serializer of documents would be compiled for every part of the description.
         let table = toml::Table::try_from(self).map_err(SetupError::file)?;
@@ -56,10 +64,11 @@ const REPLACED: [(&[&str], &str); 8] = [
         "a sharp contrast is computed by [method.integral] or [method.layers], an arithmetic one by [method.grid] with \
          corrected = false: take the entry away",
     ),
-    (&["method", "grid", "layers"], "give nodes and elements in [method.layers]"),
+    (&["method", "grid", "layers"], "set nodes and elements in [method.layers] instead"),
     (
         &["method", "grid", "filter"],
-        "the filter is the droplets': give droplets.motion.equidistributed = { relaxation = 50.0, filter = false }, or \
+        "each droplet has its own filter. Use \
+         droplets.motion.equidistributed = { relaxation = 50.0, filter = false }, or \
          take the entry away",
     ),
     (
@@ -70,7 +79,7 @@ const REPLACED: [(&[&str], &str); 8] = [
     (&["rigid"], "rigid walls are entries of the list [[walls]]"),
 ];
 
-/// The first key of an earlier version in a text, and what has taken its place.
+/// Returns the first key of an earlier version in a text, and what has taken its place.
 fn replaced(text: &str) -> Option<SetupError> {
     let table = toml::Value::Table(text.parse().ok()?);
     REPLACED.iter().find_map(|(keys, remedy)| {
@@ -79,7 +88,7 @@ fn replaced(text: &str) -> Option<SetupError> {
     })
 }
 
-/// Place and value of the first entry at a path of keys, whose lists are searched.
+/// Returns the place and value of the first entry at a path of keys, whose lists are searched.
 fn entry(value: &toml::Value, keys: &[&str]) -> Option<(String, String)> {
     let Some((first, rest)) = keys.split_first() else { return Some((String::new(), value.to_string())) };
     if let toml::Value::Array(list) = value {

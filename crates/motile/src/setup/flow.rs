@@ -10,9 +10,9 @@ use super::{
 };
 use crate::SetupError;
 
-/// A flow that is imposed from outside, the sum of its parts: linear flows and a Poiseuille flow in the plane, a shear
-/// in a box, the flow of sliding walls in a channel (whose pressure gradient or flux is the `drive` of the region).
-/// Velocities of bodies and samples are those of the whole flow.
+/// An imposed flow, the sum of its parts: linear flows and a Poiseuille flow in the plane, a shear in a box, the flow
+/// of sliding walls in a channel (whose pressure gradient or flux is the `drive` of the region). Velocities of bodies
+/// and samples belong to the whole flow.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -35,6 +35,7 @@ use crate::SetupError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("shear flow", "Poiseuille", "Couette", "background flow"))]
 pub struct FlowSetup {
     /// Shear rate G of `u = (G y, 0)` (1/time).
     pub shear: f64,
@@ -60,21 +61,21 @@ pub struct PoiseuilleSetup {
 
 /// Remedy for a Poiseuille flow in a box.
 const ACROSS_A_BOX: &str =
-    "it does not continue periodically across a box: give the region \"plane\", or a channel with a flux";
+    "it does not continue periodically across a box. Use the region \"plane\", or a channel with a flux";
 /// Remedy for flows imposed on three dimensions.
-const IN_THE_PLANE: &str = "flows are imposed in two dimensions: give the region \"plane\"";
+const IN_THE_PLANE: &str = "flows can be imposed in two dimensions only. Use the region \"plane\"";
 
 impl FlowSetup {
-    /// True where there is no flow.
+    /// Returns true if there is no flow.
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The flow in a region.
+    /// Returns the flow in a region.
     ///
     /// # Errors
-    /// A half width that is not positive and finite.
+    /// Returns an error for a half width that is not positive and finite.
     pub fn imposed(&self, region: &Region) -> Result<ImposedFlow, SetupError> {
         let mut flow = ImposedFlow::shear(self.shear)
             + ImposedFlow::extension(self.extension)
@@ -99,7 +100,12 @@ impl FlowSetup {
             checked.finite("poiseuille.speed", speed)?;
             checked.positive("poiseuille.half-width", half_width)?;
             let finite = (2.0 * speed / (half_width * half_width)).is_finite();
-            checked.require(finite, "poiseuille.half-width", half_width, "its curvature is not finite: give more")?;
+            checked.require(
+                finite,
+                "poiseuille.half-width",
+                half_width,
+                "the curvature of the flow would not be finite. Use a larger number",
+            )?;
         }
         for (number, velocity) in self.wall_velocity.into_iter().flatten().enumerate() {
             checked.finite(&format!("wall-velocity[{number}]"), velocity)?;
@@ -108,20 +114,20 @@ impl FlowSetup {
             (Region::Plane, _) | (Region::Box { .. }, "shear") => None,
             (Region::Box { .. }, "poiseuille.speed") => Some(ACROSS_A_BOX.to_owned()),
             (Region::Box { .. }, _) => {
-                Some("the images of a box can be sheared along x only: give shear, or the region \"plane\"".to_owned())
+                Some("the images of a box can be sheared along x only. Use shear, or the region \"plane\"".to_owned())
             }
             (Region::Channel { width, .. }, "shear") => {
                 let slide = 0.5 * value * width;
                 let [below, above] = [-slide, slide].map(short);
-                Some(format!("the walls of a channel hold it fast: give wall-velocity = [{below}, {above}]"))
+                Some(format!("the walls of a channel hold the fluid. Use wall-velocity = [{below}, {above}] instead"))
             }
             (Region::Channel { width, .. }, "poiseuille.speed") => {
                 let flux = short(2.0 / 3.0 * value * width);
-                Some(format!("give region.channel.drive = {{ flux = {flux} }} in its place"))
+                Some(format!("use region.channel.drive = {{ flux = {flux} }} in its place"))
             }
-            (Region::Channel { .. }, _) => {
-                Some("a channel with straight walls has none: give the region \"plane\"".to_owned())
-            }
+            (Region::Channel { .. }, _) => Some(
+                "this flow does not fit between the straight walls of a channel. Use the region \"plane\"".to_owned(),
+            ),
             _ => Some(IN_THE_PLANE.to_owned()),
         };
         let poiseuille = self.poiseuille.map(|flow| ("poiseuille.speed", flow.speed));
@@ -129,10 +135,10 @@ impl FlowSetup {
             remedy(key, value).map_or(Ok(()), |remedy| checked.refuse(key, &value, remedy))?;
         }
         if let (Some([below, above]), false) = (self.wall_velocity, matches!(setup.region, Region::Channel { .. })) {
-            let remedy = "only a channel has walls that slide: give shear in its place, or a channel";
+            let remedy = "only a channel has walls that can slide. Use shear instead, or the region channel";
             return checked.refuse("wall-velocity", &format!("[{below}, {above}]"), remedy);
         }
-        let remedy = "the walls of the channel lie behind the walls in it, or beside obstacles at rest: leave one \
+        let remedy = "the walls of the channel lie behind the walls in it, or beside obstacles at rest. Leave one \
                       of them out";
         checked.refuse_if(self.wall_velocity.is_some() && !setup.walls.is_empty(), "wall-velocity", "given", remedy)
     }

@@ -12,7 +12,7 @@ use super::checked::Checked;
 use super::{DropletSetup, ExchangeSetup, Particles, Setup, body::Planned};
 use crate::SetupError;
 
-/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid:
+/// An active polar gel that fills a droplet ([`GelInDroplet`]). It has the viscosity of the droplet, and needs a grid:
 /// the methods [`crate::setup::Method::Layers`] and [`crate::setup::Method::Grid`].
 ///
 /// ```
@@ -41,14 +41,14 @@ pub struct GelSetup {
     pub anchoring: Anchoring,
     /// Its director at the start; a uniform one has its angle to the direction of the droplet.
     pub start: DirectorStart,
-    /// Spacing of its mesh inside (length); `None` for that of the grid. The mesh has whole rings, so that coarse
-    /// spacings such as 0.3 and 0.4 of the radius give the same one.
+    /// Spacing of its mesh inside (length); `None` for the spacing of the grid. The mesh has whole rings, so coarse
+    /// spacings such as 0.3 and 0.4 of the radius give the same mesh.
     pub spacing: Option<f64>,
 }
 
 impl Default for GelSetup {
-    /// A contractile gel, free at the interface, its director along the droplet's direction but for a random angle of
-    /// up to 0.1 at each node.
+    /// Creates a contractile gel, free at the interface, its director along the droplet's direction up to a random
+    /// angle of up to 0.1 at each node.
     fn default() -> Self {
         Self {
             material: GelMaterial::default(),
@@ -83,12 +83,13 @@ impl GelSetup {
     pub(super) fn check(&self, checked: &Checked<'_>, droplet: &DropletSetup) -> Result<(), SetupError> {
         let gel = Checked { place: &format!("{}.gel", checked.place) };
         check_gel(&gel, &self.material, &self.start, self.spacing)?;
-        let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
+        let remedy = "a droplet with a gel needs a fixed number of markers. Use equidistributed";
         checked.refuse_if(droplet.motion == Motion::WithFluid, "motion", "with-fluid", remedy)
     }
 }
 
-/// Spacing of a mesh inside a droplet (length): the one given, or the usual one as far as the droplet has room for it.
+/// Returns the spacing of a mesh inside a droplet (length). It is the one given, or the usual one as far as the droplet
+/// has room for it.
 pub(super) fn spacing_inside(
     (name, key): (&str, &str),
     given: Option<f64>,
@@ -101,15 +102,18 @@ pub(super) fn spacing_inside(
         None => Ok(usual.min(most)),
         Some(spacing) if spacing <= most => Ok(spacing),
         Some(spacing) => {
-            let remedy =
-                format!("it is for a droplet of radius {}: give {} or less", decimals(3, radius), decimals(3, most));
+            let remedy = format!(
+                "this spacing is too wide for a droplet of radius {}. Use {} or less",
+                decimals(3, radius),
+                decimals(3, most)
+            );
             Checked { place: name }.refuse(key, &spacing, remedy)
         }
     }
 }
 
 impl Setup {
-    /// The gel of a droplet, made to be the body `host`.
+    /// Returns the gel of a droplet, made to be the body `host`.
     pub(super) fn gel(
         &self,
         setup: &DropletSetup,

@@ -13,7 +13,7 @@ use super::{
 use crate::SetupError;
 
 /// An active polar gel that fills all of a box ([`GelInBox`]), alone there, by the method
-/// [`crate::setup::Method::Grid`]; its viscosity is that of the fluid.
+/// [`crate::setup::Method::Grid`]; it has the viscosity of the fluid.
 ///
 /// ```
 /// use motile::interior::GelMaterial;
@@ -39,12 +39,12 @@ pub struct GelInBoxSetup {
     pub material: GelMaterial,
     /// Its director at the start, uniform or random.
     pub start: DirectorStart,
-    /// Spacing of its nodes (length), at most; `None` for that of the grid.
+    /// Spacing of its nodes (length), at most; `None` for the spacing of the grid.
     pub spacing: Option<f64>,
 }
 
 impl Default for GelInBoxSetup {
-    /// The gel of [`GelSetup::default`], its director along x.
+    /// Creates the gel of [`GelSetup::default`], its director along x.
     fn default() -> Self {
         let GelSetup { material, start, spacing, .. } = GelSetup::default();
         Self { material, start, spacing }
@@ -68,9 +68,9 @@ impl BodySetup for GelInBoxSetup {
         let top = Checked { place: "" };
         check_gel(checked, &self.material, &self.start, self.spacing)?;
         let centred = !matches!(self.start, DirectorStart::Uniform { .. } | DirectorStart::Random { .. });
-        let remedy = "a periodic box has none: give uniform or random";
+        let remedy = "a periodic box has no centre. Use uniform or random";
         checked.refuse_if(centred, "start", "around a centre", remedy)?;
-        let remedy = "it has walls or no bounds, and a gel of its own fills a box: give one, or a gel to a droplet";
+        let remedy = "a gel of its own must fill a periodic box. Use the region box, or put the gel into a droplet";
         top.refuse_if(!matches!(setup.region, Region::Box { .. }), "region", "channel or plane", remedy)?;
         let remedy = "a gel fills all of the box and does not see other bodies: take them, or the gel, away";
         top.refuse_if(setup.bodies().count() > 1, "gels", setup.gels.len(), remedy)

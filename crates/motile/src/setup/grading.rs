@@ -57,7 +57,7 @@ pub enum Axis {
     Y,
 }
 
-/// Part of a stripe by which a period may miss a whole number of them.
+/// Fraction of a stripe by which a period may miss a whole number of them.
 const WHOLE: f64 = 1e-6;
 
 impl Grading {
@@ -67,13 +67,13 @@ impl Grading {
         Self::Along { axis: Axis::X, factors: vec![[0.0, factor]] }
     }
 
-    /// True for no grading.
+    /// Returns true for no grading.
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         *self == Self::Uniform
     }
 
-    /// The product of this grading and another one.
+    /// Returns the product of this grading and another one.
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         match (self, other) {
@@ -86,7 +86,7 @@ impl Grading {
         }
     }
 
-    /// The factor on the moduli at a reference position (length); no dimension.
+    /// Returns the factor on the moduli at a reference position (length); no dimension.
     #[must_use]
     pub fn factor(&self, place: Vec2) -> f64 {
         let on = |axis: &Axis| if *axis == Axis::X { place.x } else { place.y };
@@ -121,7 +121,7 @@ impl Grading {
                     checked.positive(&key, *factor)
                 })?;
                 let mixed = factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-                let remedy = "give at least one place with its factor, places increasing";
+                let remedy = "a grading needs at least one place with its factor. List the places in increasing order";
                 checked.refuse_if(mixed, &key, format!("{factors:?}"), remedy)
             }
             Self::Step { at, factors, .. } => {
@@ -133,12 +133,12 @@ impl Grading {
                 checked.finite(&format!("{key}.stripes.from"), *from)?;
                 let list = format!("{key}.stripes.factors");
                 factors.iter().try_for_each(|factor| checked.positive(&list, *factor))?;
-                checked.refuse_if(factors.is_empty(), &list, "[]", "give the factor of each stripe, at least one")?;
+                checked.refuse_if(factors.is_empty(), &list, "[]", "stripes need their factors. List at least one")?;
                 let Some(period) = period.filter(|_| *axis == Axis::X) else { return Ok(()) };
                 let turns = period / (*width * factors.len() as f64);
                 let broken = (turns - turns.round()).abs() > WHOLE || turns.round() < 1.0;
                 let fitting = period / (turns.round().max(1.0) * factors.len() as f64);
-                let remedy = format!("a period of {period} has no whole number of such stripes: give {fitting}");
+                let remedy = format!("the period {period} is not a whole number of such stripes. Use {fitting}");
                 checked.refuse_if(broken, &format!("{key}.stripes.width"), width, remedy)
             }
             Self::Product(parts) => parts

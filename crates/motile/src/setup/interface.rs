@@ -16,8 +16,8 @@ use super::{
 };
 use crate::SetupError;
 
-/// An interface that is periodic along x over the whole length of a box or a channel, with a tension of its own and,
-/// unless it is passive, active particles: the active boundary of section 5.2.2.3.1 of Cowley.
+/// An interface that is periodic along x over the whole length of a box or a channel, with its own tension and, unless
+/// it is passive, active particles. It is the active boundary of section 5.2.2.3.1 of Cowley.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -48,9 +48,9 @@ pub struct InterfaceSetup {
     pub name: String,
     /// Mean height (length); regions are centred on the origin.
     pub height: f64,
-    /// Side on which its inside is.
+    /// Side of the interface on which its inside lies.
     pub inside: Side,
-    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid on the other side.
+    /// Viscosity of the fluid inside (stress times time); `None` for the viscosity of the fluid on the other side.
     pub viscosity: Option<f64>,
     /// Tension gamma0 of the interface without particles (force).
     pub tension: f64,
@@ -58,7 +58,7 @@ pub struct InterfaceSetup {
     pub motion: Motion,
     /// Area between the interface and a horizontal line restored to the initial one after each step.
     pub area_constraint: bool,
-    /// Its shape at the start.
+    /// Shape at the start.
     pub shape: InterfaceShape,
     /// Elasticity along it, at rest in the shape at the start; `None` for a fluid interface. It needs markers that move
     /// with the fluid.
@@ -113,7 +113,7 @@ pub enum InterfaceShape {
 }
 
 impl Default for InterfaceSetup {
-    /// A flat interface of activity -2 in the middle, its inside above.
+    /// Creates a flat interface of activity -2 in the middle, its inside above.
     fn default() -> Self {
         Self {
             name: "interface".to_owned(),
@@ -131,13 +131,13 @@ impl Default for InterfaceSetup {
 }
 
 impl InterfaceSetup {
-    /// The default interface with this activity zeta delta-mu (force times length; negative if contractile).
+    /// Creates the default interface with this activity zeta delta-mu (force times length; negative if contractile).
     #[must_use]
     pub fn active(activity: f64) -> Self {
         Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
     }
 
-    /// An interface without particles, of constant tension (force).
+    /// Creates an interface without particles, of constant tension (force).
     #[must_use]
     pub fn passive(tension: f64) -> Self {
         Self { tension, particles: None, ..Self::default() }
@@ -157,10 +157,10 @@ impl InterfaceSetup {
 }
 
 impl Setup {
-    /// An interface of this scene, for scenes that are put together by hand.
+    /// Returns an interface of this scene, for scenes that are put together by hand.
     ///
     /// # Errors
-    /// Parameters out of their range.
+    /// Returns an error for parameters out of their range.
     pub fn interface(&self, interface: &InterfaceSetup) -> Result<ActiveInterface, SetupError> {
         let [length, _] = self.region.lengths();
         let advance = if interface.inside == Side::Above { length } else { -length };
@@ -232,11 +232,11 @@ impl BodySetup for InterfaceSetup {
     }
 
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
-        let remedy = "an interface across the period needs one along x: give a box or a channel";
+        let remedy = "such an interface repeats along x, so the region must be periodic. Use a box or a channel";
         Checked { place: "" }.refuse_if(setup.region == Region::Plane, "region", "plane", remedy)?;
         if let (Region::Box { .. }, true) = (setup.region, setup.flow.shear != 0.0) {
             let remedy = "the images of an interface across the period of a sheared box slide past each other, which \
-                          is not computed: give a channel with wall-velocity";
+                          is not computed. Use a channel with wall-velocity";
             return Checked { place: "flow" }.refuse("shear", &setup.flow.shear, remedy);
         }
         checked.finite("height", self.height)?;
@@ -244,7 +244,7 @@ impl BodySetup for InterfaceSetup {
             checked.positive("viscosity", viscosity)?;
             let flux = setup.region.drive().and_then(Drive::flux);
             if let Some(flux) = flux.filter(|_| viscosity != setup.viscosity) {
-                let remedy = "a flux along layers of different viscosity is not computed: give a gradient";
+                let remedy = "a flux cannot be prescribed along layers of different viscosity. Prescribe a gradient";
                 return Checked { place: "region.channel.drive" }.refuse("flux", &flux, remedy);
             }
         }
@@ -255,7 +255,7 @@ impl BodySetup for InterfaceSetup {
         if let Some(ElasticitySetup { stretching, bending }) = self.elasticity {
             checked.not_negative("elasticity.stretching", stretching)?;
             checked.not_negative("elasticity.bending", bending)?;
-            let remedy = "the points of an elastic interface move with the fluid: give \"with-fluid\"";
+            let remedy = "the points of an elastic interface move with the fluid. Use \"with-fluid\"";
             checked.refuse_if(self.motion != Motion::WithFluid, "motion", "equidistributed", remedy)?;
         }
         match &self.shape {
@@ -267,7 +267,7 @@ impl BodySetup for InterfaceSetup {
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }
         let Some(particles) = &self.particles else { return Ok(()) };
-        let remedy = "nothing holds the particles that leave it: give \"none\", or a droplet";
+        let remedy = "nothing holds the particles that leave it. Use \"none\", or a droplet";
         checked.refuse_if(particles.exchange.is_some(), "particles.exchange", "given", remedy)?;
         particles.check(checked)
     }

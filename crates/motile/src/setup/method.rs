@@ -10,7 +10,8 @@ use crate::SetupError;
 /// Fewest and most markers of an interface, which are as many as its elements.
 pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_ELEMENTS as f64];
 
-/// Method by which velocities come from forces. A scene that a method cannot compute is refused with the ones that can.
+/// Method that computes velocities from forces. If a method cannot compute a scene, the error names the methods that
+/// can.
 ///
 /// | | integral | layers | grid |
 /// |---|---|---|---|
@@ -41,7 +42,7 @@ impl Default for Method {
 }
 
 impl Method {
-    /// The method, whatever its settings.
+    /// Returns the method, whatever its settings.
     #[must_use]
     pub fn kind(&self) -> MethodKind {
         match self {
@@ -51,7 +52,7 @@ impl Method {
         }
     }
 
-    /// Nodes and elements of an interface, or the grid by which its markers are spaced.
+    /// Returns the nodes and elements of an interface, or the grid by which its markers are spaced.
     pub(super) fn resolution(&self) -> Result<[usize; 2], &GridMethod> {
         match self {
             Self::Integral(IntegralMethod { nodes, elements }) | Self::Layers(LayersMethod { nodes, elements, .. }) => {
@@ -61,7 +62,7 @@ impl Method {
         }
     }
 
-    /// Grid spacing h (length); `None` without a grid.
+    /// Returns the grid spacing h (length); `None` without a grid.
     #[must_use]
     pub fn spacing(&self) -> Option<f64> {
         match self {
@@ -78,7 +79,7 @@ impl Method {
 pub enum MethodKind {
     /// Boundary integrals.
     Integral,
-    /// Layers beside a grid for the inner points of solids.
+    /// Layers, combined with a grid for the inner points of solids.
     Layers,
     /// Immersed boundaries on a grid.
     Grid,
@@ -99,8 +100,8 @@ impl MethodKind {
 /// Resolution of boundary integrals.
 ///
 /// With the default all observables (speed, shape, stresslet, squirmer coefficients, active region, largest
-/// concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel of width 2 at -4 except
-/// the stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
+/// concentration) were within 1 % in boxes at activities of -4 and -5, and in a channel of width 2 at -4 except the
+/// stresslet (1.6 %). For the speed alone, a third of it will do ([`crate::recommend`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct IntegralMethod {
@@ -125,10 +126,10 @@ impl Default for IntegralMethod {
     }
 }
 
-/// Resolution of layers, and of the grid beside them.
+/// Resolution of layers, and of the grid that complements them.
 ///
 /// The points of solids on a surface are its nodes, 16 or more; inner points are two or more grid spacings apart. A
-/// round droplet that touches the walls on both sides starts squeezed a little, beside a film.
+/// round droplet that touches the walls on both sides starts squeezed a little, with a gap on each side.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LayersMethod {
@@ -137,10 +138,10 @@ pub struct LayersMethod {
     /// Elements of an interface, which carry the concentration and end at its markers; at least as many as nodes.
     pub elements: usize,
     /// Grid spacing h (length); the lengths of the region are whole numbers of it. The grid sees the inner points of
-    /// solids and other points with forces on them; its spacing is h/2 beside solids whose forces are spread over
+    /// solids and other points with forces on them; its spacing is h/2 if there are solids whose forces are spread over
     /// triangles.
     pub spacing: f64,
-    /// Regularised delta function: a composite B-spline, beside which solids keep their volume.
+    /// Regularised delta function: a composite B-spline, with which solids keep their volume.
     pub kernel: AnyKernel,
 }
 
@@ -152,7 +153,7 @@ impl Default for LayersMethod {
 }
 
 impl LayersMethod {
-    /// The default beside a grid of this spacing (length).
+    /// Creates the default for a grid of this spacing (length).
     #[must_use]
     pub fn of_spacing(spacing: f64) -> Self {
         Self { spacing, ..Self::default() }
@@ -162,7 +163,7 @@ impl LayersMethod {
 /// The immersed boundary method.
 ///
 /// Fluid of other viscosities is a smooth viscosity field (Cowley section 2.2.4, [`ib_core::SmearedContrast`]), and the
-/// surface of a solid is smeared over the grid like all its points, as in Cowley: a stiff surface stops the fluid 0.31
+/// surface of a solid is smeared over the grid like all its points, as in Cowley. A stiff surface stops the fluid 0.31
 /// to 0.44 grid spacings in front of it (with the default kernel). Both are of first order, and neither has a mobility
 /// correction; [`Method::Layers`] is more accurate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -174,11 +175,11 @@ pub struct GridMethod {
     pub marker_spacing: Option<f64>,
     /// Regularised delta function.
     pub kernel: AnyKernel,
-    /// Correction of interface velocities to second order ([`ib_core::ImmersedBoundary`]). Without it they are of first
-    /// order, and runs warn: in a 6 x 6 box at h = R/10 the speed at activities of -2, -3 and -4 is off by -0.5, 1.2
-    /// and 3.1 per cent, and the stresslet is -48, -30 and 24 instead of -34, -5 and 58; at h = R/5 and -4 it has the
+    /// Correction of interface velocities to second order ([`ib_core::ImmersedBoundary`]). Without it, they are of
+    /// first order, and runs warn. In a 6 x 6 box at h = R/10, the speed at activities of -2, -3 and -4 is off by -0.5,
+    /// 1.2 and 3.1 %, and the stresslet is -48, -30 and 24 instead of -34, -5 and 58. At h = R/5 and -4, it has the
     /// wrong sign. The correction needs markers of equal spacing, see [`active_interface::Motion`], and one viscosity,
-    /// and is refused beside solids.
+    /// and is refused if there are solids.
     pub corrected: bool,
     /// Solver of the Stokes equations on the grid.
     pub solver: GridSolver,
@@ -214,21 +215,21 @@ pub enum GridSolver {
 }
 
 impl GridMethod {
-    /// Cowley's grid: the projection method with lagged walls, Peskin's 4-point function, no mobility correction,
-    /// h = 0.05, markers h/2 apart.
+    /// Creates Cowley's grid: the projection method with lagged walls, Peskin's 4-point function, no mobility
+    /// correction, h = 0.05, markers h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
         Self { kernel: AnyKernel::Peskin4, corrected: false, solver: GridSolver::LaggedProjection, ..Self::default() }
     }
 
-    /// The default on a grid of this spacing (length).
+    /// Creates the default on a grid of this spacing (length).
     #[must_use]
     pub fn of_spacing(spacing: f64) -> Self {
         Self { spacing, ..Self::default() }
     }
 
-    /// The method without the mobility correction, as viscosity contrasts and solids need it, on a grid of this spacing
-    /// (length).
+    /// Creates the method without the mobility correction, as viscosity contrasts and solids need it, on a grid of this
+    /// spacing (length).
     #[must_use]
     pub fn uncorrected(spacing: f64) -> Self {
         Self { corrected: false, ..Self::of_spacing(spacing) }
@@ -239,9 +240,9 @@ impl IntegralMethod {
     pub(super) fn check(&self, place: &str) -> Result<(), SetupError> {
         let (checked, Self { nodes, elements }) = (Checked { place }, *self);
         let [least, most] = Self::NODES;
-        let remedy = format!("give a number from {least} to {most}");
+        let remedy = format!("use a number from {least} to {most}");
         checked.refuse_if(!(least..=most).contains(&nodes), "nodes", nodes, remedy)?;
-        let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
+        let remedy = format!("use a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
         checked.refuse_if(elements < nodes || elements as f64 > MARKERS[1], "elements", elements, remedy)
     }
 }

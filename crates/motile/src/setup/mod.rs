@@ -48,15 +48,16 @@ use motile_base::Region;
 use motile_scene::{StepSize, gap::Repulsion, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 
-/// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
+/// Describes a scene: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
 ///
-/// Descriptions are plain structs and enums: they are written as literals, compared, printed, cloned, and with the
-/// feature `toml` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only
-/// one method needs stands inside that method's variant. Quantities may have any consistent units; those of the
-/// defaults are R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
+/// You write descriptions as literals, because they are plain structs and enums. You can compare, print and clone them,
+/// and with the feature `toml` read them from TOML and write them (`Setup::from_toml`, `Setup::to_toml`). No field is
+/// ignored: what only one method needs stands inside that method's variant. Quantities may have any consistent units;
+/// the units of the defaults are R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units`
+/// converts).
 ///
-/// Parts that data cannot describe (a tension law in code, a body of one's own, walls from a closure) are added to the
-/// scene that has been built.
+/// If data cannot describe a part (a tension law in code, your own body, walls from a closure), add it to the scene
+/// that you have built.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -80,6 +81,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("simulation", "configuration", "parameters"))]
 pub struct Setup {
     /// The region that the fluid fills.
     pub region: Region,
@@ -90,6 +92,7 @@ pub struct Setup {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Viscosity of the exterior fluid (stress times time).
+    #[doc(alias("viscosity ratio"))]
     pub viscosity: f64,
     /// A flow that is imposed from outside.
     #[serde(skip_serializing_if = "FlowSetup::is_none")]
@@ -99,15 +102,15 @@ pub struct Setup {
     /// Integrator of the steps: `integrator = "runge-kutta-chebyshev"` for stiff solids, `"runge-kutta"`, of fourth
     /// order, for scenes without particles.
     pub integrator: IntegratorKind,
-    /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
-    /// thinner than is resolved; no part of the physics of the model.
+    /// A short-range repulsion between interfaces, solids and walls, by which a run continues where gaps would become
+    /// narrower than is resolved. It is not part of the physics of the model.
     pub repulsion: Option<Repulsion>,
     /// A bound on gaps (length), below which a run ends ([`motile_scene::Scene::with_least_gap`]).
     pub least_gap: Option<f64>,
-    /// Hold on the mirror symmetry in y = 0 of a scene that has it
-    /// ([`motile_scene::Scene::held_symmetric`]): the symmetric path is then computed even where it is unstable.
+    /// If true, a scene that is symmetric in y = 0 stays so ([`motile_scene::Scene::held_symmetric`]). The symmetric
+    /// path is then computed even if it is unstable.
     pub mirror_symmetric: bool,
-    /// The droplets; a file that names none has none.
+    /// The droplets. A file that lists none has none.
     #[serde(default)]
     pub droplets: Vec<DropletSetup>,
     /// Suspensions: many droplets at places that are found for them ([`Setup::placed`]).
@@ -134,7 +137,7 @@ pub struct Setup {
 }
 
 impl Default for Setup {
-    /// One droplet of activity -2 in a box of 6 x 6, viscosity 100, by boundary integrals.
+    /// Describes one droplet of activity -2 in a box of 6 x 6 with viscosity 100, computed by boundary integrals.
     fn default() -> Self {
         Self {
             region: Region::Box { lengths: [6.0, 6.0] },
@@ -160,7 +163,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The default scene by the method of Cowley (Natasha Cowley, "Effects of mechanical properties of the
+    /// Creates the default scene by the method of Cowley (Natasha Cowley, "Effects of mechanical properties of the
     /// environment on cell migration", PhD thesis, University of Sheffield): [`GridMethod::thesis`],
     /// [`DropletSetup::thesis`], steps of 1e-3. Walls by its method are [`SolidSetup::thesis`].
     #[must_use]
@@ -173,7 +176,7 @@ impl Setup {
         }
     }
 
-    /// All bodies with their numbers in their lists, in the order in which they are added to the scene.
+    /// Returns all bodies with their numbers in their lists, in the order in which they are added to the scene.
     fn bodies(&self) -> impl Iterator<Item = (usize, &dyn BodySetup)> {
         let bodies = numbered(&self.droplets).chain(numbered(&self.solids));
         bodies
@@ -183,8 +186,8 @@ impl Setup {
             .chain(numbered(&self.interfaces))
     }
 
-    /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not
-    /// different time steps. FNV-1a of the printed description. A resumed run compares [`Setup::entries`].
+    /// Returns a number (hexadecimal) that distinguishes descriptions of different physics, places or resolution, but
+    /// not of different time steps. FNV-1a of the printed description. A resumed run compares [`Setup::entries`].
     #[must_use]
     pub fn fingerprint(&self) -> String {
         Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() }.hash()

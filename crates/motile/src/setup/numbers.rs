@@ -5,11 +5,11 @@ use active_interface::{InterfaceError, polygon_moments};
 use super::{DropletSetup, DropletShape, ExcludedVolume, Setup};
 use crate::SetupError;
 
-/// Markers of the polygon whose area is taken for that of a shape through points.
+/// Markers of the polygon whose area approximates the area of a shape through points.
 const CORNERS: usize = 1000;
 
 /// Dimensionless numbers that govern a droplet with active particles (none has a dimension), R being the radius of the
-/// circle of its area. With the confinement (lengths of the region over R) they are all that a scene of one droplet
+/// circle of its area. With the confinement (lengths of the region over R), they are all that a scene of one droplet
 /// depends on.
 ///
 /// ```
@@ -24,13 +24,14 @@ const CORNERS: usize = 1000;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numbers {
     /// Peclet number, abs(zeta_dmu) c0 R/((eta_in + eta_ext) D): advection by the flow that particles make over their
-    /// diffusion. In unbounded fluid a round droplet swims above 2 (Cowley (2.20)); negative where particles expand.
+    /// diffusion. In unbounded fluid, a round droplet swims above 2 (Cowley (2.20)); negative where particles expand.
     pub peclet: f64,
-    /// Strength of the step-like excluded volume over the activity, A/abs(zeta_dmu): up to 1 particles collapse.
+    /// Strength of the step-like excluded volume over the activity, A/abs(zeta_dmu). If it is 1 or less, particles
+    /// collapse.
     pub excluded_volume: Option<f64>,
     /// Tension without particles over what they add at c0, gamma0/(abs(zeta_dmu) c0).
     pub bare_tension: f64,
-    /// Viscosity of the droplet over that of the exterior fluid, eta_in/eta_ext.
+    /// Viscosity of the droplet over the viscosity of the exterior fluid, eta_in/eta_ext.
     pub viscosity_ratio: f64,
 }
 
@@ -39,7 +40,7 @@ impl Setup {
     /// scene's, also for a droplet inside another one.
     ///
     /// # Errors
-    /// A shape that is none.
+    /// Returns an error for points that do not describe a closed curve.
     pub fn numbers(&self, droplet: &DropletSetup) -> Result<Option<Numbers>, SetupError> {
         let Some(particles) = droplet.particles.filter(|particles| particles.activity != 0.0) else { return Ok(None) };
         let inside = droplet.viscosity.unwrap_or(self.viscosity);
@@ -61,7 +62,7 @@ impl DropletShape {
     /// Returns the radius of the circle of its area (length).
     ///
     /// # Errors
-    /// Returns an error if points are not those of a closed curve.
+    /// Returns an error if points do not describe a closed curve.
     pub fn radius(&self) -> Result<f64, InterfaceError> {
         Ok(match self {
             Self::Round { radius } | Self::Squeezed { radius, .. } => *radius,

@@ -1,4 +1,4 @@
-//! The particles of a droplet in a file: a table of their own, or "none".
+//! The particles of a droplet in a file: a table, or "none".
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Where the bodies of a description lie, looked at before anything is meshed.
+//! Places of the bodies of a description, checked before anything is meshed.
 
 use motile_base::{
     Region, TubeShape, Vec2,
@@ -12,9 +12,9 @@ use motile_scene::{
 use super::{AnyFlow, DropletSetup, DropletShape, Particles, Setup, body::Planned, checked::Checked};
 use crate::SetupError;
 
-/// Part of a period that a body may fill: beyond it, but for round-off, it touches its own image.
+/// Fraction of a period that a body may fill: beyond it, except for round-off, it touches its own image.
 const APART: f64 = 1.0 - 1e-6;
-/// Ratio of a radius to that of the defaults from which the units are likely to be others.
+/// Ratio of a radius to the default radius above which the units are likely to differ.
 const MIXED: f64 = 3.0;
 
 impl Setup {
@@ -56,13 +56,13 @@ impl Setup {
         let holds = drive.flux().is_some() || least <= length;
         let remedy = format!(
             "bodies in neighbouring lengths, whose flows on one another are not counted, are a radius of the tube \
-             apart or more: give at least {}, or a flux in place of a pressure",
+             apart or more. Use at least {}, or prescribe a flux instead of a pressure",
             decimals(4, least)
         );
         Checked { place: "" }.require(holds, "region.tube.length", length, &remedy)
     }
 
-    /// Where a body stands in the description, in the order of its lists, with its name if it has one of its own.
+    /// Returns the place of a body in the description, in the order of its lists, with its name if it has one.
     pub(super) fn key(&self, body: usize) -> String {
         let Some((number, body)) = self.bodies().nth(body) else { return format!("body {body}") };
         let ([list, usual], name) = (body.kind(), body.name());

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::SetupError;
 
-/// A rigid body that the fluid carries along, alone or inside a droplet: a nucleus.
+/// A rigid body that the fluid carries along, alone or inside a droplet, for example a nucleus.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -28,6 +28,7 @@ use crate::SetupError;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("particle", "nucleus", "no-slip"))]
 pub struct RigidBodySetup {
     /// Name for messages.
     pub name: String,
@@ -35,16 +36,16 @@ pub struct RigidBodySetup {
     pub centre: [f64; 2],
     /// Angle by which the shape is turned (radians).
     pub angle: f64,
-    /// Its shape; corners are rounded to what the nodes of an interface resolve.
+    /// Its shape. Corners are rounded to what the nodes of an interface resolve.
     pub shape: DropletShape,
-    /// Force that acts on it in its centroid (force). In the plane the forces on all bodies have to add up to zero.
+    /// Force that acts on it in its centroid (force). In the plane, the forces on all bodies have to add up to zero.
     pub force: [f64; 2],
     /// Torque that acts on it (force times length).
     pub torque: f64,
 }
 
 impl Default for RigidBodySetup {
-    /// A disc of radius 0.5 in the origin.
+    /// Creates a disc of radius 0.5 in the origin.
     fn default() -> Self {
         let shape = DropletShape::Round { radius: 0.5 };
         Self { name: "rigid body".to_owned(), centre: [0.0; 2], angle: 0.0, shape, force: [0.0; 2], torque: 0.0 }
@@ -52,7 +53,7 @@ impl Default for RigidBodySetup {
 }
 
 impl RigidBodySetup {
-    /// A disc of that radius (length) in the origin.
+    /// Creates a disc of that radius (length) in the origin.
     #[must_use]
     pub fn disc(radius: f64) -> Self {
         Self { shape: DropletShape::Round { radius }, ..Self::default() }

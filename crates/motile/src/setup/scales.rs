@@ -3,9 +3,9 @@
 use super::Setup;
 
 impl Setup {
-    /// Returns the length that the scene is about: the radius of its first droplet, or of its first rigid body or
-    /// shell, or a sixth of the smaller side of its region; 1 where it has none of these. Suspensions count once they
-    /// are placed ([`Setup::placed`]).
+    /// Returns the length that the scene is about. It is the radius of its first droplet, or of its first rigid body or
+    /// shell, or a sixth of the smaller side of its region. It is 1 if it has none of these. Suspensions count once
+    /// they are placed ([`Setup::placed`]).
     #[must_use]
     pub fn length_scale(&self) -> f64 {
         let shapes = self.droplets.iter().map(|droplet| &droplet.shape);
@@ -16,7 +16,7 @@ impl Setup {
     }
 
     /// Returns the name of the unit of length for labels of pictures: `R_{0}` if the radius of the first droplet is 1,
-    /// and nothing otherwise, because the unit is then one that the description does not name.
+    /// and nothing otherwise, because the description does not name the unit then.
     #[must_use]
     pub fn length_unit(&self) -> &'static str {
         let radius = self.droplets.first().and_then(|droplet| droplet.shape.radius().ok());
@@ -24,9 +24,9 @@ impl Setup {
         if radius.is_some_and(is_unit) { "R_{0}" } else { "" }
     }
 
-    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures: that of
-    /// particles that diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's shape,
-    /// `0.1 eta L/gamma`, or that of the imposed flow; 1 where it has none of these.
+    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures: the time in
+    /// which particles diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's
+    /// shape, `0.1 eta L/gamma`, or the time of the imposed flow; 1 if it has none of these.
     #[must_use]
     pub fn time_scale(&self) -> f64 {
         let length = self.length_scale();

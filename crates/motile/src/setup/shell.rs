@@ -14,6 +14,7 @@ use crate::SetupError;
 /// A closed elastic membrane around fluid: the shell of a nucleus in a droplet, or a capsule.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("vesicle", "capsule", "membrane"))]
 pub struct ShellSetup {
     /// Name for messages.
     pub name: String,
@@ -21,12 +22,12 @@ pub struct ShellSetup {
     pub centre: [f64; 2],
     /// Angle by which the shape is turned (radians).
     pub angle: f64,
-    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid around it.
+    /// Viscosity of the fluid inside (stress times time); `None` for the viscosity of the fluid around it.
     pub viscosity: Option<f64>,
-    /// Its shape at the start.
+    /// Shape at the start.
     pub shape: DropletShape,
-    /// Its shape at rest, on whose outline each point lies as far from the first, as a part of the length, as at the
-    /// start; `None` for that at the start.
+    /// Its shape at rest; `None` for the shape at the start. On both outlines, each point lies at the same fraction of
+    /// the length from the first point.
     pub rest: Option<DropletShape>,
     /// Modulus of stretching (force).
     pub stretching: f64,
@@ -34,12 +35,12 @@ pub struct ShellSetup {
     pub bending: f64,
     /// Measure of bending in its energy.
     pub measure: BendingMeasure,
-    /// Curvature at which bending is at rest everywhere (1/length); `None` for that of its shape at rest.
+    /// Curvature at which bending is at rest everywhere (1/length); `None` for the curvature of its shape at rest.
     pub reference_curvature: Option<f64>,
 }
 
 impl Default for ShellSetup {
-    /// A circle of radius 0.5 in the origin.
+    /// Creates a circle of radius 0.5 in the origin.
     fn default() -> Self {
         Self {
             name: "shell".to_owned(),

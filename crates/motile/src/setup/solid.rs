@@ -44,6 +44,7 @@ use crate::SetupError;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("elastic wall", "elasticity", "tissue"))]
 pub struct SolidSetup {
     /// Name for messages.
     #[serde(default = "solid_name")]
@@ -51,24 +52,25 @@ pub struct SolidSetup {
     /// Arrangement of its points.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length), on a finer surface half of that; `None` for that of the grid, among layers twice
-    /// that.
+    /// Spacing of its points (length), on a finer surface half of it; `None` for the spacing of the grid, with layers
+    /// twice as much.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
-    /// Second point in the middle of each side of its surface, three where its forces are spread over triangles: more
-    /// accurate beside thin films, but the surface folds where it is compressed by a third along itself, springs first;
-    /// `None` for all but springs among layers, and for none on a grid.
+    /// Extra points on its surface: one in the middle of each side, or three if its forces are spread over triangles.
+    /// They are more accurate at narrow gaps, but the surface folds where it is compressed by a third along itself,
+    /// springs first. With `None`, solids in layers have them unless they are made of springs, and solids on a grid do
+    /// not.
     #[serde(default)]
     pub finer_surface: Option<bool>,
     /// Forces of inner points spread over the triangles about them ([`Solid::spread_over_triangles`]): soft walls are
-    /// then as incompressible as the fluid, whatever their bulk modulus, at two to four times the time. Among layers
-    /// the grid then has half the spacing. Not for scenes that are kept mirror symmetric.
+    /// then as incompressible as the fluid, whatever their bulk modulus, but a run takes two to four times as long.
+    /// With layers, the grid then has half the spacing. You cannot use it in scenes that are kept mirror symmetric.
     #[serde(default)]
     pub spread_over_triangles: bool,
-    /// Leave for triangles of springs to be inverted ([`Solid::allow_inversion`]).
+    /// Permission for triangles of springs to be inverted ([`Solid::allow_inversion`]).
     #[serde(default)]
     pub may_invert: bool,
-    /// Hold that keeps it in place.
+    /// How it is held in place.
     #[serde(default)]
     pub hold: Hold,
     /// Outline that it fills, in its reference state.
@@ -78,16 +80,17 @@ pub struct SolidSetup {
     /// Its moduli as a function of place.
     #[serde(default)]
     pub grading: Grading,
-    /// A surface_elasticity on its surface, which keeps a soft one from creasing.
+    /// Surface elasticity, which keeps a soft surface from creasing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub surface_elasticity: Option<SurfaceElasticitySetup>,
-    /// Maxwell elements beside its elasticity, which make it viscoelastic; their moduli are graded like its own.
+    /// Maxwell elements in parallel with its elasticity, which make it viscoelastic; their moduli are graded like its
+    /// own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub relaxation: Vec<MaxwellSetup>,
     /// Relaxation times of the Maxwell elements as a function of place: a factor on all of them.
     #[serde(default, skip_serializing_if = "Grading::is_uniform")]
     pub relaxation_time_grading: Grading,
-    /// Viscosity (stress times time) where it is above that of the exterior fluid: a Kelvin-Voigt solid.
+    /// Viscosity (stress times time) if it is above the viscosity of the exterior fluid: a Kelvin-Voigt solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<f64>,
     /// Active springs along the edges of its mesh.
@@ -98,7 +101,7 @@ pub struct SolidSetup {
     pub tension_grading: Grading,
 }
 
-/// An elastic surface_elasticity on the surface of a solid ([`Solid::with_surface_elasticity`]).
+/// Surface elasticity of a solid ([`Solid::with_surface_elasticity`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SurfaceElasticitySetup {
@@ -196,7 +199,7 @@ pub enum SolidOutline {
     },
 }
 
-/// Elastic material of a solid; moduli are those of the plane (force per length).
+/// Elastic material of a solid; moduli are two-dimensional (force per length).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -226,10 +229,10 @@ pub enum Material {
         shear: f64,
         /// Bulk modulus (force per length).
         bulk: f64,
-        /// Part of the shear modulus that the second invariant carries (0 to 1).
+        /// Fraction of the shear modulus that the second invariant carries (0 to 1).
         fraction: f64,
     },
-    /// No elasticity of its own: all its stress is that of its Maxwell elements, and it flows.
+    /// No elastic stress: all its stress comes from its Maxwell elements, and it flows.
     FluidLike,
 }
 
@@ -241,7 +244,7 @@ pub enum MeshKind {
     /// Equilateral triangles where the shape allows it, as in a straight wall.
     #[default]
     Equilateral,
-    /// An even mesh that is no lattice.
+    /// An even mesh that is not a lattice.
     Unstructured,
 }
 
@@ -268,7 +271,7 @@ const MOST_ACROSS: f64 = 1e5;
 const TURN: f64 = 0.2;
 
 impl SolidSetup {
-    /// A solid that is pinned to the rigid walls of the region.
+    /// Creates a solid that is pinned to the rigid walls of the region.
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
@@ -291,8 +294,8 @@ impl SolidSetup {
         }
     }
 
-    /// The solids of an elastic channel: lower wall, upper wall, and islands, which are tethered by their shear modulus
-    /// over the unit of length squared.
+    /// Returns the solids of an elastic channel: lower wall, upper wall, and islands, which are tethered by their shear
+    /// modulus over the unit of length squared.
     #[must_use]
     pub fn walls(channel: &ChannelShape, material: &Material) -> Vec<Self> {
         let islands = channel.islands();
@@ -308,28 +311,31 @@ impl SolidSetup {
         solids
     }
 
-    /// Solid by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
+    /// Returns the solid by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
     /// springs), and triangles may be inverted. For [`Method::Grid`], which smears the surface over the grid.
     #[must_use]
     pub fn thesis(self) -> Self {
         Self { mesh: MeshKind::Unstructured, may_invert: true, ..self }
     }
 
-    /// The mesher of this solid in a scene.
+    /// Returns the mesher of this solid in a scene.
     ///
     /// # Errors
-    /// A spacing that is no length; a scene without a grid.
+    /// Returns an error for a spacing that is not a length; a scene without a grid.
     pub fn mesher(&self, setup: &Setup) -> Result<Mesher, SetupError> {
         setup.able(self)?;
         let mesher = Mesher::new(self.spacing(setup))?;
         Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
     }
 
-    /// The solid of this description on a mesh of one's own, in place of its outline: for shapes that data cannot say.
+    /// Returns the solid of this description on your own mesh instead of its outline. Use it for shapes that data
+    /// cannot describe.
     ///
     /// # Errors
-    /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region; with
-    /// layers, a surface of fewer than 16 points.
+    /// Returns an error for:
+    /// * moduli out of their range,
+    /// * a solid that is to be pinned and has no point on a rigid wall of the region,
+    /// * a surface of fewer than 16 points, with layers.
     pub fn on_mesh(&self, mesh: TriangleMesh, setup: &Setup) -> Result<Solid, SetupError> {
         let half = 0.5 * setup.region.lengths()[1];
         let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
@@ -384,14 +390,14 @@ impl SolidSetup {
         }
         let spacing = self.spacing(setup);
         let remedy = format!(
-            "its surface would have {found} points, and with layers it needs {least}: give {:.2e} or less, with half \
+            "its surface would have {found} points, but the method layers needs {least}. Use {:.2e} or less, with half \
              of it as the spacing of the grid, or finer-surface = true, or the method grid",
             spacing * found as f64 / least as f64
         );
         Checked { place: &self.name }.refuse("mesh-spacing", &spacing, remedy)
     }
 
-    /// Spacing of its points (length); infinite where there is no grid to give it.
+    /// Returns the spacing of its points (length); infinite if there is no grid to give it.
     pub(super) fn spacing(&self, setup: &Setup) -> f64 {
         let usual = match setup.method {
             Method::Integral(_) => f64::INFINITY,
@@ -401,7 +407,7 @@ impl SolidSetup {
         self.mesh_spacing.unwrap_or(usual)
     }
 
-    /// Interior of its outline in a region.
+    /// Returns the interior of its outline in a region.
     pub(super) fn enclosed(&self, region: &Region) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
         Ok(match self.outline.channel(region)? {
@@ -411,7 +417,7 @@ impl SolidSetup {
         })
     }
 
-    /// The solid on a mesh, at rest and not held.
+    /// Returns the solid on a mesh, at rest and not held.
     fn at_rest(&self, mesh: TriangleMesh) -> Result<Solid, SolidError> {
         let factor = |place: Vec2| self.grading.factor(place);
         match self.material {
@@ -429,7 +435,8 @@ impl SolidSetup {
         }
     }
 
-    /// Height y of the side of the channel beside it (length) where this is a wall of a channel of known width.
+    /// Returns the height y of the side of the channel next to it (length), if this is a wall of a channel of known
+    /// width.
     pub(super) fn side(&self) -> Option<f64> {
         match &self.outline {
             SolidOutline::WallBelow(shape) => Some(-0.5 * shape.width()),
@@ -440,7 +447,7 @@ impl SolidSetup {
 }
 
 impl SolidOutline {
-    /// The side of the channel, or the closed outline, for a period along x (length).
+    /// Returns the side of the channel, or the closed outline, for a period along x (length).
     pub(super) fn line(&self, period: f64) -> Result<Outline, SetupError> {
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
         Ok(match self {
@@ -468,8 +475,8 @@ impl SolidOutline {
         })
     }
 
-    /// The channel that this is a wall of, out to the other rigid wall where its line alone is known; none of what is
-    /// no wall.
+    /// Returns the channel that this is a wall of, out to the other rigid wall where its line alone is known; none if
+    /// this is not a wall.
     fn channel(&self, region: &Region) -> Result<Option<Channel>, SetupError> {
         let [period, height] = region.lengths();
         let level = |y| Outline::flat(-0.5 * period, period, y);
@@ -481,19 +488,19 @@ impl SolidOutline {
         }))
     }
 
-    /// True of a wall above the fluid.
+    /// Returns true of a wall above the fluid.
     pub(super) fn is_above(&self) -> bool {
         matches!(self, Self::WallAbove(_) | Self::WallAbovePoints(_))
     }
 
-    /// True of a wall that reaches a rigid wall of the region.
+    /// Returns true of a wall that reaches a rigid wall of the region.
     pub(super) fn is_wall(&self) -> bool {
         self.is_above() || matches!(self, Self::WallBelow(_) | Self::WallBelowPoints(_))
     }
 }
 
 impl Material {
-    /// Shear modulus (force per length); 0 of what is fluid-like.
+    /// Returns the shear modulus (force per length); 0 of what is fluid-like.
     #[must_use]
     pub fn shear(&self) -> f64 {
         match *self {
@@ -510,7 +517,7 @@ impl ActiveSpringsSetup {
     /// Their law.
     ///
     /// # Errors
-    /// Numbers out of their range.
+    /// Returns an error for numbers out of their range.
     pub fn law(&self) -> Result<ActiveSprings, SolidError> {
         let &Self { tension, on, off, seed, on_sensitivity, off_sensitivity } = self;
         ActiveSprings::new(tension, on, off, seed)?.with_sensitivities(on_sensitivity, off_sensitivity)
@@ -561,7 +568,7 @@ impl BodySetup for SolidSetup {
             let least = 2.0 * setup.method.spacing().unwrap_or(0.0);
             let close = setup.method.kind() == MethodKind::Layers && spacing < least * (1.0 - 1e-9);
             let remedy = format!(
-                "the grid hardly sees inner points so close to a layer: give {least} or more, or the method grid"
+                "the grid hardly resolves inner points so close to a layer. Use {least} or more, or the method grid"
             );
             checked.refuse_if(close, "mesh-spacing", spacing, remedy)?;
         }
@@ -571,12 +578,14 @@ impl BodySetup for SolidSetup {
         }
         let spacing = self.spacing(setup);
         let across = |key: &str, length: f64| {
-            let remedy = format!("with points {spacing} apart it would have too many of them: give less");
+            let remedy = format!(
+                "with points {spacing} apart it would have too many of them. Use less width or a larger spacing"
+            );
             checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
         };
         let no_channel = !matches!(setup.region, Region::Channel { .. });
         let part = self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. });
-        let remedy = "give a region that is a channel";
+        let remedy = "use a region that is a channel";
         checked.refuse_if(no_channel && part, "outline", "a wall or an island", remedy)?;
         match &self.outline {
             SolidOutline::WallBelowPoints(points) | SolidOutline::WallAbovePoints(points) => {
@@ -585,7 +594,8 @@ impl BodySetup for SolidSetup {
                 checked.all_finite(name, points.as_flattened())?;
                 let [length, height] = setup.region.lengths();
                 across(name, height.max(length))?;
-                let remedy = format!("give heights between the rigid walls of the region at -+{}", 0.5 * height);
+                let remedy =
+                    format!("use heights between the rigid walls of the region, at -{0} and {0}", 0.5 * height);
                 points.iter().try_for_each(|[_, y]| checked.require(y.abs() < 0.5 * height, name, *y, &remedy))?;
             }
             SolidOutline::WallBelow(shape)
@@ -600,7 +610,8 @@ impl BodySetup for SolidSetup {
                 let key = format!("{outline}.{}.width", shape.name());
                 checked.positive(&key, width)?;
                 across(&key, height.max(setup.region.lengths()[0]))?;
-                let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
+                let remedy =
+                    format!("the walls need room in the region. Use a number below {height}, the width of the region");
                 checked.require(!self.outline.is_wall() || width < height, &key, width, &remedy)?;
                 let islands = shape.islands();
                 if let SolidOutline::Island { number, .. } = self.outline {
@@ -628,7 +639,7 @@ impl BodySetup for SolidSetup {
                 }
             }
         }
-        let remedy = "only walls reach the rigid walls of the region: give tethered or free";
+        let remedy = "only walls touch the rigid walls of the region, where they can be pinned. Use tethered or free";
         checked.refuse_if(self.hold == Hold::Pinned && !self.outline.is_wall(), "hold", "pinned", remedy)?;
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
@@ -641,7 +652,8 @@ impl BodySetup for SolidSetup {
             ("relaxation-time-grading", &self.relaxation_time_grading, self.relaxation.is_empty(), "relaxation"),
             ("tension-grading", &self.tension_grading, self.active_springs.is_none(), "active-springs"),
         ] {
-            let remedy = format!("there is nothing that it is a factor on: give {of}, or leave it out");
+            let remedy =
+                format!("a grading multiplies a quantity that this solid lacks. Add {of}, or remove the grading");
             checked.refuse_if(missing && !grading.is_uniform(), key, "given", remedy)?;
         }
         for (number, MaxwellSetup { modulus, time }) in self.relaxation.iter().enumerate() {
@@ -651,16 +663,17 @@ impl BodySetup for SolidSetup {
         if let Some(viscosity) = self.viscosity {
             let least = setup.viscosity;
             let remedy =
-                format!("the fluid in it has {least}, which adds to its own: give a finite number from there on");
+                format!("the fluid inside the solid already has {least}. Use a finite number that is not below it");
             checked.require(viscosity.is_finite() && viscosity >= least, "viscosity", viscosity, &remedy)?;
         }
         if let Some(active) = &self.active_springs {
             active.check(checked)?;
         }
         let relaxes = !self.relaxation.is_empty();
-        let remedy = "nothing would hold it together: give relaxation = [{ modulus = ..., time = ... }]";
+        let remedy = "nothing would hold the solid together. Add relaxation = [{ modulus = ..., time = ... }]";
         checked.refuse_if(self.material == Material::FluidLike && !relaxes, "material", "fluid-like", remedy)?;
-        let remedy = "the integrator runge-kutta has no implicit parts: give another integrator, or no relaxation";
+        let remedy =
+            "runge-kutta cannot treat relaxation, which is implicit. Use another integrator, or remove the key";
         let explicit = setup.integrator == IntegratorKind::RungeKutta;
         checked.refuse_if(relaxes && explicit, "relaxation", "given", remedy)?;
         for (key, given) in [
@@ -668,7 +681,7 @@ impl BodySetup for SolidSetup {
             ("active-springs", self.active_springs.is_some()),
             ("spread-over-triangles", self.spread_over_triangles),
         ] {
-            let remedy = "the state of such a solid has no mirror image: leave it or mirror-symmetric out";
+            let remedy = "the state of such a solid has no mirror image. Remove this key, or mirror-symmetric";
             checked.refuse_if(given && setup.mirror_symmetric, key, "given", remedy)?;
         }
         self.material.check(checked)
@@ -690,7 +703,7 @@ impl Material {
         match *self {
             Self::MooneyRivlin { fraction, .. } => {
                 let holds = (0.0..=1.0).contains(&fraction);
-                checked.require(holds, &key("fraction"), fraction, "give a number from 0 to 1")
+                checked.require(holds, &key("fraction"), fraction, "use a number from 0 to 1")
             }
             _ => Ok(()),
         }

@@ -7,11 +7,11 @@ use super::{DropletShape, InterfaceShape, Setup, Side};
 use crate::SetupError;
 
 impl Setup {
-    /// Keys of all shapes that are given by points, each with the largest distance of its smooth curve from the polygon
-    /// through the points (length).
+    /// Returns the keys of all shapes that are given by points, each with the largest distance of its smooth curve from
+    /// the polygon through the points (length).
     ///
     /// # Errors
-    /// Points through which no curve goes.
+    /// Returns an error for points through which no curve goes.
     pub fn distances_from_points(&self) -> Result<Vec<(String, f64)>, SetupError> {
         let mut distances = Vec::new();
         let droplets = self.droplets.iter().enumerate().map(|(k, body)| (format!("droplets[{k}].shape"), &body.shape));
@@ -39,7 +39,7 @@ impl Setup {
     }
 }
 
-/// Points in the direction in which an interface advances.
+/// Returns the points in the direction in which an interface advances.
 pub(super) fn points_along(points: &[[f64; 2]], advance: f64) -> Vec<Vec2> {
     let mut points: Vec<Vec2> = points.iter().copied().map(Vec2::from).collect();
     let ends = points.first().zip(points.last());

@@ -24,10 +24,10 @@ const BISECTIONS: u32 = 60;
 const MOST: usize = 100_000;
 /// Largest relative difference between the area fraction that is given and the one that is reached.
 const OFF: f64 = 0.02;
-/// Part of the area that the densest packing of equal circles fills.
+/// Fraction of the area that the densest packing of equal circles fills.
 const DENSEST: f64 = 0.9069;
 
-/// Many round droplets in a box or a channel, which [`Setup::build`] puts at places of its own choice.
+/// Many round droplets in a box or a channel, for which [`Setup::build`] chooses the places.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -45,28 +45,29 @@ const DENSEST: f64 = 0.9069;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("crowd", "collective motion", "many droplets"))]
 pub struct SuspensionSetup {
-    /// Number of droplets; this or the part of the area is given.
+    /// Number of droplets. Give either this or the area fraction.
     pub count: Option<usize>,
-    /// Part of the region's area that the droplets fill (no dimension). Radii that differ are scaled together, within
-    /// their bounds, so that it is met; of equal circles it is the nearest one that a whole number of them fills, and
-    /// refused if that is off by more than 2 %. [`Setup::filled`] tells it.
+    /// Fraction of the region's area that the droplets fill (no dimension). Radii that differ are scaled together,
+    /// within their bounds, to reach it. Equal circles reach the nearest fraction that a whole number of them fills,
+    /// which is refused if it is off by more than 2 %. [`Setup::filled`] returns it.
     pub area_fraction: Option<f64>,
-    /// Radii (length); `None` for that of the droplet.
+    /// Radii (length); `None` for the radius of the droplet.
     pub radius: Option<Distribution>,
-    /// Activities (force times length); `None` for that of the droplet.
+    /// Activities (force times length); `None` for the activity of the droplet.
     pub activity: Option<Distribution>,
-    /// Viscosities inside (stress times time); `None` for that of the droplet.
+    /// Viscosities inside (stress times time); `None` for the viscosity of the droplet.
     pub viscosity: Option<Distribution>,
     /// Directions of swimming at the start.
     pub headings: Headings,
     /// Places at the start.
     pub arrangement: Arrangement,
-    /// Least gap between droplets and from walls at the start (length).
+    /// Minimum gap between droplets and from walls at the start (length).
     pub gap: f64,
     /// Seed of all that is random; equal seeds give equal suspensions.
     pub seed: u64,
-    /// All else about the droplets, which are round; they are named after it, with numbers.
+    /// Everything else about the droplets, which are round. They are named after it, with numbers.
     pub droplet: DropletSetup,
 }
 
@@ -102,11 +103,11 @@ pub enum Headings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Arrangement {
-    /// Random sequential placement: each droplet at a random place that is free; those that find none within a hundred
-    /// tries lie across others, and then all are moved apart until there are the gaps that were asked for. Some 0.7 of
-    /// the area can be filled so.
+    /// Random sequential placement: each droplet is put at a random place that is free. Droplets that find none within
+    /// a hundred tries overlap others, and then all are moved apart until the gaps are as wide as required. This can
+    /// fill about 0.7 of the area.
     Random,
-    /// A hexagonal or rectangular lattice, that with the largest distances, some sites of which may stay empty.
+    /// A hexagonal or rectangular lattice, whichever has the largest distances. Some sites may stay empty.
     Lattice,
 }
 
@@ -119,9 +120,9 @@ struct Drawn {
 }
 
 impl Setup {
-    /// The description with the droplets of its suspensions in its list of droplets, behind those that it has. Places
-    /// keep the suspensions' gaps from one another and from the round droplets of the list; solids, obstacles and
-    /// droplets of other shapes are not seen, and [`Setup::build`] refuses what overlaps them.
+    /// Returns the description with the droplets of its suspensions in its list of droplets, behind those that it has.
+    /// Places keep the suspensions' gaps from one another and from the round droplets of the list. They ignore solids,
+    /// obstacles and droplets of other shapes, and [`Setup::build`] refuses what overlaps them.
     ///
     /// ```
     /// use motile::setup::{Setup, SuspensionSetup};
@@ -133,8 +134,8 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// [`SetupError::Value`]: values out of their range, a region that has no area, droplets for which no places were
-    /// found.
+    /// Returns [`SetupError::Value`] for values out of their range, a region that has no area, droplets for which no
+    /// places were found.
     pub fn placed(&self) -> Result<Self, SetupError> {
         if self.suspension.is_empty() {
             return Ok(self.clone());
@@ -174,8 +175,8 @@ impl Setup {
         Ok(placed)
     }
 
-    /// Part of the region's area that the round droplets fill, those of suspensions included (no dimension); `None`
-    /// without suspensions.
+    /// Returns the fraction of the region's area that the round droplets fill, including suspensions (no dimension);
+    /// `None` without suspensions.
     ///
     /// ```
     /// use motile::prelude::*;
@@ -189,7 +190,7 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Setup::placed`].
+    /// Returns the errors of [`Setup::placed`].
     pub fn filled(&self) -> Result<Option<f64>, SetupError> {
         if self.suspension.is_empty() {
             return Ok(None);
@@ -199,11 +200,11 @@ impl Setup {
         Ok(Some(PI * squares / (length * width)))
     }
 
-    /// Refuses suspensions of values out of their range, and where there is no area to fill.
+    /// Refuses suspensions of values out of their range, and if there is no area to fill.
     pub(super) fn check_suspensions(&self) -> Result<(), SetupError> {
         for (number, suspension) in self.suspension.iter().enumerate() {
             if !matches!(self.region, Region::Box { .. } | Region::Channel { .. }) {
-                let remedy = "suspensions fill a box or a channel: give one of these";
+                let remedy = "a suspension needs a box or a channel to fill. Use one of these";
                 let region = if self.region == Region::Plane { "plane" } else { "three-dimensional" };
                 return Checked { place: "" }.refuse("region", &region, remedy);
             }
@@ -220,8 +221,8 @@ impl Setup {
             let ([_, radius], gap) = (suspension.radii().bounds(), suspension.gap);
             if 2.0 * radius + gap > length || 2.0 * radius + walls * gap > width {
                 let remedy = format!(
-                    "a region of {length} x {width} has no room for it and a gap of {gap}: give less, or a larger \
-                     region"
+                    "a region of {length} x {width} has no room for such a droplet and a gap of {gap}. Use a smaller \
+                     radius or a larger region"
                 );
                 return Checked { place: &format!("suspension[{number}]") }.refuse("radius", &radius, remedy);
             }
@@ -230,13 +231,13 @@ impl Setup {
         if filled > DENSEST * length * width { self.crowded() } else { Ok(()) }
     }
 
-    /// Error of suspensions for which there are no places.
+    /// Returns the error of suspensions for which there are no places.
     fn crowded<T>(&self) -> Result<T, SetupError> {
         let [length, width] = self.region.lengths();
         let suspension = &self.suspension[0];
         let remedy = format!(
-            "no places were found in a region of {length} x {width} with gaps of {}: give less, a larger region or \
-             smaller gaps",
+            "no places were found in a region of {length} x {width} with gaps of {}. Use fewer droplets, \
+             a larger region or smaller gaps",
             suspension.gap
         );
         let checked = Checked { place: "suspension[0]" };
@@ -248,7 +249,7 @@ impl Setup {
 }
 
 impl SuspensionSetup {
-    /// The radii (length): its own, or that of its droplet.
+    /// Returns the radii (length): its own, or the radius of its droplet.
     fn radii(&self) -> Distribution {
         match (self.radius, &self.droplet.shape) {
             (Some(radius), _) => radius,
@@ -257,7 +258,7 @@ impl SuspensionSetup {
         }
     }
 
-    /// Mean area of its droplets (length squared).
+    /// Returns the mean area of its droplets (length squared).
     ///
     /// ```
     /// use motile::setup::{Distribution, SuspensionSetup};
@@ -270,7 +271,7 @@ impl SuspensionSetup {
         PI * self.radii().mean_square()
     }
 
-    /// Area of its droplets, whose number is given, by the radii that its seed draws (length squared).
+    /// Returns the area of its droplets, whose number is given, by the radii that its seed draws (length squared).
     #[must_use]
     pub fn area(&self) -> f64 {
         // Which region it is has no influence on the radii.
@@ -278,14 +279,14 @@ impl SuspensionSetup {
         PI * droplets.iter().map(|droplet| radius(droplet).powi(2)).sum::<f64>()
     }
 
-    /// Number of droplets in a region.
+    /// Returns the number of droplets in a region.
     fn number(&self, region: &Region) -> f64 {
         let [length, width] = region.lengths();
         let of_area = |fraction: f64| (fraction * length * width / self.mean_area()).round();
         self.count.map_or_else(|| of_area(self.area_fraction.unwrap_or_default()), |count| count as f64)
     }
 
-    /// Area that a fraction of a region is, over the area of a circle of radius one.
+    /// Returns the area that a fraction of a region is, over the area of a circle of radius one.
     fn squares(fraction: f64, region: &Region) -> f64 {
         let [length, width] = region.lengths();
         fraction * length * width / PI
@@ -304,7 +305,7 @@ impl SuspensionSetup {
         let alternative =
             if other > 0.0 { format!("and {other} fill {:.3}", of(other)) } else { "and fewer fill none".to_owned() };
         let remedy = format!(
-            "{count} droplets fill {reached:.3} of the area, {alternative}, which is off by more than {} %: give one \
+            "{count} droplets fill {reached:.3} of the area, {alternative}, which is off by more than {} %. Use one \
              of these, another region, or other radii",
             100.0 * OFF
         );
@@ -314,11 +315,11 @@ impl SuspensionSetup {
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
         let DropletSetup { shape, centre, angle, particles, .. } = &self.droplet;
         for (key, value) in [("centre[0]", centre[0]), ("centre[1]", centre[1]), ("angle", *angle)] {
-            let remedy = "places and directions are those of the suspension: leave it out";
+            let remedy = "the suspension sets places and directions. Remove this key";
             checked.require(value == 0.0, &format!("droplet.{key}"), value, remedy)?;
         }
         let round = matches!(shape, DropletShape::Round { .. });
-        checked.refuse_if(!round, "droplet.shape", "not round", "suspensions are of circles: give shape.round")?;
+        checked.refuse_if(!round, "droplet.shape", "not round", "a suspension consists of circles. Use shape.round")?;
         setup.able(&self.droplet)?;
         self.droplet.check(&Checked { place: &format!("{}.droplet", checked.place) }, setup)?;
         for (key, values) in [("radius", self.radius), ("viscosity", self.viscosity)] {
@@ -326,7 +327,7 @@ impl SuspensionSetup {
         }
         if let Some(activity) = self.activity {
             activity.check(checked, "activity", false)?;
-            let remedy = "droplets without particles have none: leave it out, or give droplet.particles";
+            let remedy = "droplets without particles have no activity. Remove the key, or add droplet.particles";
             checked.refuse_if(particles.is_none(), "activity", activity, remedy)?;
         }
         checked.not_negative("gap", self.gap)?;
@@ -335,26 +336,29 @@ impl SuspensionSetup {
         }
         match (self.count, self.area_fraction) {
             (Some(count), None) => {
-                let remedy = format!("give a number from 1 to {MOST}");
+                let remedy = format!("use a number from 1 to {MOST}");
                 checked.refuse_if(!(1..=MOST).contains(&count), "count", count, remedy)
             }
             (None, Some(fraction)) => {
-                let remedy = format!("give a number above 0 and below {DENSEST}, that of the densest packing");
+                let remedy =
+                    format!("use a number above 0 and below {DENSEST}, the area fraction of the densest packing");
                 checked.refuse_if(!(fraction > 0.0 && fraction < DENSEST), "area-fraction", fraction, remedy)?;
                 let count = self.number(&setup.region);
-                let remedy = format!("it makes {count} droplets: give what makes 1 to {MOST}");
+                let remedy = format!("this makes {count} droplets. Use a fraction that makes 1 to {MOST}");
                 checked.refuse_if(!(1.0..=MOST as f64).contains(&count), "area-fraction", fraction, remedy)?;
                 self.check_reached(checked, &setup.region, fraction)
             }
             (Some(count), Some(_)) => {
-                let remedy = "area-fraction says how many there are as well: give one of the two";
+                let remedy = "area-fraction sets the number of droplets as well. Use only one of the two keys";
                 checked.refuse("count", &count, remedy)
             }
-            (None, None) => checked.refuse("count", &"none", "give how many droplets there are, or area-fraction"),
+            (None, None) => {
+                checked.refuse("count", &"none", "the number of droplets is missing. Add count or area-fraction")
+            }
         }
     }
 
-    /// The droplets at no places yet, with values from their distributions.
+    /// Returns the droplets at no places yet, with values from their distributions.
     fn draw(&self, region: &Region) -> Drawn {
         let mut random = SplitMix64::new(self.seed);
         let radii = self.radii();
@@ -384,7 +388,7 @@ impl SuspensionSetup {
     }
 }
 
-/// Radius of a round droplet (length).
+/// Returns the radius of a round droplet (length).
 fn radius(droplet: &DropletSetup) -> f64 {
     if let DropletShape::Round { radius } = droplet.shape { radius } else { 0.0 }
 }
@@ -404,7 +408,7 @@ fn fill(droplets: &mut [DropletSetup], [least, most]: [f64; 2], wanted: f64) {
     }
 }
 
-/// A round droplet as a circle that keeps a gap (length), or that stays where it is.
+/// Returns a round droplet as a circle that keeps a gap (length), or that stays where it is.
 fn circle(droplet: &DropletSetup, gap: Option<f64>) -> Option<Circle> {
     let DropletShape::Round { radius } = droplet.shape else { return None };
     Some(Circle { place: droplet.centre.into(), radius, gap: gap.unwrap_or_default(), fixed: gap.is_none() })

@@ -99,24 +99,24 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.integral.elements = 32", nodes(64, 32)),
         ("method.integral.elements", nodes(64, usize::MAX)),
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
-        ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
-        ("method.grid.spacing = 0.1: a length of 1000 would take 10000 cells, 1.0e8 in all", {
+        ("method.grid.spacing = 0.0000001: a length of 6 would need", grid(GridMethod::of_spacing(1e-7))),
+        ("method.grid.spacing = 0.1: a length of 1000 would need 10000 cells, 1.0e8 in all", {
             Setup { region: Region::Box { lengths: [1e3; 2] }, ..grid(coarse) }
         }),
-        ("droplets[0].particles.start.perturbed.amplitude = 1: give a number from 0 to below 1", {
+        ("droplets[0].particles.start.perturbed.amplitude = 1: use a number from 0 to below 1", {
             with(Particles { start: Start::Perturbed { amplitude: 1.0, seed: 1 }, ..Particles::default() })
         }),
         ("method.grid.marker-spacing = 0.0000000001", grid(GridMethod { marker_spacing: Some(1e-10), ..coarse })),
         ("region = plane", Setup { region: Region::Plane, ..grid(coarse) }),
-        ("method = integral: it has no solids: give layers or grid", elastic(3.0, Method::default())),
-        ("method = grid: it has no rigid bodies: give integral or layers", {
+        ("method = integral: it does not support solids. Use layers or grid", elastic(3.0, Method::default())),
+        ("method = grid: it does not support rigid bodies. Use integral or layers", {
             Setup { rigid_bodies: vec![RigidBodySetup::default()], ..grid(coarse) }
         }),
-        ("method = layers: it has no rigid walls", {
+        ("method = layers: it does not support rigid walls", {
             let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
             Setup { region: channel(6.0), method: layers(), walls, ..Setup::default() }
         }),
-        ("method.grid.corrected = true: solids on the grid", {
+        ("method.grid.corrected = true: the mobility correction cannot handle solids", {
             Setup { method: Method::Grid(coarse), ..elastic(3.0, plain()) }
         }),
         ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
@@ -163,7 +163,10 @@ fn exchanges_that_make_no_scene_are_refused() {
         assert!(error.contains(key), "{error}");
     }
     let coarse = refused(&of(with(ExchangeSetup { spacing_inside: Some(0.7), ..diffusing })));
-    assert!(coarse.starts_with("droplet.particles.exchange.spacing-inside = 0.7: it is for"), "{coarse}");
+    assert!(
+        coarse.starts_with("droplet.particles.exchange.spacing-inside = 0.7: this spacing is too wide for"),
+        "{coarse}"
+    );
     of(with(diffusing)).build().unwrap();
 }
 
@@ -182,7 +185,7 @@ fn gels_that_make_no_scene_are_refused() {
         ("droplets[0].gel.material.alignment =", of(GelMaterial { alignment: f64::NAN, ..usual })),
         ("droplets[0].gel.material.activity =", of(GelMaterial { activity: f64::INFINITY, ..usual })),
         ("droplets[0].gel.spacing =", with(GelSetup { spacing: Some(0.0), ..GelSetup::default() })),
-        ("droplet.gel.spacing = 0.6: it is for a droplet of radius 1.000: give 0.500 or less", {
+        ("droplet.gel.spacing = 0.6: this spacing is too wide for a droplet of radius 1.000. Use 0.500 or less", {
             with(GelSetup { spacing: Some(0.6), ..GelSetup::default() })
         }),
         (
@@ -193,7 +196,7 @@ fn gels_that_make_no_scene_are_refused() {
             let start = DirectorStart::Uniform { angle: 0.0, noise: -1.0, seed: 0 };
             with(GelSetup { start, ..GelSetup::default() })
         }),
-        ("method = integral: it has no gels: give layers or grid", {
+        ("method = integral: it does not support gels. Use layers or grid", {
             Setup { method: Method::default(), ..with(GelSetup::default()) }
         }),
         ("droplets[0].motion =", {
@@ -236,7 +239,10 @@ fn gels_fill_boxes_and_nothing_else_lies_in_them() {
             of(GelInBoxSetup { spacing: Some(1e-7), ..gel }),
         ),
         ("gels[0].start = around a centre", of(GelInBoxSetup { start: DirectorStart::Aster, ..gel })),
-        ("method = layers: it has no gels that fill a box: give grid", Setup { method: layers(), ..base.clone() }),
+        (
+            "method = layers: it does not support gels that fill a box. Use grid",
+            Setup { method: layers(), ..base.clone() },
+        ),
         ("region = channel", Setup { region: channel(3.0), ..base.clone() }),
         ("gels = 2: ", Setup { gels: vec![gel; 2], ..base.clone() }),
         ("gels = 1: ", Setup { droplets: vec![DropletSetup::default()], ..base.clone() }),
@@ -339,7 +345,7 @@ fn walls_through_points() {
     }
     own.solids[0].outline = SolidOutline::WallBelowPoints(flat(-2.5));
     let said = own.check().unwrap_err().to_string();
-    assert!(said.starts_with("solids[0].outline.wall-below-points = -2.5: give heights between"), "{said}");
+    assert!(said.starts_with("solids[0].outline.wall-below-points = -2.5: use heights between"), "{said}");
 }
 
 /// A layer needs sixteen points: a solid with fewer on its surface is refused by name and key before any work, and the
@@ -360,7 +366,7 @@ fn a_surface_of_too_few_points_is_refused() {
     };
     let said = refused(&of(0.125, Some(false)));
     assert!(said.starts_with("bead.mesh-spacing = 0.25: its surface would have 13 points"), "{said}");
-    assert!(said.contains("give 2.03e-1 or less"), "{said}");
+    assert!(said.contains("Use 2.03e-1 or less"), "{said}");
     assert!(of(0.1, Some(false)).build().is_ok() && of(0.125, Some(true)).build().is_ok());
 }
 
@@ -427,7 +433,7 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
         // At one place, through periods too; nearly so; crossing; crossing over the edge.
         for (x, depth) in [(0.0, ""), (6.0, ""), (1e-4, ""), (1.5, " by 0.5 "), (4.5, " by 0.5 ")] {
             let (said, start) = (refused(&pair(x, 1.0, None)), format!("droplets[1] overlaps droplets[0]{depth}"));
-            assert!(said.starts_with(&start) && said.contains("move them apart"), "{x}: {said}");
+            assert!(said.starts_with(&start) && said.contains("Move them apart"), "{x}: {said}");
         }
         for x in [2.0, 4.0] {
             let said = refused(&pair(x, 1.0, None));
@@ -501,16 +507,16 @@ fn messages_name_the_entry_and_short_numbers() {
         ("solids[0] (lower wall): outlines cross or touch near (", of(crossing)),
         ("solids[0] (lower wall): the solid at (2.01", of(thin)),
         (
-            "region.box.lengths[0] = 1e308: give a number from 1e-50 to 1e50",
+            "region.box.lengths[0] = 1e308: use a number from 1e-50 to 1e50",
             Setup { region: Region::Box { lengths: [1e308, 1e308] }, ..Setup::default() },
         ),
         (
-            "region.channel.length = 1e49: it is more than 1000 widths",
+            "region.channel.length = 1e49: this is more than 1000 widths",
             Setup { region: Region::Channel { length: 1e49, width: 3.0, drive: Drive::ZeroFlux }, ..Setup::default() },
         ),
-        ("viscosity = 1e51: give a number from 1e-50 to 1e50", Setup { viscosity: 1e51, ..Setup::default() }),
+        ("viscosity = 1e51: use a number from 1e-50 to 1e50", Setup { viscosity: 1e51, ..Setup::default() }),
         (
-            "droplets[0].shape.modes.sines = 3000 amplitudes: no method resolves so many waves",
+            "droplets[0].shape.modes.sines = 3000 amplitudes: no method resolves so many modes",
             Setup {
                 droplets: vec![DropletSetup {
                     shape: DropletShape::Modes { radius: 1.0, cosines: vec![0.0; 3], sines: vec![0.0; 3000] },
@@ -520,7 +526,7 @@ fn messages_name_the_entry_and_short_numbers() {
             },
         ),
         (
-            "region.channel.length = 1e-300: give a number from 1e-50",
+            "region.channel.length = 1e-300: use a number from 1e-50",
             Setup {
                 region: Region::Channel { length: 1e-300, width: 3.0, drive: Drive::ZeroFlux },
                 ..Setup::default()
@@ -951,16 +957,16 @@ mod file {
     #[test]
     fn mistakes_are_named_with_their_place() {
         for (text, parts) in [
-            ("viscosty = 3.0", &["line 1", "unknown field `viscosty`", "`viscosity`"][..]),
-            ("[[droplets]]\nparticles.activty = -1.0", &["line 2", "unknown field `activty`"]),
+            ("viscosty = 3.0", &["line 1", "unknown key `viscosty`", "`viscosity`"][..]),
+            ("[[droplets]]\nparticles.activty = -1.0", &["line 2", "unknown key `activty`"]),
             ("[[droplets]]\nparticles = \"nothing\"", &["line 2", "\"none\" for a passive droplet"]),
             (
                 "[[droplets]]\nshape.ellipse.half_axes = [1.0, 1.0]",
                 &["line 2", "half_axes", "available keys: half-axes"],
             ),
             ("[method.grid]\nspacing = \"fine\"", &["line 2", "spacing"]),
-            ("[region.pipe]\nlength = 3.0", &["unknown variant `pipe`", "channel"]),
-            ("[region.channel]\nlength = 3.0", &["missing field `width`"]),
+            ("[region.pipe]\nlength = 3.0", &["unknown choice `pipe`", "channel"]),
+            ("[region.channel]\nlength = 3.0", &["missing required key `width`"]),
             ("viscosity = -3.0", &["viscosity = -3", "positive"]),
             ("viscosity = nan", &["viscosity = NaN", "positive"]),
             ("[[droplets]]\nparticles.diffusion = -1.0", &["droplets[0].particles.diffusion = -1"]),
@@ -974,7 +980,10 @@ mod file {
                 "[[solids]]\noutline.polygon = { corners = [[0.0, 0.0]], fillet = 0.1 }\nmaterial.springs.shear = 1.0",
                 &["fillet", "rounding"],
             ),
-            ("method.grid.layers.nodes = 72", &["method.grid.layers", "give nodes and elements in [method.layers]"]),
+            (
+                "method.grid.layers.nodes = 72",
+                &["method.grid.layers", "set nodes and elements in [method.layers] instead"],
+            ),
             (
                 "[[solids]]\nsurface = \"plain\"\noutline.disc = { centre = [0.0, 0.0], radius = 0.3 }\n\
                  material.springs.shear = 1.0",
@@ -993,8 +1002,8 @@ mod file {
         for (text, part) in [
             (format!("region = \"plane\"\nfoo = \"{long}\""), "line 2, column 1"),
             (format!("region = \"plane\" {long}"), "line 1, column 18"),
-            (format!("{long} = 1"), "unknown field"),
-            (format!("region = \"{long}\""), "unknown variant"),
+            (format!("{long} = 1"), "unknown key"),
+            (format!("region = \"{long}\""), "unknown choice"),
             (format!("method.integral = {{ nodes = 64, {} }}", "elements = 3, ".repeat(2000)), "duplicate key"),
             (format!("viscosity = {}", "9".repeat(20_000)), "line 1, column"),
         ] {
@@ -1400,7 +1409,7 @@ fn places_of_a_grading_increase() {
     };
     assert_eq!(of(vec![[0.0, 1.0], [0.5, 2.0]]), Ok(()));
     let error = of(vec![[0.0, 1.0], [0.5, 2.0], [0.5, 3.0]]).unwrap_err();
-    assert!(error.starts_with("solids[0].grading.along.factors") && error.contains("places increasing"), "{error}");
+    assert!(error.starts_with("solids[0].grading.along.factors") && error.contains("in increasing order"), "{error}");
 }
 
 #[test]

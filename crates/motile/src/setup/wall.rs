@@ -40,17 +40,19 @@ const MOST_NODES: f64 = 3000.0;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[doc(alias("no-slip", "obstacle", "post"))]
 pub struct WallSetup {
     /// Outline that it bounds: the side of a channel, an island, a closed outline.
     pub outline: SolidOutline,
     /// Distance of its nodes where walls are nearest to one another (length).
     pub spacing: f64,
-    /// Largest factor by which this distance grows in proportion to that from the other walls, never beyond what
-    /// curvature asks for; 1 for equal distances, as in a file that gives none. See [`RigidWall::graded`].
+    /// Largest factor by which this distance grows in proportion to the distance from the other walls, though never
+    /// beyond what curvature requires. It is 1 for equal distances, which is the default in a file. See
+    /// [`RigidWall::graded`].
     #[serde(default = "uniform")]
     pub grading: f64,
-    /// Length over which its corners are rounded, no less than the spacing for accurate flow there; see
-    /// [`RigidWall::rounded`]. 0 for outlines that are smooth, as in a file that gives none.
+    /// Length over which its corners are rounded; see [`RigidWall::rounded`]. For accurate flow there, use no less than
+    /// the spacing. It is 0 for smooth outlines, which is the default in a file.
     #[serde(default)]
     pub rounding: f64,
 }
@@ -59,17 +61,17 @@ fn uniform() -> f64 {
     1.0
 }
 
-/// Part of the width by which a wall may be beyond the straight walls, and an obstacle must be away from them.
+/// Fraction of the width by which a wall may be beyond the straight walls, and an obstacle must be away from them.
 const ROUND_OFF: f64 = 1e-9;
 
 impl WallSetup {
-    /// The wall along a smooth outline, with nodes at that distance (length).
+    /// Creates the wall along a smooth outline, with nodes at that distance (length).
     #[must_use]
     pub fn new(outline: SolidOutline, spacing: f64) -> Self {
         Self { outline, spacing, grading: uniform(), rounding: 0.0 }
     }
 
-    /// The sides and islands of a channel, with nodes at that distance (length).
+    /// Returns the sides and islands of a channel, with nodes at that distance (length).
     #[must_use]
     pub fn channel(channel: &ChannelShape, spacing: f64) -> Vec<Self> {
         let wall = |outline| Self::new(outline, spacing);
@@ -79,11 +81,11 @@ impl WallSetup {
         walls
     }
 
-    /// The wall of this description in a region of that period along x (length).
+    /// Returns the wall of this description in a region of that period along x (length).
     fn build(&self, checked: &Checked<'_>, period: f64) -> Result<RigidWall, SetupError> {
         let outline = self.outline.line(period)?;
         let nodes = (outline.length() / self.spacing).max(Settings::NODES[0] as f64);
-        let remedy = format!("the wall would have {nodes:.1e} nodes: give more than that");
+        let remedy = format!("the wall would have {nodes:.1e} nodes, too many to compute. Use a larger spacing");
         checked.refuse_if(nodes.is_nan() || nodes > MOST_NODES, "spacing", self.spacing, remedy)?;
         let nodes = 2 * (0.5 * nodes).ceil() as usize;
         let points = points(&outline, (FINER * nodes as f64) as usize)?;
@@ -98,7 +100,7 @@ impl WallSetup {
     }
 }
 
-/// Points of an outline at equal distances along it.
+/// Returns the points of an outline at equal distances along it.
 fn points(outline: &Outline, count: usize) -> Result<Vec<Vec2>, SetupError> {
     let length = outline.length();
     let end = |points: &[Vec2]| points[0] + Vec2::new(outline.period().unwrap_or(0.0), 0.0);
@@ -128,18 +130,18 @@ impl WallSetup {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
         checked.not_negative("rounding", self.rounding)?;
-        let remedy = format!("give 1, equal distances, to {MOST_GRADING}");
+        let remedy = format!("use a number from 1, for equal distances, to {MOST_GRADING}");
         checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
-        let remedy = "rigid walls stand in a channel, wider than they are: give such a region";
+        let remedy = "rigid walls stand in a channel that is wider than they are. Use the region channel";
         checked.refuse_if(!matches!(setup.region, Region::Channel { .. }), "outline", "a rigid wall", remedy)
     }
 }
 
 impl Setup {
-    /// The rigid walls of this scene, for scenes that are put together by hand.
+    /// Returns the rigid walls of this scene, for scenes that are put together by hand.
     ///
     /// # Errors
-    /// Outlines that cannot be, more than 3000 nodes of a wall.
+    /// Returns an error for outlines that cannot be, more than 3000 nodes of a wall.
     pub fn rigid_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
         let built = self.even_walls()?;
@@ -170,7 +172,7 @@ impl Setup {
         graded.collect()
     }
 
-    /// The rigid walls with nodes at equal distances.
+    /// Returns the rigid walls with nodes at equal distances.
     fn even_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
         let [period, _] = self.region.lengths();
         let walls = self.walls.iter().enumerate();
@@ -184,8 +186,8 @@ impl Setup {
         built.collect()
     }
 
-    /// Refuses a wall that leaves the channel, and an obstacle that touches the channel's own walls: no flow passes
-    /// between them, and their images coincide.
+    /// Refuses a wall that leaves the channel, and an obstacle that touches the channel's own walls, because no flow
+    /// passes between them and their images coincide.
     fn check_between_sides(
         &self,
         checked: &Checked<'_>,
@@ -200,7 +202,7 @@ impl Setup {
         let least = if wall.outline.is_wall() { -ROUND_OFF } else { ROUND_OFF };
         let value = format!("a wall through ({:.3e}, {:.3e})", farthest.x, farthest.y);
         let remedy = format!(
-            "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}: give a wider channel, or move it",
+            "it touches or crosses the straight walls at y = -{0:.3e} and {0:.3e}. Use a wider channel, or move it",
             0.5 * width
         );
         checked.refuse_if(beyond(farthest) >= -least * width, "outline", value, remedy)
@@ -220,7 +222,7 @@ impl Setup {
         Err(SetupError::Overlap { key, other, x, y, depth: -gap, allowed: 0.0 })
     }
 
-    /// Distance of a place from the nearest rigid wall (length).
+    /// Returns the distance of a place from the nearest rigid wall (length).
     pub(super) fn room(&self, place: Vec2) -> Result<Option<f64>, SetupError> {
         let mut boundary = Boundary::default();
         self.even_walls()?.iter().for_each(|wall| wall.add_to(&mut boundary));
@@ -230,7 +232,7 @@ impl Setup {
     }
 }
 
-/// The key of a wall, by which errors name it.
+/// Returns the key of a wall, by which errors name it.
 fn wall_key(number: usize) -> String {
     format!("walls[{number}]")
 }

@@ -307,14 +307,14 @@ fn what_has_no_meaning_in_three_dimensions_is_refused() {
     };
     refused(&|setup| setup.droplets[0].centre = [0.0, 0.3], "on the x axis");
     refused(&|setup| setup.droplets[0].angle = 1.0, "along the x axis");
-    refused(&|setup| setup.method = Method::Grid(GridMethod::default()), "no grid");
+    refused(&|setup| setup.method = Method::Grid(GridMethod::default()), "the grid is two-dimensional");
     refused(&|setup| setup.rigid_bodies.push(RigidBodySetup::disc(0.3)), "two dimensions");
     refused(&|setup| setup.region = Region::tube(-1.0), "region.tube.radius");
     let tube = |shape, drive, length| Region::Tube { radius: 1.5, shape, drive, length };
     let throat = |throat| TubeShape::Constriction { throat, throat_length: 2.0, ramp: 2.0 };
     let shaped = |shape| tube(shape, Drive::ZeroFlux, None);
     refused(&|setup| setup.region = shaped(throat(-1.0)), "the radius of the throat");
-    refused(&|setup| setup.region = tube(throat(0.9), Drive::ZeroGradient, None), "give zero-flux or a flux");
+    refused(&|setup| setup.region = tube(throat(0.9), Drive::ZeroGradient, None), "Use zero-flux or a flux");
     refused(&|setup| setup.region = tube(throat(0.9), Drive::ZeroFlux, Some(7.0)), "throat and ramps");
     refused(&|setup| setup.region = shaped(TubeShape::Sinusoidal { amplitude: 1.5, period: 4.0 }), "amplitude");
     refused(&|setup| setup.region = tube(TubeShape::Straight, Drive::Flux(f64::NAN), None), "flux");

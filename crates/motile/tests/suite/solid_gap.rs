@@ -29,7 +29,7 @@ fn a_droplet_inside_a_wall_is_an_error() {
     let error = gap.observe(scene.system_mut()).unwrap_err();
     let entered: &SolidEntered = error.downcast_ref().unwrap();
     assert!((entered.depth - 0.2).abs() < 2e-3, "{entered}");
-    assert!(entered.to_string().ends_with("move them apart"), "{entered}");
+    assert!(entered.to_string().ends_with("Move them apart"), "{entered}");
     assert_eq!(gap.smallest(), Some((-entered.depth, 0.0)));
 }
 

@@ -21,10 +21,10 @@ pub struct MeridianCalculus {
 }
 
 impl MeridianCalculus {
-    /// A plan for closed curves of `len` points, an even number.
+    /// Creates a plan for closed curves of `len` points, an even number.
     ///
     /// # Errors
-    /// Fewer than 4 points, more than 1,048,576, an odd number.
+    /// Returns an error for fewer than 4 points, more than 1,048,576, an odd number.
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of points", len as f64, 4.0, MOST_POINTS)?;
         if !len.is_multiple_of(2) {
@@ -35,8 +35,8 @@ impl MeridianCalculus {
         Ok(Self { curve, pull, slope, hoop: series, tangents: vec![Vec2::ZERO; len] })
     }
 
-    /// Forces on the fluid (force) at the points, of the surface tension gamma (force per length). With the force f
-    /// per area, the force per t and azimuth is `g = r |X_t| f`,
+    /// Writes the forces on the fluid (force) at the points, of the surface tension gamma (force per length). With the
+    /// force f per area, the force per t and azimuth is `g = r |X_t| f`,
     ///
     /// ```text
     /// g_x = d(gamma r tau_x)/dt        g_r = d(gamma r tau_r)/dt - gamma |X_t|
@@ -45,7 +45,7 @@ impl MeridianCalculus {
     /// the second term being the pull around the axis; point k gets `2 pi^2/len` times that, the force on half a ring.
     ///
     /// # Errors
-    /// Slices of another length than planned for.
+    /// Returns an error for slices of another length than planned for.
     pub fn tension_forces(
         &mut self,
         positions: &[Vec2],

@@ -18,8 +18,8 @@ use stokes_boundary_integrals::{LayerError, internal::DenseFactors};
 
 /// Length of a closed tube beyond the surfaces at either end, over its radius: flows decay to 2e-11.
 const BEYOND: f64 = 5.5;
-/// Distance of the nodes of a tube, over its radius, and over the root of the film and the radius beside the surfaces:
-/// the drag of a sphere is right to 1e-8 in wide tubes and to 1e-7 in tight ones.
+/// Distance of the nodes of a tube, over its radius, and over the root of the gap and the radius next to the surfaces.
+/// The drag of a sphere is right to 1e-8 in wide tubes and to 1e-7 in tight ones.
 const SPACINGS: [f64; 2] = [0.085, 0.3];
 /// Most nodes of a tube.
 const MOST_TUBE_NODES: usize = 1600;
@@ -59,19 +59,20 @@ pub(super) struct Walls {
     pub(super) open: Option<DVector<f64>>,
 }
 
-/// Velocity along a straight tube of a radius, per flux (1/length squared), at a distance from the axis (length), and
-/// its slope: the flow of Poiseuille.
+/// Returns the velocity along a straight tube of a radius, per flux (1/length squared), at a distance from the axis
+/// (length), and its slope: the flow of Poiseuille.
 pub(super) fn poiseuille(radius: f64, r: f64) -> [f64; 2] {
     let mean = 1.0 / (PI * radius * radius);
     [2.0 * mean * (1.0 - (r / radius).powi(2)), -4.0 * mean * r / (radius * radius)]
 }
 
-/// Fall of the pressure per length and flux (force times time over length to the sixth) in that flow.
+/// Returns the fall of the pressure per length and flux (force times time over length to the sixth) in that flow.
 pub(super) fn resistance(radius: f64, viscosity: f64) -> f64 {
     8.0 * viscosity / (PI * radius.powi(4))
 }
 
-/// Points and nodes of a tube of a shape: their distance follows from its least radius, and from its ramps and waves.
+/// Returns the points and nodes of a tube of a shape: their distance follows from its minimum radius, and from its
+/// ramps and waves.
 pub(super) fn nodes_of(shape: TubeShape, radius: f64, half_length: f64) -> [usize; 2] {
     let narrowest = shape.least_radius(radius);
     let spacing = (1.5 * SPACINGS[0] * narrowest).min(shape.finest_spacing(radius));
@@ -177,7 +178,7 @@ fn add_rows(
 }
 
 impl AxisymmetricFlow {
-    /// Brings a tube to the surfaces and makes it anew where it is too short or its nodes are too far apart; refuses
+    /// Brings a tube to the surfaces and rebuilds it if it is too short or its nodes are too far apart; refuses
     /// surfaces beyond the wall.
     pub(super) fn fit_walls(&mut self) -> Result<(), LayerError> {
         let nodes =
@@ -230,19 +231,19 @@ impl AxisymmetricFlow {
         self.tube.as_ref().filter(|tube| tube.half_length > 0.0).map(|tube| [tube.half_length, tube.spacing])
     }
 
-    /// Makes the straight tube anew as it was ([`AxisymmetricFlow::tube_resolution`]), so that what is computed is that
+    /// Rebuilds the straight tube as it was ([`AxisymmetricFlow::tube_resolution`]), so that what is computed is that
     /// to the last bit; without one nothing changes.
     ///
     /// # Errors
-    /// Lengths that are not positive and finite.
+    /// Returns an error for lengths that are not positive and finite.
     pub fn restore_tube(&mut self, [half_length, spacing]: [f64; 2]) -> Result<(), LayerError> {
         let Some(Tube { radius, .. }) = self.tube else { return Ok(()) };
         positive("the half length of a tube", half_length)?;
         self.make_tube(radius, half_length, positive("the distance of the nodes of a tube", spacing)?)
     }
 
-    /// Eliminates the forces on the container from the equation of the surfaces. Its rows by coefficients are made
-    /// where there is a matrix or a flux through a shaped tube; otherwise sums over the points of the wall do.
+    /// Eliminates the forces on the container from the equation of the surfaces. Its rows by coefficients are made if
+    /// there is a matrix or a flux through a shaped tube; otherwise sums over the points of the wall do.
     pub(super) fn add_walls(&mut self) {
         let with_matrix = self.has_contrast();
         let Self { grid, panels, surfaces, sides, walls, drive, right, matrix, .. } = self;
@@ -350,7 +351,8 @@ impl AxisymmetricFlow {
         Some(&walls.onto_surfaces * open)
     }
 
-    /// Rise of the pressure along a straight tube (stress) by the surfaces, with the forces on them or without.
+    /// Returns the rise of the pressure along a straight tube (stress) by the surfaces, with the forces on them or
+    /// without.
     pub(super) fn pressure_rise(&self, with_forces: bool) -> f64 {
         let Some(Tube { radius, .. }) = self.tube else { return 0.0 };
         let mut rise = 0.0;
@@ -411,13 +413,14 @@ impl AxisymmetricFlow {
     }
 }
 
-/// Points of a closed tube of revolution about the x axis, for [`AxisymmetricFlow::with_container`]: the sides at the
-/// distance `radius(x)` (length) from the axis for |x| < `half_length` (length), flat ends, corners rounded over about
-/// the radius there; equally spaced along a straight tube. `radius` should be constant near the ends.
+/// Returns the points of a closed tube of revolution about the x axis, for [`AxisymmetricFlow::with_container`]. These
+/// are the sides at the distance `radius(x)` (length) from the axis for |x| < `half_length` (length), flat ends,
+/// corners rounded over about the radius there; equally spaced along a straight tube. `radius` should be constant near
+/// the ends.
 ///
 /// # Errors
-/// A radius or length that is not positive and finite, a tube shorter than its radius, fewer than 16 points or an odd
-/// number.
+/// Returns an error for a radius or length that is not positive and finite, a tube shorter than its radius, fewer than
+/// 16 points or an odd number.
 pub fn tube(radius: impl Fn(f64) -> f64, half_length: f64, points: usize) -> Result<Vec<Vec2>, LayerError> {
     let end = positive("the radius of a tube", radius(half_length))?;
     within("the half length of a tube over its radius", half_length / end, 1.0, 1e3)?;
@@ -462,7 +465,7 @@ pub fn tube(radius: impl Fn(f64) -> f64, half_length: f64, points: usize) -> Res
     Ok(out)
 }
 
-/// Error function, to round-off: its series, or the continued fraction of its complement.
+/// Returns the error function, to round-off: its series, or the continued fraction of its complement.
 fn erf(x: f64) -> f64 {
     if x.abs() > 6.0 {
         return x.signum();

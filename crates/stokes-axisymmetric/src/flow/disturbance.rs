@@ -66,8 +66,8 @@ struct Kernels {
     /// By forces and by velocities on the ring.
     forces: [Space; 3],
     velocities: [Space; 3],
-    /// By displacements of the ring less those of the target, along and from the axis; by those of the ring, besides;
-    /// and by the slopes of these.
+    /// By displacements of the ring less the displacements of the target, along and from the axis; by the displacements
+    /// of the ring; and by the slopes of these.
     differences: [[f64; 2]; 3],
     places: [[f64; 2]; 3],
     slopes: [[f64; 2]; 3],
@@ -77,13 +77,14 @@ fn dot(a: Space, b: Space) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// True for cosines, false for sines: components of displacements and velocities, along, from and around the axis.
+/// Returns true for cosines, false for sines: components of displacements and velocities, along, from and around the
+/// axis.
 fn even(order: usize) -> [bool; 3] {
     let even = order.is_multiple_of(2);
     [even, !even, !even]
 }
 
-/// Waves of a component: cosines from 0 or sines from 1 on.
+/// Waves of a component: cosines start at 0, sines at 1.
 fn of(waves: &Waves, cosine: bool, count: usize) -> &[f64] {
     if cosine { &waves.cos[..count] } else { &waves.sin[1..=count] }
 }
@@ -320,7 +321,7 @@ impl Disturbances {
     /// order 0 the components around the axis have no part.
     ///
     /// # Errors
-    /// Lists of another length than the number of nodes.
+    /// Returns an error for lists of another length than the number of nodes.
     pub fn velocities(
         &self,
         displacements: [&[f64]; 2],
@@ -349,7 +350,7 @@ impl Disturbances {
     /// given by, closed curves with forces on halves of rings as in [`AxisymmetricFlow::load`].
     ///
     /// # Errors
-    /// Lists of another length than the number of points.
+    /// Returns an error for lists of another length than the number of points.
     pub fn velocities_at_points(
         &self,
         displacements: &[Vec2],
@@ -380,9 +381,9 @@ impl Disturbances {
 }
 
 impl AxisymmetricFlow {
-    /// Velocities that small disturbances of an order m cause on the interface of the last solution, in unbounded fluid
-    /// or in a container: the derivative of the equations of the flow. With d from a target to a source, the stress
-    /// kernel K and the vector N of the area, a disturbance changes
+    /// Returns the velocities that small disturbances of an order m cause on the interface of the last solution, in
+    /// unbounded fluid or in a container: the derivative of the equations of the flow. With d from a target to a
+    /// source, the stress kernel K and the vector N of the area, a disturbance changes
     ///
     /// ```text
     /// G(d) g            by   G(d) g' + (d'.grad) G(d) g
@@ -392,7 +393,7 @@ impl AxisymmetricFlow {
     /// integrated over the azimuth with cos(m phi) or sin(m phi) on panels on which the kernels are smooth.
     ///
     /// # Errors
-    /// Anything but one interface; an order above 8; equations that are singular to round-off.
+    /// Returns an error for anything but one interface, an order above 8, or equations that are singular to round-off.
     pub fn disturbances(&mut self, order: usize) -> Result<Disturbances, LayerError> {
         within("the order of a disturbance", order as f64, 0.0, MOST_ORDER)?;
         let Self { viscosity, grid, panels, surfaces, sides, walls, tube, flux, solution, .. } = self;

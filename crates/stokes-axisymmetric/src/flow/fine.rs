@@ -27,7 +27,7 @@ pub(super) struct FineNode {
 }
 
 impl FineNode {
-    /// The ring of the node, as the target sees it.
+    /// Returns the ring of the node, as the target sees it.
     pub(super) fn ring(&self, spot: &Spot, wanted: Wanted) -> Ring {
         Ring::new(self.point.place - spot.place, spot.place.y, self.point.place.y, wanted)
     }
@@ -39,7 +39,8 @@ impl FineNode {
 pub(super) struct Levels([Option<Vec<FineNode>>; LEVELS]);
 
 impl Levels {
-    /// The nodes that integrate to round-off at a spot; `None` where those of the surface do, or none of these.
+    /// Returns the nodes that integrate to round-off at a spot. It is `None` if the nodes of the surface do, or if none
+    /// of these does.
     pub(super) fn at(
         &mut self,
         spot: &Spot,

@@ -10,10 +10,10 @@ use super::waves::{Point, Waves};
 pub(super) const POINTS: usize = 16;
 /// Length of the longest panels, in spacings of the nodes.
 pub(super) const LONGEST: f64 = 6.0;
-/// Least distance of a target from panels that are not made for it, over their length.
+/// Minimum distance of a target from panels that are not made for it, over their length.
 const APART: f64 = 0.7;
 
-/// Points and weights of the Gauss-Legendre rule on (0, 1).
+/// Returns the points and weights of the Gauss-Legendre rule on (0, 1).
 pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
     gauss_legendre(count).into_iter().map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight)).collect()
 }
@@ -26,8 +26,8 @@ pub(super) struct Fixed {
     pub(super) waves: Waves,
 }
 
-/// Panels of a surface that keeps its shape, as a wall does, for targets far away from them: their points are those of
-/// all targets.
+/// Panels of a surface that keeps its shape, as a wall does, for targets far away from them: their points serve all
+/// targets.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FixedPanels {
     /// Number of panels, of equal length in the parameter.
@@ -36,7 +36,7 @@ pub(super) struct FixedPanels {
 }
 
 impl FixedPanels {
-    /// Panels of the longest kind, and points on them.
+    /// Returns the panels of the longest kind, and points on them.
     pub(super) fn new(nodes: usize, at: impl Fn(&Waves) -> Point) -> Self {
         let count = (nodes as f64 / LONGEST).ceil() as usize;
         let length = PI / count as f64;
@@ -50,7 +50,7 @@ impl FixedPanels {
         Self { count, points: panels.map(point).collect() }
     }
 
-    /// The panels that are too close to a foot: others are at least a part [`APART`] of their length away.
+    /// Returns the panels that are too close to a foot: others are at least a part [`APART`] of their length away.
     pub(super) fn near(&self, foot: f64) -> Range<usize> {
         let place = foot / PI * self.count as f64;
         let [first, last] = [place - APART, place + APART].map(|end| end.max(0.0) as usize);

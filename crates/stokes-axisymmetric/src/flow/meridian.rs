@@ -19,7 +19,7 @@ pub(super) struct Half {
     intervals: usize,
     /// cos(pi m/intervals) for m = 0 .. 2 intervals - 1.
     cosines: Vec<f64>,
-    /// Truncation of forces at the points, where there are more than nodes.
+    /// Truncation of forces at the points, if there are more than nodes.
     truncation: Option<Truncation>,
 }
 
@@ -30,10 +30,10 @@ impl Half {
         Self { intervals, cosines, truncation: None }
     }
 
-    /// The truncation of forces at the points to so many nodes, always of one number.
+    /// Returns the truncation of forces at the points to so many nodes, always of one number.
     ///
     /// # Errors
-    /// Those of [`Truncation::new`].
+    /// Returns the errors of [`Truncation::new`].
     pub(super) fn truncation(&mut self, nodes: usize) -> Result<&mut Truncation, LayerError> {
         let made = self.truncation.take().map_or_else(|| Truncation::new(nodes, self.intervals), Ok)?;
         Ok(self.truncation.insert(made))
@@ -55,7 +55,7 @@ impl Half {
         }
     }
 
-    /// The series through values at the points 0 to `intervals`: (even part, odd part) of point j from `value`,
+    /// Returns the series through values at the points 0 to `intervals`: (even part, odd part) of point j from `value`,
     /// truncated to the waves below `waves`.
     pub(super) fn analyse(&self, waves: usize, value: impl Fn(usize) -> (f64, f64), out: &mut Pair) {
         let n = self.intervals;
@@ -72,7 +72,7 @@ impl Half {
         }
     }
 
-    /// Values (even part, odd part) at point j.
+    /// Returns the values (even part, odd part) at point j.
     pub(super) fn value(&self, series: &Pair, waves: usize, j: usize) -> (f64, f64) {
         let mut sums = (0.0, 0.0);
         for k in 0..waves {
@@ -109,19 +109,19 @@ impl Grid {
         Self { nodes, waves, parameters, weights }
     }
 
-    /// Weight of one of so many nodes, with its waves, in integrals of sines from 0 to pi.
+    /// Returns the weight of one of so many nodes, with its waves, in integrals of sines from 0 to pi.
     pub(super) fn weight(nodes: usize, waves: &Waves) -> f64 {
         let wave = |k: usize| (if k == nodes { 2.0 } else { 4.0 }) / (nodes as f64 * k as f64) * waves.sin[k];
         (1..=nodes).step_by(2).map(wave).sum()
     }
 
-    /// Largest wave that the nodes carry, of sines; cosines have one less.
+    /// Returns the largest wave that the nodes carry, of sines; cosines have one less.
     pub(super) fn largest(&self) -> usize {
         self.nodes
     }
 
-    /// Matrix from coefficients to values at the nodes: cosines 0 .. N - 1 at the rows of the x components, sines 1 ..
-    /// N at those of the r components, with a factor.
+    /// Returns the matrix from coefficients to values at the nodes: cosines 0 .. N - 1 at the rows of the x components,
+    /// sines 1 .. N at the entries of the r components, with a factor.
     pub(super) fn add_values(&self, factor: f64, matrix: &mut DMatrix<f64>, start: usize) {
         let n = self.nodes;
         for (j, waves) in self.waves.iter().enumerate() {
@@ -132,7 +132,7 @@ impl Grid {
         }
     }
 
-    /// Coefficients of even values x and odd values r at the nodes.
+    /// Returns the coefficients of even values x and odd values r at the nodes.
     pub(super) fn analyse(&self, x: &[f64], r: &[f64], out: &mut Pair) {
         out.cos.fill(0.0);
         out.sin.fill(0.0);
@@ -146,8 +146,8 @@ impl Grid {
     }
 }
 
-/// A surface of revolution: x a series of cosines, the distance r from the axis one of sines, both in t from 0 to pi;
-/// the force on it per t and angle, x a series of sines and r one of cosines.
+/// A surface of revolution: x a series of cosines, the distance r from the axis one of sines, both in t from 0 to pi.
+/// The force on it per t and angle, x a series of sines and r one of cosines.
 #[derive(Debug, Clone)]
 pub(super) struct Meridian {
     pub(super) shape: Pair,
@@ -197,7 +197,7 @@ impl Meridian {
         }
     }
 
-    /// Place and tangent at the parameter of waves.
+    /// Returns the place and tangent at the parameter of waves.
     pub(super) fn at(&self, waves: &Waves) -> Point {
         let mut sums = [[0.0; LANES]; 4];
         for k in (0..self.shape.cos.len()).step_by(LANES) {
@@ -215,7 +215,7 @@ impl Meridian {
         Point { place: Vec2::new(x, r), tangent: Vec2::new(x_slope, r_slope) }
     }
 
-    /// Place at t + s less that at t, accurate relative to itself, from the waves of t + s/2 and s/2.
+    /// Returns the place at t + s less that at t, accurate relative to itself, from the waves of t + s/2 and s/2.
     pub(super) fn difference(&self, middle: &Waves, half: &Waves) -> Vec2 {
         let (mut x, mut r) = ([0.0; LANES], [0.0; LANES]);
         for k in (0..self.shape.cos.len()).step_by(LANES) {
@@ -242,7 +242,7 @@ impl Meridian {
         Vec2::new(dot(&self.force.sin, &waves.sin), dot(&self.force.cos, &waves.cos))
     }
 
-    /// Volume (length cubed), `pi INT r^2 |x_t| dt`, and area of the surface (length squared).
+    /// Returns the volume (length cubed), `pi INT r^2 |x_t| dt`, and area of the surface (length squared).
     pub(super) fn measures(&self, grid: &Grid) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (Point { place, tangent }, weight) in self.nodes.iter().zip(&grid.weights) {
@@ -252,7 +252,7 @@ impl Meridian {
         sums
     }
 
-    /// Mean over the area of even values at the nodes.
+    /// Returns the mean over the area of even values at the nodes.
     pub(super) fn mean(&self, grid: &Grid, values: impl Iterator<Item = f64>) -> f64 {
         let [mut sum, mut area] = [0.0; 2];
         for ((Point { place, tangent }, weight), value) in self.nodes.iter().zip(&grid.weights).zip(values) {

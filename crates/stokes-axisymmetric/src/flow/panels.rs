@@ -51,7 +51,7 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Force per parameter and azimuth at this point of the surface that it belongs to.
+    /// Returns the force per parameter and azimuth at this point of the surface that it belongs to.
     pub(super) fn force_on(&self, surface: &Meridian) -> Vec2 {
         self.force.unwrap_or_else(|| surface.force_of(self.waves))
     }
@@ -70,7 +70,7 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    /// Panels for up to so many waves.
+    /// Creates panels for up to so many waves.
     pub(super) fn new(waves: usize) -> Self {
         let empty = Waves::new(waves + 1);
         Self {

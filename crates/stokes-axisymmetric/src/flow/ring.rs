@@ -29,7 +29,7 @@ pub(super) enum Wanted {
 /// With the vector from the target to the source, `|x|^2 = dx^2 + dr^2 + 2 r r0 w`, `w = 1 - cos(phi)`, the moment n of
 /// order p is the integral of `w^n/|x|^p` over phi from 0 to 2 pi. Moments are combinations of the complete elliptic
 /// integrals with the complementary parameter `1 - m = |d|^2/(dx^2 + (r + r0)^2)`, which loses no digits where the ring
-/// passes the target closely; near the axis these combinations cancel, and the trapezoidal rule converges at once.
+/// passes the target closely. Near the axis these combinations cancel, and the trapezoidal rule converges at once.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ring {
     /// Source less target along and from the axis (length).
@@ -41,8 +41,8 @@ pub(super) struct Ring {
     moments: [[f64; 5]; 4],
 }
 
-/// Complete elliptic integrals (K, K - E) of the complementary parameter `1 - m`, by the arithmetic-geometric mean
-/// (Abramowitz and Stegun, Handbook of Mathematical Functions, section 17.6).
+/// Returns the complete elliptic integrals (K, K - E) of the complementary parameter `1 - m`, by the
+/// arithmetic-geometric mean (Abramowitz and Stegun, Handbook of Mathematical Functions, section 17.6).
 pub(super) fn elliptic(complement: f64) -> (f64, f64) {
     let (mut a, mut b) = (1.0, complement.sqrt());
     let (mut sum, mut power) = (0.5 * (1.0 - complement), 1.0);
@@ -64,8 +64,8 @@ pub(super) fn elliptic(complement: f64) -> (f64, f64) {
 }
 
 impl Ring {
-    /// The ring of a source at the difference `d` from a target (length), with the moments of the orders 1 and 3, to 5
-    /// for double layers, to 7 for gradients.
+    /// Creates the ring of a source at the difference `d` from a target (length), with the moments of the orders 1 and
+    /// 3, to 5 for double layers, to 7 for gradients.
     pub(super) fn new(d: Vec2, target: f64, source: f64, wanted: Wanted) -> Self {
         let distance = d.length_squared();
         let product = 2.0 * target * source;
@@ -82,18 +82,18 @@ impl Ring {
         Self { d, target, source, moments }
     }
 
-    /// Source less target along and from the axis (length).
+    /// Returns the source less target along and from the axis (length).
     pub(super) fn offset(&self) -> Vec2 {
         self.d
     }
 
-    /// Integral of a polynomial in w over `|x|^p`.
+    /// Returns the integral of a polynomial in w over `|x|^p`.
     fn integral<const N: usize>(&self, order: usize, polynomial: [f64; N]) -> f64 {
         polynomial.iter().zip(&self.moments[order / 2]).map(|(c, moment)| c * moment).sum()
     }
 
-    /// Single layer: the velocity times 8 pi eta of unit forces on the ring, `[[xx, xr], [rx, rr]]`, the velocity's
-    /// component first.
+    /// Returns the single layer. It is the velocity times 8 pi eta of unit forces on the ring, `[[xx, xr], [rx, rr]]`,
+    /// the velocity's component first.
     pub(super) fn single(&self) -> [[f64; 2]; 2] {
         let Self { d: Vec2 { x, y: r }, target, source, moments: [v, t, ..] } = *self;
         [
@@ -105,8 +105,8 @@ impl Ring {
         ]
     }
 
-    /// Double layer `-6 (x.q)(x.n) x_j/|x|^5` of unit velocities q on a ring with the outward normal n (of any length):
-    /// `[[xx, xr], [rx, rr]]`, the component j first.
+    /// Returns the double layer `-6 (x.q)(x.n) x_j/|x|^5` of unit velocities q on a ring with the outward normal n (of
+    /// any length): `[[xx, xr], [rx, rr]]`, the component j first.
     pub(super) fn double(&self, normal: Vec2) -> [[f64; 2]; 2] {
         let Self { d: Vec2 { x, y: r }, target, source, moments: [_, _, s, _] } = *self;
         // x.n = a + b w, x.e_r = r + target w, and the component of x from the axis is r - source w.
@@ -119,8 +119,8 @@ impl Ring {
         [[-6.0 * x * x * xx, -6.0 * x * xr], [-6.0 * x * rx, -6.0 * rr]]
     }
 
-    /// Velocity, pressure and gradient of the single layer of forces on the ring: velocity and gradient times 8 pi eta,
-    /// pressure times 8 pi. The gradient is `[[dux/dx, dux/dr], [dur/dx, dur/dr]]`.
+    /// Returns the velocity, pressure and gradient of the single layer of forces on the ring: velocity and gradient
+    /// times 8 pi eta, pressure times 8 pi. The gradient is `[[dux/dx, dux/dr], [dur/dx, dur/dr]]`.
     pub(super) fn single_flow(&self, force: Vec2) -> ([f64; 2], f64, [[f64; 2]; 2]) {
         let [[xx, xr], [rx, rr]] = self.single();
         let velocity = [xx * force.x + xr * force.y, rx * force.x + rr * force.y];
@@ -139,8 +139,8 @@ impl Ring {
         (velocity, pressure, gradient)
     }
 
-    /// Velocity, pressure and gradient of the double layer of velocities on the ring with the outward normal n (of any
-    /// length).
+    /// Returns the velocity, pressure and gradient of the double layer of velocities on the ring with the outward
+    /// normal n (of any length).
     pub(super) fn double_flow(&self, normal: Vec2, density: Vec2) -> ([f64; 2], f64, [[f64; 2]; 2]) {
         let [[xx, xr], [rx, rr]] = self.double(normal);
         let velocity = [xx * density.x + xr * density.y, rx * density.x + rr * density.y];
@@ -174,7 +174,7 @@ fn plus<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|n| a[n] + b[n])
 }
 
-/// Product of two polynomials, of N = A + B - 1 coefficients.
+/// Returns the product of two polynomials, of N = A + B - 1 coefficients.
 #[inline(always)]
 fn times<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B]) -> [f64; N] {
     let mut product = [0.0; N];
@@ -186,7 +186,7 @@ fn times<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B
     product
 }
 
-/// Moments by elliptic integrals, `distance` the square of the vector d and `product` 2 r r0.
+/// Returns the moments by elliptic integrals, `distance` the square of the vector d and `product` 2 r r0.
 fn elliptic_moments(distance: f64, product: f64, wanted: Wanted) -> [[f64; 5]; 4] {
     let (mean, largest) = (distance + product, distance + 2.0 * product);
     let root = largest.sqrt();

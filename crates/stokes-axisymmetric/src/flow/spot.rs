@@ -12,7 +12,7 @@ use super::{
 };
 
 impl Meridian {
-    /// The spot of a place in the meridian plane (length): its nearest point of the surface and the way there.
+    /// Returns the spot of a place in the meridian plane (length): its nearest point of the surface and the way there.
     pub(super) fn spot(&self, grid: &Grid, place: Vec2, panels: &mut Panels) -> Spot {
         let mut nearest = (0, f64::INFINITY);
         for (j, node) in self.nodes.iter().enumerate() {
@@ -52,7 +52,7 @@ impl Meridian {
         Spot { place, foot, offset: best, gap: best.length() }
     }
 
-    /// True for a place in the meridian plane inside the closed curve through the nodes.
+    /// Returns true for a place in the meridian plane inside the closed curve through the nodes.
     pub(super) fn holds(&self, place: Vec2) -> bool {
         let mut inside = false;
         let mut before = Vec2::new(self.nodes[0].place.x, -self.nodes[0].place.y);
@@ -69,7 +69,7 @@ impl Meridian {
         inside
     }
 
-    /// True for a spot inside the surface, to the accuracy of the series close to the curve.
+    /// Returns true for a spot inside the surface, to the accuracy of the series close to the curve.
     pub(super) fn holds_spot(&self, spot: &Spot, panels: &mut Panels) -> bool {
         if spot.gap > self.spacing || spot.gap == 0.0 {
             return self.holds(spot.place);

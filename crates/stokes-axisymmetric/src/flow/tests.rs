@@ -324,7 +324,7 @@ fn points_that_are_no_meridian_are_refused() {
     let neck = |waist: f64| closed(64, |t| (1.5 * t.cos(), t.sin() * (t.cos().powi(2) + waist)));
     assert!(load(&neck(0.05)).is_ok());
     assert!(load(&neck(-0.05)).unwrap_err().contains("meets the axis between its poles, at x = "));
-    assert!(load(&sphere(32)).unwrap_err().contains("use 64"));
+    assert!(load(&sphere(32)).unwrap_err().contains("Use a number from 64"));
     let mut nan = sphere(64);
     nan[3].x = f64::NAN;
     assert!(load(&nan).unwrap_err().contains("finite"));

@@ -10,10 +10,10 @@ use stokes_boundary_integrals::LayerError;
 
 /// Truncation of forces per parameter and azimuth, given at more points than there are nodes.
 ///
-/// With N nodes velocities along and across the axis are series of cosines and of sines below the wave N. The truncated
-/// force is sin(t) times such series, so that it vanishes at the poles as rings do, and has the power of the given one
-/// in each of these velocities; in the uniform one that is the net force. A series that is cut at a wave has neither:
-/// what it leaves of the pull across at a pole gives the velocity a jump there, which grows into a needle.
+/// With N nodes, velocities along and across the axis are series of cosines and of sines below the wave N. The
+/// truncated force is sin(t) times such series, so that it vanishes at the poles as rings do, and has the power of the
+/// given one in each of these velocities. In the uniform one, that is the net force. A series that is cut at a wave has
+/// neither: what it leaves of the pull across at a pole gives the velocity a jump there, which grows into a needle.
 #[derive(Debug, Clone)]
 pub(super) struct Truncation {
     /// Series through the force on the closed curve: cosines of the part across, sines of the part along.
@@ -23,16 +23,16 @@ pub(super) struct Truncation {
     values: [DVector<f64>; 2],
 }
 
-/// Integral of sin(t) cos(n t) from 0 to pi.
+/// Returns the integral of sin(t) cos(n t) from 0 to pi.
 fn weighted(n: usize) -> f64 {
     if n.is_multiple_of(2) { 2.0 / (1.0 - (n * n) as f64) } else { 0.0 }
 }
 
 impl Truncation {
-    /// A plan for forces at the ends of so many intervals from 0 to pi, more than the nodes.
+    /// Creates a plan for forces at the ends of so many intervals from 0 to pi, more than the nodes.
     ///
     /// # Errors
-    /// More points than a Fourier transform takes.
+    /// Returns an error for more points than a Fourier transform takes.
     pub(super) fn new(nodes: usize, intervals: usize) -> Result<Self, LayerError> {
         let along = DMatrix::from_fn(nodes, nodes, |k, l| 0.5 * (weighted(k.abs_diff(l)) + weighted(k + l)));
         let across =
@@ -49,7 +49,7 @@ impl Truncation {
     /// Truncates the force at point j (force per parameter and azimuth).
     ///
     /// # Errors
-    /// None: the series has as many points as it was made for.
+    /// Returns no error: the series has as many points as it was made for.
     pub(super) fn apply(&mut self, force: impl Fn(usize) -> Vec2, out: &mut Pair) -> Result<(), LayerError> {
         let Self { series, powers, values: [along, across] } = self;
         let count = series.len();

@@ -50,14 +50,14 @@ impl Waves {
     }
 }
 
-/// Entries from k on.
+/// Returns the entries from k on.
 pub(super) fn chunk(values: &[f64], k: usize) -> [f64; LANES] {
     let mut out = [0.0; LANES];
     out.copy_from_slice(&values[k..k + LANES]);
     out
 }
 
-/// Sum of products.
+/// Returns the sum of products.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
@@ -91,7 +91,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Outward normal times |X_t| (length), for a meridian that runs from the largest x to the least.
+    /// Returns the outward normal times |X_t| (length), for a meridian that runs from the largest x to the least.
     pub(super) fn normal(&self) -> Vec2 {
         -self.tangent.perp()
     }

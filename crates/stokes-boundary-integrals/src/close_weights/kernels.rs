@@ -52,7 +52,7 @@ impl KernelArrays {
         log.resize(len, 0.0);
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.log.len()
     }
@@ -157,7 +157,7 @@ impl KernelArrays {
         }
     }
 
-    /// All kernels of node j, as [`greens::Kernels`](Kernels).
+    /// Returns all kernels of node j, as [`greens::Kernels`](Kernels).
     pub(crate) fn at(&self, j: usize) -> Kernels {
         let c = [0, 1, 2].map(|k| Complex64::new(self.c[k].x[j], self.c[k].y[j]));
         let y = Complex64::new(0.0, -2.0 * self.dy[j]);

@@ -7,23 +7,23 @@ use num_complex::Complex64;
 
 use crate::{curve::Curve, transforms::REFINEMENT};
 
-/// Newton iterations for a preimage: each doubles the digits, so that from the nearest fine node some five are enough;
+/// Newton iterations for a preimage: each doubles the digits, so that about five are enough from the nearest fine node;
 /// after six times as many the iteration has strayed.
 const MOST_ITERATIONS: usize = 30;
-/// Largest step of the last iteration: the next one is some hundred times its square, below round-off.
+/// Largest step of the last iteration: the next one is about a hundred times its square, below round-off.
 const LAST_STEP: f64 = 1e-9;
-/// Largest distance of a preimage from the nearest node in the parameter, beyond one spacing, over that of the point.
-/// The map of parameter to position is conformal, so the two are equal up to its distortion; three times as far is
-/// another preimage than the one that the kernels peak at, as curves with large last modes have them.
+/// Largest distance of a preimage from the nearest node in the parameter, beyond one spacing, over the distance of the
+/// point. The map of parameter to position is conformal, so the two are equal up to its distortion. Three times as far
+/// is another preimage than the one that the kernels peak at, as curves with large last modes have them.
 const FARTHEST: f64 = 3.0;
 /// Distance in fine spacings within which a point may be on one side of the curve and on the other side of the polygon
-/// through the fine nodes: a side of length s deviates by kappa s^2/8, 0.2 s at the largest curvature kappa = 1.6/s.
+/// through the fine nodes. A side of length s deviates by kappa s^2/8, 0.2 s at the largest curvature kappa = 1.6/s.
 const ON_POLYGON: f64 = 0.2;
 /// Distance in spacings below which a point counts as that far on the left of the curve: half of the digits, so that
 /// quotients of distance and parameter keep the other half.
 const LEAST_DISTANCE: f64 = 1e-9;
-/// Largest distance of a fine node from the nearest of the nodes, in spacings of these: half a spacing along the curve,
-/// and half as much again where fine nodes are farther apart than the nodes beside them.
+/// Largest distance of a fine node from the nearest of the nodes, in spacings of these. It is half a spacing along the
+/// curve, and half as much again where fine nodes are farther apart than their neighbouring nodes.
 const NEAR_NODE: f64 = 0.75;
 
 /// Complex parameter of a point close to a curve.
@@ -43,7 +43,7 @@ pub(crate) struct Place {
     pub(crate) point: Complex64,
     /// Number of the fine node nearest to it.
     pub(crate) nearest: usize,
-    /// `None` where plain weights have to do: the point is far enough for them to be exact, or no preimage is found.
+    /// `None` if plain weights have to do: the point is far enough for them to be exact, or no preimage is found.
     pub(crate) preimage: Option<Preimage>,
 }
 
@@ -77,14 +77,15 @@ impl Place {
         Self { point, nearest, preimage }
     }
 
-    /// True for a point known to lie on the left of the curve.
+    /// Returns true for a point known to lie on the left of the curve.
     pub(crate) fn is_left(&self) -> Option<bool> {
         self.preimage.map(|preimage| preimage.inside)
     }
 }
 
-/// The fine node nearest to a point and the square of its distance, from those of the nodes, whose least is known: it
-/// is beside a node that is at most so much farther than the nearest one, on the same arm of the curve or another one.
+/// Returns the fine node nearest to a point and the square of its distance, from the distances of the nodes, whose
+/// minimum is known. It is next to a node that is at most so much farther than the nearest one, on the same arm of the
+/// curve or another one.
 fn nearest_fine(curve: &Curve, point: Complex64, least: f64, squares: &[f64]) -> (usize, f64) {
     let fine = &curve.fine.position;
     let bound = (least.sqrt() + NEAR_NODE * curve.spacing()).powi(2);
@@ -101,7 +102,7 @@ fn nearest_fine(curve: &Curve, point: Complex64, least: f64, squares: &[f64]) ->
     (nearest, square)
 }
 
-/// True for the preimage that the kernels peak at, by its distance from the nearest node and by its side.
+/// Returns true for the preimage that the kernels peak at, by its distance from the nearest node and by its side.
 fn is_plausible(
     curve: &Curve,
     point: Complex64,
@@ -119,7 +120,8 @@ fn is_plausible(
     left == found.inside || curve.is_open() || square < on_polygon || found.inside == curve.polygon_contains(point)
 }
 
-/// Preimage of a point under the parametrisation of a curve by Newton's method, from a first guess of exp(i alpha).
+/// Returns the preimage of a point under the parametrisation of a curve by Newton's method, from a first guess of exp(i
+/// alpha).
 fn refine(curve: &Curve, point: Complex64, start: Complex64) -> Option<Preimage> {
     let mut unit = start;
     for _ in 0..MOST_ITERATIONS {
@@ -137,7 +139,7 @@ fn refine(curve: &Curve, point: Complex64, start: Complex64) -> Option<Preimage>
     None
 }
 
-/// Position and its derivative by the parameter alpha at u = exp(i alpha), alpha complex.
+/// Returns the position and its derivative by the parameter alpha at u = exp(i alpha), alpha complex.
 fn evaluate(curve: &Curve, unit: Complex64) -> (Complex64, Complex64) {
     let shape = &curve.shape;
     let len = shape.len();

@@ -71,8 +71,8 @@ impl Dipoles {
     }
 }
 
-/// The products of velocity and normal that the stress acts on, for the derivative of the position by the parameter
-/// times the weight of the node.
+/// Returns the products of velocity and normal that the stress acts on, for the derivative of the position by the
+/// parameter times the weight of the node.
 #[inline(always)]
 pub(crate) fn dipole([vx, vy]: [f64; 2], tangent: Complex64) -> [f64; 3] {
     let (nx, ny) = (tangent.im, -tangent.re);

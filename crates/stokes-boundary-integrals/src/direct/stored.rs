@@ -41,7 +41,7 @@ impl<const N: usize> Components<N> {
         }
     }
 
-    /// The components of the pairs of one shift.
+    /// Returns the components of the pairs of one shift.
     #[inline(always)]
     fn of(&self, Shift { index, count, .. }: Shift) -> [&[f64]; N] {
         let range = index * self.nodes..index * self.nodes + count;

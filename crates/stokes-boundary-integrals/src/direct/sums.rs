@@ -35,8 +35,8 @@ pub(crate) struct PairSums {
 }
 
 impl PairSums {
-    /// Visits all pairs of nodes of a target and a source curve, which has no fewer nodes and may be the `same` one:
-    /// `apply` adds the flow of a shift at the targets and at the sources, the latter in an array twice as long.
+    /// Visits all pairs of nodes of a target and a source curve, which has no fewer nodes and may be the `same` one.
+    /// There, `apply` adds the flow of a shift at the targets and at the sources, the latter in an array twice as long.
     pub(crate) fn visit(
         &mut self,
         same: bool,

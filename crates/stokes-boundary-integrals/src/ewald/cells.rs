@@ -89,7 +89,7 @@ impl Cells {
         }
     }
 
-    /// Cells along the sides.
+    /// Returns the cells along the sides.
     pub(super) fn counts(&self) -> [usize; 2] {
         self.counts
     }
@@ -98,26 +98,27 @@ impl Cells {
         self.starts[row * (self.counts[0] + 2 * ACROSS) + column]
     }
 
-    /// Entries of a cell of the box.
+    /// Returns the entries of a cell of the box.
     pub(super) fn cell(&self, column: usize, row: usize) -> std::ops::Range<usize> {
         let (column, row) = (column + ACROSS, row + ACROSS);
         self.start(column, row)..self.start(column + 1, row)
     }
 
-    /// Entries of the cells of the box in one row.
+    /// Returns the entries of the cells of the box in one row.
     pub(super) fn row(&self, row: usize) -> std::ops::Range<usize> {
         let row = row + ACROSS;
         self.start(ACROSS, row)..self.start(ACROSS + self.counts[0], row)
     }
 
-    /// Entries within the cut-off from any place in a cell, and others: those of five rows of five cells.
+    /// Returns the entries within the cut-off from any place in a cell, and others. These are the entries of five rows
+    /// of five cells.
     pub(super) fn around(&self, column: usize, row: usize) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
         let rows = row..=row + 2 * ACROSS;
         rows.map(move |row| self.start(column, row)..self.start(column + 2 * ACROSS + 1, row))
     }
 }
 
-/// The cell of a point and those of its images.
+/// The cell of a point and the cells of its images.
 struct Places {
     cell: [u32; 2],
     counts: [usize; 2],

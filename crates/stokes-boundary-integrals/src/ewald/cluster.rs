@@ -58,7 +58,7 @@ impl Cluster {
     /// too; the images of another box, if they need one.
     ///
     /// # Errors
-    /// A transform that cannot be planned.
+    /// Returns an error for a transform that cannot be planned.
     pub(super) fn set(&mut self, curves: &[Curve], points: &[Vec2]) -> Result<Images, InputError> {
         let (centre, radius) = circle(curves);
         self.centre = centre;
@@ -114,8 +114,8 @@ impl Cluster {
         });
     }
 
-    /// Computes the moments of all nodes, by `write` those of a share from its positions and what they carry, and the
-    /// flow of the images from them.
+    /// Computes the moments of all nodes, by `write` the moments of a share from its positions and what they carry, and
+    /// the flow of the images from them.
     fn add_moments(&mut self, write: impl Fn(&mut Share, f64, &[Complex64], &[Complex64], &[f64]) + Sync + Send) {
         let Self { degree, side, series, expansion, moments, positions, carried, fluxes, shares: all, .. } = self;
         let len = shares::length(positions.len());
@@ -171,7 +171,7 @@ impl Cluster {
     }
 }
 
-/// Middle of curves, and the radius of a circle about it that holds them (length).
+/// Returns the middle of curves, and the radius of a circle about it that holds them (length).
 fn circle(curves: &[Curve]) -> (Complex64, f64) {
     let mut corners = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
     for Curve { centre, radius, .. } in curves {
@@ -187,18 +187,18 @@ fn circle(curves: &[Curve]) -> (Complex64, f64) {
     (middle, radius)
 }
 
-/// Distance from a place to the point that is farthest from it (length), 0 without points.
+/// Returns the distance from a place to the point that is farthest from it (length), 0 without points.
 fn farthest(from: Complex64, points: &[Vec2]) -> f64 {
     points.iter().map(|point| (Complex64::new(point.x, point.y) - from).norm()).fold(0.0, f64::max)
 }
 
-/// Distance to the farthest point from the middle of curves, over the radius of the circle around these.
+/// Returns the distance to the farthest point from the middle of curves, over the radius of the circle around these.
 pub(crate) fn spread(curves: &[Curve], points: &[Vec2]) -> f64 {
     let (centre, radius) = circle(curves);
     farthest(centre, points) / radius
 }
 
-/// Part of the circle around all curves that the circles around each of them fill.
+/// Returns the part of the circle around all curves that the circles around each of them fill.
 pub(crate) fn filling(curves: &[Curve]) -> f64 {
     let (_, radius) = circle(curves);
     curves.iter().map(|curve| (curve.radius / radius).powi(2)).sum()

@@ -30,14 +30,14 @@ pub(super) struct Columns {
     size: [usize; 2],
     /// Factor of the Green's function over the square of the wave vector, for each m and n.
     symbol: Vec<f64>,
-    /// The spectrum, the column of m before that of -m, and that of the traces of dipoles.
+    /// The spectrum, the column of m before the column of -m, and the column of the traces of dipoles.
     values: Vec<Complex64>,
     traces: Vec<Complex64>,
     transform: ComplexTransform,
 }
 
 impl Columns {
-    /// Shares of the columns up to the wave number `last`, with grid points along x and y.
+    /// Returns the shares of the columns up to the wave number `last`, with grid points along x and y.
     pub(super) fn divide(last: usize, size: [usize; 2]) -> Result<Vec<Self>, InputError> {
         let (waves, transform) = (last + 1, ComplexTransform::new(size[1])?);
         let count = MOST.min(waves);
@@ -68,7 +68,7 @@ impl Columns {
         }
     }
 
-    /// Takes its columns out of the rows and transforms them; those of `traces` go into memory of their own.
+    /// Takes its columns out of the rows and transforms them; the columns of `traces` go into separate memory.
     pub(super) fn gather(&mut self, rows: &[Rows], traces: bool) {
         let [mx, my] = self.size;
         if traces {
@@ -109,9 +109,9 @@ impl Columns {
         }
     }
 
-    /// Multiplies by the spectrum of the stress and transforms back:
-    /// `W(k) = -2 i A [conj(kappa) Z(k) - kappa^3/k^2 conj Z(-k) + kappa T(k)]` with the spectrum Z of half of
-    /// (xx - yy) + i s of the dipoles, and T of their trace; the pull is `2 A conj(kappa)^2 Z(k)`.
+    /// Multiplies by the spectrum of the stress and transforms back: `W(k) = -2 i A [conj(kappa) Z(k) - kappa^3/k^2
+    /// conj Z(-k) + kappa T(k)]` with the spectrum Z of half of (xx - yy) + i s of the dipoles, and T of their trace.
+    /// The pull is `2 A conj(kappa)^2 Z(k)`.
     pub(super) fn apply_stress(&mut self, lattice: &Lattice, part: Part) {
         let velocity = |kappa: Complex64, symbol: f64, [here, there]: [Complex64; 2], trace: Complex64| {
             let (square, cube) = (kappa.norm_sqr(), kappa * kappa * kappa);
@@ -170,7 +170,7 @@ impl Columns {
     }
 }
 
-/// Copies entries of all columns into rows: from the entry `first` on, into rows at this distance from each other.
+/// Copies entries of all columns into rows: starting at the entry `first`, into rows at this distance from each other.
 #[inline(always)]
 pub(super) fn write_rows(columns: &[Columns], first: usize, stride: usize, rows: &mut [Complex64]) {
     for share in columns {
@@ -183,13 +183,13 @@ pub(super) fn write_rows(columns: &[Columns], first: usize, stride: usize, rows:
     }
 }
 
-/// Derivative by conj(z) of the waves of kappa and -kappa.
+/// Returns the derivative by conj(z) of the waves of kappa and -kappa.
 fn strain(kappa: Complex64, [here, there]: [Complex64; 2]) -> [Complex64; 2] {
     let factor = 0.5 * I * kappa;
     [factor * here, -factor * there]
 }
 
-/// The place in a row of the column of that number in a share.
+/// Returns the place in a row of the column of that number in a share.
 #[inline(always)]
 fn column_of(waves: &Range<usize>, index: usize, length: usize) -> usize {
     let index = index + usize::from(waves.start == 0);
@@ -197,7 +197,7 @@ fn column_of(waves: &Range<usize>, index: usize, length: usize) -> usize {
     if index.is_multiple_of(2) || m == 0 { m } else { length - m }
 }
 
-/// The wave number of entry n of a spectrum.
+/// Returns the wave number of entry n of a spectrum.
 #[inline(always)]
 fn signed(n: usize, count: usize) -> f64 {
     if n <= count / 2 { n as f64 } else { n as f64 - count as f64 }

@@ -15,7 +15,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a box; of a channel in a box that is `height` high; none without a period along x.
+    /// Creates the lattice of a box; of a channel in a box that is `height` high; none without a period along x.
     pub(super) fn of(images: &Images, height: f64) -> Option<Self> {
         let [Some(lx), ly] = images.periods.lengths else { return None };
         let ly = ly.unwrap_or(height);
@@ -23,12 +23,12 @@ impl Lattice {
         Some(Self { lengths: [lx, ly], slope: images.tilt() / ly, steepest })
     }
 
-    /// Factor by which the extent of a disc along a side exceeds its diameter.
+    /// Returns the factor by which the extent of a disc along a side exceeds its diameter.
     pub(super) fn stretch(&self) -> f64 {
         self.steepest.hypot(1.0)
     }
 
-    /// Parts of the periods from the lower left corner to a place, each between 0 and 1.
+    /// Returns the parts of the periods from the lower left corner to a place, each between 0 and 1.
     #[inline(always)]
     pub(super) fn parts(&self, x: f64, y: f64) -> [f64; 2] {
         let [lx, ly] = self.lengths;
@@ -40,7 +40,7 @@ impl Lattice {
         [part((x - self.slope * y) / lx), part(y / ly)]
     }
 
-    /// The wave vector of a mode.
+    /// Returns the wave vector of a mode.
     #[inline(always)]
     pub(super) fn wave(&self, [m, n]: [f64; 2]) -> [f64; 2] {
         let kx = TAU * m / self.lengths[0];

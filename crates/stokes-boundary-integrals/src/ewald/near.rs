@@ -79,7 +79,7 @@ impl Near {
         }
     }
 
-    /// Sums the near part of the flow of what the entries carry, times a factor: that of dipoles is in units of the
+    /// Sums the near part of the flow of what the entries carry, times a factor: for dipoles it is in units of the
     /// cut-off.
     pub(super) fn sum(&mut self, split: &Split, cells: &Cells, carried: Carried<'_>, factor: f64) {
         let Self { rows, candidates, flow } = self;
@@ -110,7 +110,7 @@ impl Near {
     }
 }
 
-/// Values of two polynomials from their powers of t in pairs.
+/// Returns the values of two polynomials from their powers of t in pairs.
 #[inline(always)]
 fn values(powers: &[[f64; 4]], t: &Lanes) -> [Lanes; 2] {
     let mut square = [0.0; LANES];
@@ -133,7 +133,7 @@ fn values(powers: &[[f64; 4]], t: &Lanes) -> [Lanes; 2] {
     [a, c]
 }
 
-/// Distances from the target in units of the cut-off, their squares, and these doubled less 1.
+/// Returns the distances from the target in units of the cut-off, their squares, and these doubled less 1.
 #[inline(always)]
 fn distances([x, y]: [f64; 2], xs: &Lanes, ys: &Lanes) -> [Lanes; 4] {
     let [mut dx, mut dy, mut square, mut t] = [[0.0; LANES]; 4];
@@ -146,7 +146,7 @@ fn distances([x, y]: [f64; 2], xs: &Lanes, ys: &Lanes) -> [Lanes; 4] {
     [dx, dy, square, t]
 }
 
-/// Flow of forces, `(-1/2 ln s - b) F + (1/s - g) r (r.F)` with the square s of the distance r.
+/// Returns the flow of forces, `(-1/2 ln s - b) F + (1/s - g) r (r.F)` with the square s of the distance r.
 #[inline(always)]
 fn forces(split: &Split, place: [f64; 2], arrays: [&[f64]; 4]) -> [f64; 2] {
     let [(xs, _), (ys, _), (fx, _), (fy, _)] = arrays.map(<[f64]>::as_chunks::<LANES>);
@@ -168,7 +168,7 @@ fn forces(split: &Split, place: [f64; 2], arrays: [&[f64]; 4]) -> [f64; 2] {
     [u.iter().sum(), v.iter().sum()]
 }
 
-/// Flow of dipoles, `2 a D r + (4/s^2 + 2 g') r (r D r) + a r tr D`.
+/// Returns the flow of dipoles, `2 a D r + (4/s^2 + 2 g') r (r D r) + a r tr D`.
 #[inline(always)]
 fn dipoles(split: &Split, place: [f64; 2], arrays: [&[f64]; 5]) -> [f64; 2] {
     let [(xs, _), (ys, _), (xx, _), (mixed, _), (yy, _)] = arrays.map(<[f64]>::as_chunks::<LANES>);

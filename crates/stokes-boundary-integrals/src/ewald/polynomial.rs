@@ -36,7 +36,7 @@ pub(super) fn powers(accuracy: f64, function: impl Fn(f64) -> f64) -> Vec<f64> {
     out
 }
 
-/// Coefficients of Chebyshev polynomials in the interpolant through [`NODES`] values.
+/// Returns the coefficients of Chebyshev polynomials in the interpolant through [`NODES`] values.
 fn chebyshev(function: impl Fn(f64) -> f64) -> Vec<f64> {
     let angle = |i: usize| PI * (i as f64 + 0.5) / NODES as f64;
     let values: Vec<f64> = (0..NODES).map(|i| function(angle(i).cos())).collect();
@@ -47,7 +47,7 @@ fn chebyshev(function: impl Fn(f64) -> f64) -> Vec<f64> {
     (0..NODES).map(coefficient).collect()
 }
 
-/// Value at t of a polynomial by its powers.
+/// Returns the value at t of a polynomial by its powers.
 pub(super) fn value(powers: &[f64], t: f64) -> f64 {
     powers.iter().rev().fold(0.0, |sum, power| sum * t + power)
 }

@@ -5,8 +5,8 @@ use nalgebra::DMatrix;
 /// Legendre coefficients beyond twice the parameter: they fall faster than exponentially from the parameter on.
 const MORE_TERMS: usize = 30;
 
-/// The even eigenfunction psi of `-d/dx (1 - x^2) d/dx + c^2 x^2` on |x| <= 1 with the least eigenvalue, over its value
-/// at 0.
+/// The even eigenfunction psi of `-d/dx (1 - x^2) d/dx + c^2 x^2` on |x| <= 1 with the minimum eigenvalue, over its
+/// value at 0.
 #[derive(Debug, Clone)]
 pub(super) struct Prolate {
     /// Coefficients of the Legendre polynomials of even degree.
@@ -16,7 +16,7 @@ pub(super) struct Prolate {
 }
 
 impl Prolate {
-    /// The function with the parameter c.
+    /// Creates the function with the parameter c.
     pub(super) fn new(c: f64) -> Self {
         let count = c as usize + MORE_TERMS;
         let square = c * c;
@@ -42,7 +42,7 @@ impl Prolate {
         prolate
     }
 
-    /// The value at x, |x| <= 1.
+    /// Returns the value at x, |x| <= 1.
     pub(super) fn at(&self, x: f64) -> f64 {
         let (mut before, mut now, mut sum) = (1.0, x, 0.0);
         for (i, coefficient) in self.coefficients.iter().enumerate() {

@@ -48,8 +48,8 @@ macro_rules! with_points {
 }
 
 impl Rows {
-    /// Shares of the rows of cells of a box with grid points along x and y; each has no fewer rows of the grid than a
-    /// window has points.
+    /// Returns the shares of the rows of cells of a box with grid points along x and y; each has no fewer rows of the
+    /// grid than a window has points.
     pub(super) fn divide(cells: usize, size: [usize; 2], points: usize) -> Result<Vec<Self>, InputError> {
         let row_of = |cell: usize| (cell as f64 / cells as f64 * size[1] as f64) as usize;
         let fits = |count: &usize| cells / count * size[1] / cells > points;
@@ -71,7 +71,7 @@ impl Rows {
         self.size[0] + self.reach
     }
 
-    /// Range of the entries of its rows of cells.
+    /// Returns the range of the entries of its rows of cells.
     pub(super) fn entries(&self, cells: &Cells) -> Range<usize> {
         cells.row(self.cells.start).start..cells.row(self.cells.end - 1).end
     }
@@ -85,7 +85,7 @@ impl Rows {
         }
     }
 
-    /// The grid point at or before an entry and the parts of a distance that it lies behind it, along x and y.
+    /// Returns the grid point at or before an entry and the parts of a distance that it lies behind it, along x and y.
     #[inline(always)]
     fn place(&self, parts: [f64; 2]) -> ([usize; 2], [f64; 2]) {
         let [x, y] = [parts[0] * self.size[0] as f64, parts[1] * self.size[1] as f64];
@@ -165,7 +165,7 @@ impl Rows {
         }
     }
 
-    /// A value of row `row` of this share.
+    /// Returns a value of row `row` of this share.
     #[inline(always)]
     pub(super) fn value(&self, row: usize, column: usize) -> Complex64 {
         self.values[row * self.stride() + column]
@@ -188,7 +188,7 @@ impl Rows {
     }
 }
 
-/// Adds the rows that shares have beyond their own to those of the next share.
+/// Adds the rows that shares have beyond their own to the rows of the next share.
 pub(super) fn fold(shares: &mut [Rows]) {
     each_seam(shares, |value, beyond| *value += *beyond);
 }
@@ -198,7 +198,7 @@ pub(super) fn unfold(shares: &mut [Rows]) {
     each_seam(shares, |value, beyond| *beyond = *value);
 }
 
-/// Calls `take` with the values of each share that the one before has too, and those of that one.
+/// Calls `take` with the values of each share that the one before has too, and with the values of that one.
 fn each_seam(shares: &mut [Rows], take: impl Fn(&mut Complex64, &mut Complex64)) {
     let count = shares.len();
     for index in 0..count {

@@ -64,8 +64,8 @@ impl Smooth {
 }
 
 impl Ewald {
-    /// Writes the flow at points, the single layers of all curves less the double layers, but for that in free space of
-    /// nodes that [`Ewald::leaves_out`], none of which is as far as `nearest` (length).
+    /// Writes the flow at points, the single layers of all curves less the double layers, without the flow in free
+    /// space of nodes that [`Ewald::leaves_out`], none of which is as far as `nearest` (length).
     pub(crate) fn sample(
         &mut self,
         curves: &[Curve],
@@ -124,7 +124,7 @@ impl Ewald {
         }
     }
 
-    /// True for a node so close to a point that samples there do without its flow in free space.
+    /// Returns true for a node so close to a point that samples there do without its flow in free space.
     pub(crate) fn leaves_out(&self, from: Complex64) -> bool {
         from.norm_sqr() < self.left_out.powi(2)
     }

@@ -6,8 +6,8 @@
 //! G_M^(k) = 4 pi/k^2 (I - k k/k^2) phi(k r_c),    phi(x) = (1 + alpha x^2) chi(x)  up to x = c, 0 beyond
 //! ```
 //!
-//! The transform of phi vanishes beyond r_c but for psi(1), and alpha = -chi''(0)/2 makes its second moment vanish, so
-//! that G - G_M does so too. In space `G_M = b I + g r r`, with lengths in r_c and `x = k r`
+//! The transform of phi vanishes beyond r_c except for psi(1), and alpha = -chi''(0)/2 makes its second moment vanish,
+//! so that G - G_M does so too. In space `G_M = b I + g r r`, with lengths in r_c and `x = k r`
 //!
 //! ```text
 //! b = 1/2 - ln r_c + 2 INT phi(k)/k [J_0(x) - J_1(x)/x - J_0(k)/2] dk,    g = 2 INT phi(k) k J_2(x)/x^2 dk
@@ -30,10 +30,10 @@ const QUADRATURE: usize = 56;
 /// Nodes of the integral of a Bessel function over a quarter of a turn: as many are exact for arguments up to the
 /// largest c.
 const TURN: usize = 22;
-/// Part of the tolerance that polynomials may err by.
+/// Fraction of the tolerance that polynomials may be off by.
 const POLYNOMIALS: f64 = 0.05;
-/// Part of the tolerance that the split of a single layer may err by, so that double layers, whose kernel falls off
-/// faster and leaves a larger part beyond the cut-off, err by less than the tolerance (measured).
+/// Fraction of the tolerance that the split of a single layer may be off by, so that double layers, whose kernel falls
+/// off faster and leaves a larger part beyond the cut-off, are off by less than the tolerance (measured).
 const MARGIN: f64 = 0.05;
 /// Least tolerance: below, round-off is larger than what is left out.
 const LEAST: f64 = 1e-14;
@@ -132,19 +132,20 @@ pub(super) fn derivatives(tolerance: f64) -> [Vec<f64>; 4] {
     ]
 }
 
-/// The distance in units of the cut-off at t.
+/// Returns the distance in units of the cut-off at t.
 fn radius(t: f64) -> f64 {
     (0.5 * (1.0 + t)).max(0.0).sqrt()
 }
 
-/// Even and odd powers of two polynomials together.
+/// Returns the even and odd powers of two polynomials together.
 fn pairs(one: &[f64], other: &[f64]) -> Vec<[f64; 4]> {
     let at = |powers: &[f64], k: usize| powers.get(k).copied().unwrap_or(0.0);
     let len = one.len().max(other.len()).div_ceil(2);
     (0..len).map(|k| [at(one, 2 * k), at(one, 2 * k + 1), at(other, 2 * k), at(other, 2 * k + 1)]).collect()
 }
 
-/// `J_N(x)/x^N`, by the trapezoidal rule for Poisson's integral `1/((2N - 1)!! pi) INT cos(x sin t) cos^2N t dt`.
+/// Returns `J_N(x)/x^N`, by the trapezoidal rule for Poisson's integral `1/((2N - 1)!! pi) INT cos(x sin t) cos^2N t
+/// dt`.
 fn bessel<const N: i32>(x: f64) -> f64 {
     let odd: f64 = (1..=N).map(|n| f64::from(2 * n - 1)).product();
     let angle = |i: usize| 0.5 * PI * (i as f64 + 0.5) / TURN as f64;

@@ -10,8 +10,8 @@ pub(super) const MOST: usize = 18;
 pub(super) const OVERSAMPLING: f64 = 1.25;
 /// Share of the exponent at which aliasing and the end of the window's spectrum err alike.
 const SHAPE: f64 = 0.97;
-/// Points of windows, and the errors of double layers by them at [`OVERSAMPLING`], which are larger than those of
-/// single layers, relative to the largest velocity (measured).
+/// Points of windows, and the errors of double layers by them at [`OVERSAMPLING`], which are larger than for single
+/// layers, relative to the largest velocity (measured).
 const ERRORS: [(usize, f64); 7] = [(6, 2e-4), (8, 7e-6), (10, 2e-7), (12, 8e-9), (14, 3e-10), (16, 1e-11), (MOST, 0.0)];
 
 /// The window `I_0(beta sqrt(1 - (2 t/P)^2))/I_0(beta)` for |t| <= P/2, t in distances of grid points.
@@ -26,7 +26,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The narrowest window with errors below a tolerance.
+    /// Creates the narrowest window with errors below a tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         let points = ERRORS.iter().find(|(_, error)| *error <= tolerance).map_or(MOST, |(points, _)| *points);
         let p = points as f64;
@@ -45,8 +45,8 @@ impl Window {
         Self { points, beta, powers }
     }
 
-    /// Values at the P grid points from the one at or before a source on, which lies the part u of a distance behind
-    /// it, displaced by P/2 - 1 distances.
+    /// Returns the values at the P grid points from the one at or before a source on, which lies the part u of a
+    /// distance behind it, displaced by P/2 - 1 distances.
     #[inline(always)]
     pub(super) fn values<const P: usize>(&self, u: f64) -> [f64; P] {
         let v = 2.0 * u - 1.0;

@@ -56,12 +56,12 @@ impl Nodes {
         }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.nodes
     }
 
-    /// The `count` nodes from `start` on, which is below the number of nodes.
+    /// Returns the `count` nodes from `start` on, which is below the number of nodes.
     #[inline(always)]
     pub(crate) fn window(&self, start: usize, count: usize) -> Window<'_> {
         let range = start..start + count;

@@ -13,14 +13,14 @@ pub(crate) struct Stokeslet {
 /// A Green's function of the Stokes equations, `lap G - grad p = -4 pi delta`, and its stress, between node i of two
 /// windows.
 pub(crate) trait PairKernel {
-    /// The Stokeslet of pair i.
+    /// Returns the Stokeslet of pair i.
     fn stokeslet(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> Stokeslet;
 
-    /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
+    /// Returns the stress (xxx, xxy, xyy, yyy) as a function of source minus target.
     fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
 
-    /// Velocities at the target and at the source: the stress acting on dipoles (xx, s, yy) at the source and at the
-    /// target.
+    /// Returns the velocities at the target and at the source: the stress acting on dipoles (xx, s, yy) at the source
+    /// and at the target.
     #[inline(always)]
     fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
         let [xxx, xxy, xyy, yyy] = self.stress(t, s, i);
@@ -29,7 +29,8 @@ pub(crate) trait PairKernel {
         [act(source), act(target).map(|u| -u)]
     }
 
-    /// Diagonal (xx, xy, yy) of `G + ln|alpha difference|` on a curve with derivative (tx, ty) by the parameter.
+    /// Returns the diagonal (xx, xy, yy) of `G + ln|alpha difference|` on a curve with derivative (tx, ty) by the
+    /// parameter.
     fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3];
 }
 
@@ -82,9 +83,8 @@ impl PairKernel for FreePair {
 /// G_xx = 1 - A - dy A_y,   G_xy = dy A_x,   G_yy = -A + dy A_y
 /// ```
 ///
-/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). Circular and hyperbolic functions of
-/// differences are products of those of the nodes and of the offset of the curves, so that a pair needs none of its
-/// own.
+/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). Circular and hyperbolic functions of differences are
+/// products of the functions of the nodes and of the offset of the curves, so that a pair needs no separate evaluation.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RowPair {
     /// 2 pi / period (1/length).
@@ -109,7 +109,7 @@ struct RowTerms {
 }
 
 impl RowPair {
-    /// The kernel for a source whose centre lies `[along, across]` (length) from that of the target.
+    /// Returns the kernel for a source whose centre lies `[along, across]` (length) from the centre of the target.
     pub(crate) fn new(k: f64, [along, across]: [f64; 2]) -> Self {
         let (sin, cos) = (0.5 * k * along).sin_cos();
         let up = (0.5 * k * across).exp();
@@ -162,8 +162,8 @@ impl PairKernel for RowPair {
     }
 }
 
-/// All images of a periodic box as rows along x: the row of the nodes themselves and those beside it, whose functions
-/// fall off like `exp(-k |y|)`; in a box that is `SHEARED` the rows are displaced along x.
+/// All images of a periodic box as rows along x: the row of the nodes themselves and the neighbouring rows, whose
+/// functions fall off like `exp(-k |y|)`. In a box that is `SHEARED`, the rows are displaced along x.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LatticePair<const SHEARED: bool> {
     row: RowPair,
@@ -176,8 +176,9 @@ pub(crate) struct LatticePair<const SHEARED: bool> {
 }
 
 impl<const SHEARED: bool> LatticePair<SHEARED> {
-    /// The kernel for a source whose centre lies `offset` (length) from that of the target, with as many rows of images
-    /// as bring the rest below `tolerance`; each is displaced by `tilt` along x (length) from the one below.
+    /// Returns the kernel for a source whose centre lies `offset` (length) from the centre of the target, with as many
+    /// rows of images as bring the rest below `tolerance`. Each is displaced by `tilt` along x (length) from the one
+    /// below.
     pub(crate) fn new([lx, ly]: [f64; 2], tilt: f64, offset: [f64; 2], tolerance: f64) -> Self {
         let k = std::f64::consts::TAU / lx;
         let rows = (1.0 - tolerance.ln() / (k * ly)).ceil() as usize;
@@ -185,7 +186,7 @@ impl<const SHEARED: bool> LatticePair<SHEARED> {
         Self { row: RowPair::new(k, offset), across: ly, rows, decay: (-k * ly).exp(), turn: [cos, sin] }
     }
 
-    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), cosine and sine of k x, the distance y and
+    /// Calls `take` for each row after the first one, with b = exp(-k |y|), cosine and sine of k x, the distance y and
     /// the sign of its side.
     #[inline(always)]
     fn beside(&self, terms: &RowTerms, mut take: impl FnMut(f64, [f64; 2], f64, f64)) {
@@ -206,7 +207,7 @@ impl<const SHEARED: bool> LatticePair<SHEARED> {
         }
     }
 
-    /// Term of xx that makes the mean velocity in the box zero.
+    /// Returns the term of xx that makes the mean velocity in the box zero.
     fn mean(&self, dy: f64) -> f64 {
         self.row.k * (dy * dy / self.across + self.across / 6.0) - 1.0
     }

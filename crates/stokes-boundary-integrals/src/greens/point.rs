@@ -1,8 +1,8 @@
 //! Kernels of the velocity, the velocity gradient and the pressure of forces and dipoles, in complex form.
 //!
-//! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, that of the double
-//! layer with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free
-//! space `l = ln|d| - 1/2`, `c_k = 1/d^k`, `e_k = conj(d)/d^k`.
+//! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, and the double layer
+//! with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free space
+//! `l = ln|d| - 1/2`, `c_k = 1/d^k`, `e_k = conj(d)/d^k`.
 
 use std::f64::consts::PI;
 
@@ -49,7 +49,7 @@ impl std::ops::AddAssign for Flow {
 }
 
 impl Flow {
-    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]`.
+    /// Returns the velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]`.
     pub(crate) fn gradient(&self) -> [[f64; 2]; 2] {
         let (along, across) = (self.spin + self.strain, I * (self.spin - self.strain));
         [[along.re, across.re], [along.im, across.im]]
@@ -73,8 +73,8 @@ impl Flow {
         self.add_products(k, velocity * tangent, flux - flux.conj());
     }
 
-    /// Adds the flow of the product of velocity and element of a double layer, and of `flux`, that of the velocity with
-    /// the conjugate of the element, less its own conjugate.
+    /// Adds the flow of the product of velocity and element of a double layer, and of `flux`, the product of the
+    /// velocity with the conjugate of the element, less its own conjugate.
     pub(crate) fn add_products(&mut self, k: &Kernels, product: Complex64, flux: Complex64) {
         self.velocity -= I * product * k.c[0] + I * (flux * k.c[0] - product * k.e[1]).conj();
         let turn = product * k.c[1];
@@ -84,7 +84,7 @@ impl Flow {
     }
 }
 
-/// Green's function of the plane or of periodic images; that of a channel is a row of images and the correction by the
+/// Green's function of the plane or of periodic images; for a channel it is a row of images and the correction by the
 /// walls ([`crate::greens::walls`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum GreensFunction {
@@ -98,8 +98,8 @@ pub(crate) enum GreensFunction {
 }
 
 impl GreensFunction {
-    /// The Green's function of a region without its walls, images above being displaced by `tilt` along x (length),
-    /// with as many rows of images as bring the rest below `tolerance`.
+    /// Creates the Green's function of a region without its walls, images above being displaced by `tilt` along x
+    /// (length), with as many rows of images as bring the rest below `tolerance`.
     pub(crate) fn new(region: &Region, tilt: f64, tolerance: f64) -> Self {
         match *region {
             Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
@@ -147,7 +147,7 @@ impl GreensFunction {
         }
     }
 
-    /// `l` and `e_1`, which make up the velocity of a force.
+    /// Returns `l` and `e_1`, which make up the velocity of a force.
     pub(crate) fn stokeslet(&self, d: Complex64) -> (f64, Complex64) {
         let kernels = match *self {
             Self::Lattice { transposed: false, .. } => self.lattice::<1>(d, false),
@@ -256,7 +256,7 @@ impl HalfAngle {
     }
 }
 
-/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of the image at d.
+/// Returns `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of the image at d.
 fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, [Complex64; 3]) {
     if regular && half.x.norm_sqr() < 0.25 {
         return near_row(half.x, k);
@@ -270,15 +270,15 @@ fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, 
     }
 }
 
-/// Singular functions of a row from the sine and cosine of k d/2.
+/// Returns the singular functions of a row from the sine and cosine of k d/2.
 fn singular_of(k: f64, sin: Complex64, cos: Complex64) -> (f64, [Complex64; 3]) {
     let cosecant = 0.5 * k * sin.inv();
     let first = cosecant * cos;
     (0.5 * ln(4.0 * sin.norm_sqr()), [first, cosecant * cosecant, cosecant * cosecant * first])
 }
 
-/// Regular functions of a row for small x = k d/2, by the Laurent series `cot x = 1/x - sum a_n x^(2n - 1)`, a_n = 2
-/// zeta(2n)/pi^(2n).
+/// Returns the regular functions of a row for small x = k d/2, by the Laurent series `cot x = 1/x - sum a_n x^(2n -
+/// 1)`, a_n = 2 zeta(2n)/pi^(2n).
 fn near_row(x: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     const SERIES: [f64; 11] = [
         1.0 / 3.0,
@@ -320,8 +320,8 @@ const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// Natural logarithm of a positive normal number to about 1e-16 of max(1, |ln x|); anything else gives a meaningless
-/// number.
+/// Returns the natural logarithm of a positive normal number to about 1e-16 of max(1, |ln x|); anything else gives a
+/// meaningless number.
 ///
 /// x = 2^e m with m between sqrt(1/2) and sqrt(2), and ln m = 2 artanh s with s = (m - 1)/(m + 1), |s| < 0.1716, by its
 /// Taylor series. No branch and no table, so a loop over it runs in vector registers, which the library function's does

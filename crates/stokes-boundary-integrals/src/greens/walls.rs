@@ -17,7 +17,7 @@ mod points;
 pub(crate) use points::WallPoints;
 use points::{LANES, Lanes};
 
-/// Largest number of modes, whose memory is some 100 MB: at a tolerance of 1e-8 they resolve gaps down to 1/160,000 of
+/// Largest number of modes, whose memory is about 100 MB: at a tolerance of 1e-8 they resolve gaps down to 1/160,000 of
 /// the period.
 const MOST_MODES: usize = 1 << 18;
 
@@ -62,8 +62,8 @@ struct Factors {
     odd: [f64; 4],
 }
 
-/// The flow that the walls correct: that of rows of images along the walls, alone or `reach` (length) above the upper
-/// wall and below the lower one again, in a box of that much more than the width.
+/// The flow that the walls correct: the flow of rows of images along the walls, alone or `reach` (length) above the
+/// upper wall and below the lower one again, in a box of that much more than the width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Uncorrected {
     Row,
@@ -81,7 +81,7 @@ pub(crate) struct WallModes {
     zero_flux: bool,
     /// Exponent of the decay beyond which modes are left out.
     exponent: f64,
-    /// Least distance of a source from a wall (length).
+    /// Minimum distance of a source from a wall (length).
     source_gap: f64,
     factors: Vec<Factors>,
     sums: [Vec<Sums>; 2],
@@ -96,7 +96,7 @@ pub(crate) struct WallModes {
 }
 
 impl WallModes {
-    /// The walls of a channel with this period and this half of its width (length).
+    /// Creates the walls of a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
         let (factors, sums, slips, coefficients, mean) = Default::default();
         let (exponent, source_gap, rise, modes, uncorrected) = (0.0, 0.0, 0.0, 0, Uncorrected::Row);
@@ -138,8 +138,8 @@ impl WallModes {
         self.rise = 0.0;
     }
 
-    /// Both sums of a mode and wall, of e q and e (p - k s q), for the uncorrected flow, then those that the other
-    /// wall adds to it: its images are farther away by the reach, and all are repeated at distances of the box.
+    /// Both sums of a mode and wall, of e q and e (p - k s q), for the uncorrected flow, then those that the other wall
+    /// adds to it. Its images are farther away by the reach, and all are repeated at distances of the box.
     fn sums_of(&self, side: usize, n: usize) -> [[Complex64; 2]; 2] {
         let own = Sums::of(&self.sums[side], n);
         let Uncorrected::Box { reach } = self.uncorrected else { return [own, [Complex64::default(); 2]] };
@@ -157,7 +157,7 @@ impl WallModes {
         [repeated(own), repeated(moved(Sums::of(&self.sums[1 - side], n), k * reach))]
     }
 
-    /// Number of modes at this distance of source and target by way of a wall (length).
+    /// Returns the number of modes at this distance of source and target by way of a wall (length).
     fn count(&self, distance: f64) -> usize {
         let needed = self.exponent / (self.k * distance.max(1e-300));
         (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
@@ -323,7 +323,7 @@ impl WallModes {
         }
     }
 
-    /// The coefficients near a wall that matter at this distance from it (length).
+    /// Returns the coefficients near a wall that matter at this distance from it (length).
     fn coefficients(&self, side: usize, distance: f64) -> &[Coefficients] {
         let (all, needed) = (&self.coefficients[side], self.exponent / (self.k * (distance + self.source_gap)));
         &all[..(needed.min(self.modes as f64) as usize / LANES + 1).min(all.len())]
@@ -378,8 +378,8 @@ impl WallModes {
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
 
-/// Factors of one mode of the biharmonic equation between walls with given values and slopes of the streamfunction, in
-/// even and odd parts, scaled by exp(-k half) to stay finite.
+/// Returns the factors of one mode of the biharmonic equation between walls with given values and slopes of the
+/// streamfunction, in even and odd parts, scaled by exp(-k half) to stay finite.
 fn factors(k: f64, half: f64) -> Factors {
     let kh = k * half;
     let decay = (-2.0 * kh).exp();

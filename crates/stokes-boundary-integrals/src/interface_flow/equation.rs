@@ -19,13 +19,13 @@ const ATTAINABLE: f64 = 1e-15;
 /// orthogonality to round-off in longer cycles.
 const TRUSTED: usize = 32;
 /// Error of a product over the tolerance that counts as round-off when the residual is computed: products are sums of
-/// some hundred terms, each right to the tolerance.
+/// about a hundred terms, each right to the tolerance.
 const PRODUCTS: f64 = 100.0;
 /// Largest relative residual that is asked for in place of a smaller one that turns out not to be attainable.
 const LOOSEST: f64 = 1e-10;
 
-/// Part of the tolerance that the sums and the residual may err by for many interfaces: they bound a mean over all,
-/// and where films are thin the error is larger (measured).
+/// Fraction of the tolerance that the sums and the residual may be off by for many interfaces: they bound a mean over
+/// all, and where films are thin the error is larger (measured).
 const MANY: f64 = 0.125;
 
 const FOUR_PI: f64 = 4.0 * PI;
@@ -43,18 +43,18 @@ impl Sides {
         self.inside == Inside::Rigid
     }
 
-    /// Viscosity inside; around a rigid body that outside.
+    /// Returns the viscosity inside; around a rigid body that outside.
     pub(super) fn viscosity(self) -> f64 {
         if let Inside::Fluid { viscosity } = self.inside { viscosity } else { self.outside }
     }
 
-    /// Factor of the velocity in the double layer, the viscosity inside less that outside. The density of a rigid body
-    /// is the one of the completed equation over the viscosity outside.
+    /// Returns the factor of the velocity in the double layer, the viscosity inside less that outside. The density of a
+    /// rigid body is the one of the completed equation over the viscosity outside.
     pub(super) fn contrast(self) -> f64 {
         if self.is_rigid() { self.outside } else { self.viscosity() - self.outside }
     }
 
-    /// Inverse of the mean viscosity, of half the viscosity outside for a rigid body.
+    /// Returns the inverse of the mean viscosity, of half the viscosity outside for a rigid body.
     pub(super) fn mobility(self) -> f64 {
         2.0 / if self.is_rigid() { self.outside } else { self.viscosity() + self.outside }
     }
@@ -94,31 +94,31 @@ impl Equation {
         self.contrasts.push(sides.contrast());
     }
 
-    /// True where a viscosity differs or a body is rigid, so that there is something to iterate.
+    /// Returns true if a viscosity differs or a body is rigid, so that there is something to iterate.
     pub(super) fn has_contrast(&self) -> bool {
         self.contrasts.iter().any(|contrast| *contrast != 0.0)
     }
 
-    /// Part of its largest value that a product is to be right to for each part of the tolerance of velocities, where
-    /// the exterior fluid has that viscosity. A rigid motion is multiplied by eta_out alone, one of several interfaces
-    /// together by the exterior viscosity, so an error in it counts that much more.
+    /// Returns the part of its largest value that a product is to be right to for each part of the tolerance of
+    /// velocities, where the exterior fluid has that viscosity. A rigid motion is multiplied by eta_out alone, one of
+    /// several interfaces together by the exterior viscosity, so an error in it counts that much more.
     fn sensitivity(&self, viscosity: f64) -> f64 {
         let least = |sides: &Sides| sides.outside.min(viscosity) * sides.mobility();
         self.sides.iter().map(least).fold(1.0, f64::min)
     }
 
-    /// Tolerance of fast sums over that of velocities, a power of 2.
+    /// Returns the tolerance of fast sums over the tolerance of velocities, a power of 2.
     pub(super) fn sharpness(&self, viscosity: f64) -> f64 {
         if self.has_contrast() { (MANY * self.sensitivity(viscosity)).log2().floor().exp2() } else { 1.0 }
     }
 
-    /// The right-hand side of zeros for so many nodes of each interface.
+    /// Returns the right-hand side of zeros for so many nodes of each interface.
     pub(super) fn begin(&mut self, nodes: usize) {
         self.right.clear();
         self.right.resize(2 * nodes * self.sides.len(), 0.0);
     }
 
-    /// Right-hand side of each interface, x then y, with its [`Sides::mobility`].
+    /// Returns the right-hand side of each interface, x then y, with its [`Sides::mobility`].
     pub(super) fn right_sides(&mut self) -> impl Iterator<Item = (&mut [f64], f64)> {
         let len = self.right.len() / self.sides.len().max(1);
         self.right.chunks_exact_mut(len.max(1)).zip(self.sides.iter().map(|sides| sides.mobility()))
@@ -132,7 +132,7 @@ impl Equation {
     }
 
     /// Solves for the right-hand side, from the last solution or from the right-hand side as a guess; `viscosity` is
-    /// that of the exterior fluid.
+    /// the viscosity of the exterior fluid.
     pub(super) fn solve(
         &mut self,
         layers: &mut Layers,
@@ -230,9 +230,9 @@ impl Operator<'_> {
     /// Multiplies the mean rigid motion of each interface by a function of the factor that undoes what the interface
     /// alone does to it, `(eta_in + eta_out)/(2 eta_out)`.
     ///
-    /// As a preconditioner this is the inverse of each interface's own block, but for its deformation: the double layer
-    /// of a circle on itself is zero apart from rigid motions, which the block multiplies by
-    /// `2 eta_out/(eta_in + eta_out)`, and from uniform growth, for which there is [`growth`].
+    /// As a preconditioner this is the inverse of each interface's own block, up to its deformation. The double layer
+    /// of a circle on itself is zero apart from rigid motions, which the block multiplies by `2 eta_out/(eta_in +
+    /// eta_out)`, and from uniform growth, for which there is [`growth`].
     fn scale_motions(&self, curves: &[Curve], values: &mut [f64], factor: impl Fn(f64) -> f64) {
         let len = values.len() / self.sides.len().max(1);
         for ((sides, curve), values) in self.sides.iter().zip(curves).zip(values.chunks_exact_mut(len.max(1))) {
@@ -243,8 +243,8 @@ impl Operator<'_> {
         }
     }
 
-    /// Left-hand side for velocities v: `out = v + mobility/(4 pi) double layer`, the response of the walls to it, the
-    /// growth term of [`growth`], and twice the mean motion of a rigid body.
+    /// Returns the left-hand side for velocities v: `out = v + mobility/(4 pi) double layer`, the response of the walls
+    /// to it, the growth term of [`growth`], and twice the mean motion of a rigid body.
     pub(super) fn apply(
         &self,
         layers: &mut Layers,
@@ -280,7 +280,7 @@ impl Operator<'_> {
 }
 
 /// Adds `lacking` times the mean of v.n along n: moves the eigenvalue of uniform growth, which incompressible flow does
-/// not have, to that of the other motions.
+/// not have, to the eigenvalue of the other motions.
 pub(super) fn growth(curve: &Curve, lacking: f64, v: &[f64], out: &mut [f64]) {
     let (vx, vy) = v.split_at(curve.len());
     let (x, y) = out.split_at_mut(curve.len());

@@ -27,9 +27,9 @@ const LANES: usize = 8;
 ///
 /// `v(x) = m(x) + 2/pi INT d (d.m) (d.n)/|d|^4 ds(y)`,
 ///
-/// and `2 pi i phi` is the Cauchy integral of m. With the values of phi on the curve those of psi follow from v, and
-/// Cauchy's formula in barycentric form (Ioakimidis, Papadakis and Perdios, BIT 31 (1991) 276) gives both functions at
-/// points inside, to spectral accuracy up to the curve: no logarithm, and no point is a close one.
+/// and `2 pi i phi` is the Cauchy integral of m. With the values of phi on the curve, the values of psi follow from v,
+/// and Cauchy's formula in barycentric form (Ioakimidis, Papadakis and Perdios, BIT 31 (1991) 276) gives both functions
+/// at points inside, to spectral accuracy up to the curve: no logarithm, and no point is a close one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct InsideFlow {
     gmres: Gmres,
@@ -137,7 +137,8 @@ impl InsideFlow {
         }
     }
 
-    /// Velocities (length per time) at points inside, `place` giving each one relative to the centre of the curve.
+    /// Returns the velocities (length per time) at points inside, `place` giving each one relative to the centre of the
+    /// curve.
     pub(super) fn write(&self, points: &[Vec2], place: impl Fn(Vec2) -> Complex64, out: &mut [Vec2]) {
         for (points, out) in points.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let [mut x, mut y] = [[0.0; LANES]; 2];

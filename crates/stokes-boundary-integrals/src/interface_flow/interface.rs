@@ -27,20 +27,20 @@ pub struct Interface<'a> {
     pub forces: &'a [Vec2],
     /// Fluid or rigid body inside.
     pub inside: Inside,
-    /// Viscosity of the fluid right outside (stress times time); it differs from that of the exterior fluid where the
-    /// interface lies inside another one.
+    /// Viscosity of the fluid right outside (stress times time); it differs from the viscosity of the exterior fluid if
+    /// the interface lies inside another one.
     pub viscosity_outside: f64,
 }
 
 impl<'a> Interface<'a> {
-    /// A closed interface between fluids of these viscosities inside and outside (stress times time).
+    /// Creates a closed interface between fluids of these viscosities inside and outside (stress times time).
     #[must_use]
     pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], [inside, outside]: [f64; 2]) -> Self {
         let inside = Inside::Fluid { viscosity: inside };
         Self { positions, period: Vec2::ZERO, forces, inside, viscosity_outside: outside }
     }
 
-    /// The surface of a rigid body in fluid of that viscosity (stress times time).
+    /// Creates the surface of a rigid body in fluid of that viscosity (stress times time).
     #[must_use]
     pub fn rigid(positions: &'a [Vec2], forces: &'a [Vec2], viscosity_outside: f64) -> Self {
         Self { positions, period: Vec2::ZERO, forces, inside: Inside::Rigid, viscosity_outside }

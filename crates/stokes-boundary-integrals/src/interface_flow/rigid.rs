@@ -1,4 +1,4 @@
-//! Rigid walls and obstacles at rest beside interfaces.
+//! Rigid walls and obstacles at rest next to interfaces.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ const BEHIND: usize = 48;
 
 /// Rigid walls as a single layer whose forces cancel the velocity on them, with the matrix factorised once.
 ///
-/// The matrix takes the forces of a uniform pressure behind a wall to zero, so that it is singular; with the projection
+/// The matrix takes the forces of a uniform pressure behind a wall to zero, so that it is singular. With the projection
 /// onto these forces added it is regular, and the forces found have no such part.
 #[derive(Debug, Clone)]
 pub(crate) struct RigidWalls {
@@ -58,7 +58,7 @@ impl RigidWalls {
     /// Takes over walls into layers without curves, and factorises their matrix.
     ///
     /// # Errors
-    /// Those of [`super::InterfaceFlow::with_walls`].
+    /// Returns the errors of [`super::InterfaceFlow::with_walls`].
     pub(crate) fn new<'a>(
         layers: &mut Layers,
         sampler: &mut Sampler,
@@ -115,7 +115,7 @@ impl RigidWalls {
     }
 
     /// Replaces the flow of the last layer by the flow of the walls' response to it; `moment` (force times area) is 2 l
-    /// eta times the flux of the layer. With `driven` the drive of the channel is part of the response.
+    /// eta times the flux of the layer. With `driven`, the drive of the channel is part of the response.
     pub(crate) fn respond(&mut self, layers: &mut Layers, moment: f64, driven: bool) {
         self.forces.fill(0.0);
         add_walls(layers, -1.0, self.forces.as_mut_slice());
@@ -161,7 +161,7 @@ fn add_walls(layers: &Layers, factor: f64, values: &mut [f64]) {
     }
 }
 
-/// Flux between open walls and the walls of the channel behind them, for a unit pressure gradient.
+/// Returns the flux between open walls and the walls of the channel behind them, for a unit pressure gradient.
 fn flux_behind(
     layers: &mut Layers,
     sampler: &mut Sampler,

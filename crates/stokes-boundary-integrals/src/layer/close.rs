@@ -27,10 +27,10 @@ use crate::{
 
 use super::rows::Row;
 
-/// Part of the force or the weight of a node that each of its fine nodes has.
+/// Fraction of the force or the weight of a node that each of its fine nodes has.
 const FINE_SHARE: f64 = 1.0 / REFINEMENT as f64;
 
-/// Part of the velocities that waves shorter than those of the shapes have where viscosities differ and films are
+/// Fraction of the velocities that waves shorter than the waves of the shapes have if viscosities differ and films are
 /// thinner than the nodes resolve (measured: 4e-4 to 6e-4 at a fifth of the distance of nodes).
 const SHORT: f64 = 1e-3;
 
@@ -42,7 +42,7 @@ struct CloseNode {
     source: usize,
     /// Position of the node relative to the centre of the source or its image (length).
     point: Complex64,
-    /// Flow of the last correction there, but for a stored one.
+    /// Flow of the last correction there, except a stored one.
     flow: Complex64,
     /// The rows of the single and of the double layer, if they are stored.
     force_row: Option<Row>,
@@ -141,7 +141,7 @@ impl Share {
     }
 
     /// Computes the flow of the corrections of the single layer, or stores them on stored curves; with `stress`, stores
-    /// those of the double layer.
+    /// the corrections of the double layer.
     fn find_flow(
         &mut self,
         curves: &[Curve],
@@ -184,8 +184,8 @@ impl Share {
         }
     }
 
-    /// Computes the flow of the corrections of the double layer, `sources` being those of the share's curves, of which
-    /// the first one has the number `first`.
+    /// Computes the flow of the corrections of the double layer, `sources` being the sources of the share's curves, of
+    /// which the first one has the number `first`.
     fn find_stress_flow(
         &mut self,
         plans: &mut [Plan],
@@ -295,7 +295,7 @@ impl CloseCorrection {
     }
 
     /// Adds the corrections of the single layer, or stores them for [`CloseCorrection::add_stored`] on stored curves.
-    /// With `stress`, stores those of the double layer.
+    /// With `stress`, stores the corrections of the double layer.
     pub(crate) fn add_forces(
         &mut self,
         curves: &[Curve],
@@ -320,12 +320,12 @@ impl CloseCorrection {
         }
     }
 
-    /// A node on the wrong side, if the last single layer has come across one.
+    /// Returns a node on the wrong side, if the last single layer has come across one.
     pub(crate) fn crossing(&self) -> Option<Crossing> {
         self.shares.iter().rev().find_map(|share| share.crossing)
     }
 
-    /// True for a curve whose forces at the fine nodes the corrections read.
+    /// Returns true for a curve whose forces at the fine nodes the corrections read.
     pub(crate) fn reads(&self, curve: usize) -> bool {
         self.sources.get(curve).is_some_and(|source| source.used)
     }
@@ -350,8 +350,8 @@ impl CloseCorrection {
         self.add_flow(out, |close| close.stress_row.is_some());
     }
 
-    /// Adds the stored corrections of the single layer for the forces at the nodes. Where the operator is symmetric to
-    /// round-off the source gets the transpose.
+    /// Adds the stored corrections of the single layer for the forces at the nodes. If the operator is symmetric to
+    /// round-off, the source gets the transpose.
     pub(crate) fn add_stored(&mut self, curves: &[Curve], plans: &mut [Plan], out: &mut [Vectors]) {
         let symmetric = self.symmetry == Symmetry::ToRoundOff;
         let Self { shares: all, sources, .. } = self;
@@ -405,19 +405,19 @@ impl CloseCorrection {
     }
 }
 
-/// A box around a curve; an open one runs across the period.
+/// Returns a box around a curve; an open one runs across the period.
 pub(crate) fn bounding_box(curve: &Curve) -> Frame {
     let centre = Vec2::new(curve.centre.re, curve.centre.im);
     let half = Vec2::splat(curve.radius);
     Frame::around([centre - half, centre + half])
 }
 
-/// Relative difference of spacings up to which they are the same, as those of a curve and its mirror image.
+/// Relative difference of spacings up to which they are the same, as for a curve and its mirror image.
 const SAME_SPACING: f64 = 1e-9;
 
-/// Part of the corrections between two curves that is computed at the nodes of `target` where the operator is symmetric
-/// to round-off: all of it if its nodes are closer together, as they resolve best the film between the two; half of it
-/// if both have the same spacing, so that neither is the first and mirror images stay such.
+/// Returns the part of the corrections between two curves that is computed at the nodes of `target` where the operator
+/// is symmetric to round-off: all of it if its nodes are closer together, as they resolve best the film between the
+/// two; half of it if both have the same spacing, so that neither is the first and mirror images stay such.
 fn part(curves: &[Curve], target: usize, source: usize) -> f64 {
     let [here, there] = [target, source].map(|curve| curves[curve].spacing());
     if (here - there).abs() <= SAME_SPACING * here { 0.5 } else { f64::from(u8::from(here < there)) }

@@ -23,7 +23,7 @@ impl Row {
         Self { start, counts }
     }
 
-    /// Entries of the fine nodes and of the nodes.
+    /// Returns the entries of the fine nodes and of the nodes.
     fn parts<'a>(&self, rows: &'a [f64]) -> [&'a [f64]; 2] {
         let (fine, nodes) = rows[self.start..].split_at(3 * self.counts[0]);
         [fine, &nodes[..3 * self.counts[1]]]
@@ -58,7 +58,7 @@ impl Row {
         row
     }
 
-    /// Product with the values at the fine nodes and the nodes of the source.
+    /// Returns the product with the values at the fine nodes and the nodes of the source.
     pub(super) fn product(&self, rows: &[f64], values: &[Vectors; 2]) -> Complex64 {
         let [fine, nodes] = self.parts(rows);
         let [x, y] = widely(
@@ -80,7 +80,7 @@ impl Row {
     }
 }
 
-/// The three arrays of a part of a row.
+/// Returns the three arrays of a part of a row.
 #[inline(always)]
 fn thirds(part: &[f64]) -> [&[f64]; 3] {
     let n = part.len() / 3;

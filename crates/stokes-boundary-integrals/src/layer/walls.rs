@@ -19,8 +19,8 @@ use crate::{
 };
 use motile_base::{Drive, ImposedFlow, InputError, Vec2};
 
-/// Part of the half width by which a node may lie beyond a wall: round-off of positions that touch it, which are sums
-/// of some thousand steps.
+/// Fraction of the half width by which a node may lie beyond a wall: round-off of positions that touch it, which are
+/// sums of about a thousand steps.
 const ROUND_OFF: f64 = 1e-12;
 /// Distance from a wall, in spacings, below which sources count as that far away: a twelfth of the distance of fine
 /// nodes, at which a wall's modes are no longer resolved in any case.
@@ -32,20 +32,21 @@ const MOST_NODES: usize = 64;
 
 /// Thinnest film between a rigid body and a wall in squared distances of nodes times the curvature of the body there:
 /// with fewer nodes in the width of the film, sqrt(2 film/curvature), the speed at which it drains is off by more than
-/// a per cent. Measured for a disc with 48 to 512 nodes, whose error is at most 0.65 % there.
+/// 1 %. Measured for a disc with 48 to 512 nodes, whose error is at most 0.65 % there.
 const FILM: f64 = 2.3;
-/// Gap over the radius of curvature above which the flow between body and wall is no longer that of a film.
+/// Gap over the radius of curvature above which the flow between body and wall is no longer a lubrication flow.
 const WIDEST_FILM: f64 = 0.3;
 
-/// Nodes in place of each node so that the image of a curve, which is two gaps away, is summed to the tolerance: one
-/// below which all are within the `reach` (length) of each other. Next to a rigid body, what is left of the forces on
-/// it as the film closes is far smaller than the forces on the two sides, so that sums must be right to the tolerance.
+/// Returns the nodes in place of each node so that the image of a curve, which is two gaps away, is summed to the
+/// tolerance. It is one below which all are within the `reach` (length) of each other. Next to a rigid body, what is
+/// left of the forces on it as the film closes is far smaller than the forces on the two sides. Sums must therefore be
+/// right to the tolerance.
 fn factor(reach: f64, gap: f64) -> usize {
     let needed = (reach / (2.0 * gap)).min(MOST_NODES as f64).ceil() as usize;
     needed.next_power_of_two().max(REFINEMENT)
 }
 
-/// Smallest distance of a curve from the walls (length), by its samples and what is known.
+/// Returns the smallest distance of a curve from the walls (length), by its samples and what is known.
 fn narrowest(curve: &Curve, half: f64, known: f64) -> f64 {
     let samples = curve.wall_samples(true).position.iter();
     let gap = samples.map(|z| half - (z.im + curve.centre.im).abs()).fold(known, f64::min);
@@ -99,12 +100,13 @@ impl Walls {
         }
     }
 
-    /// True where some sources are taken from fine nodes.
+    /// Returns true if some sources are taken from fine nodes.
     pub(crate) fn is_refined(&self) -> bool {
         self.refined.contains(&true)
     }
 
-    /// True for a curve whose sources are taken from the fine nodes, so that forces and velocities are needed there.
+    /// Returns true for a curve whose sources are taken from the fine nodes, so that forces and velocities are needed
+    /// there.
     pub(crate) fn refines(&self, curve: usize) -> bool {
         self.refined.get(curve).is_some_and(|refined| *refined)
     }
@@ -112,7 +114,7 @@ impl Walls {
     /// Takes over the present shapes.
     ///
     /// # Errors
-    /// A node beyond a wall.
+    /// Returns an error for a node beyond a wall.
     pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut Plans) -> Result<(), LayerError> {
         self.nodes.clear();
         self.owners.clear();
@@ -174,7 +176,7 @@ impl Walls {
         Err(LayerError::NarrowGap { curve: number, gap, least, nodes: curve.len(), needed })
     }
 
-    /// Takes over the sources, if those of some curve are its fine nodes.
+    /// Takes over the sources, if the sources of some curve are its fine nodes.
     fn load_sources(&mut self, curves: &[Curve], fine: impl Fn(&[bool], usize) -> bool) {
         self.sources.clear();
         self.source_owners.clear();
@@ -191,7 +193,7 @@ impl Walls {
         self.sources.prepare();
     }
 
-    /// The sources with curve and number of each, and the mode sums.
+    /// Returns the sources with curve and number of each, and the mode sums.
     fn sources(&mut self) -> (&WallPoints, &[[usize; 2]], &mut WallModes) {
         if self.source_owners.is_empty() {
             (&self.nodes, &self.owners, &mut self.modes)
@@ -299,13 +301,13 @@ impl Walls {
         self.add_modes(out);
     }
 
-    /// The Couette flow of walls that slide, the lower and the upper one faster by these factors.
+    /// Returns the Couette flow of walls that slide, the lower and the upper one faster by these factors.
     pub(crate) fn sliding(&self, imposed: &ImposedFlow, factors: [f64; 2]) -> ImposedFlow {
         let at = |wall: usize, y: f64| factors[wall] * imposed.velocity_at(Vec2::new(0.0, y)).x;
         ImposedFlow::couette([at(0, -self.half), at(1, self.half)], 2.0 * self.half)
     }
 
-    /// The parabolic flow that the drive drives besides an imposed one.
+    /// Returns the parabolic flow that the drive drives besides an imposed one.
     pub(crate) fn driven_flow(&self, imposed: &ImposedFlow, viscosity: f64) -> ImposedFlow {
         let h = self.half;
         let factor = match self.drive.flux() {
@@ -315,12 +317,12 @@ impl Walls {
         ImposedFlow { velocity: [factor * (h * h), 0.0], bend: -2.0 * factor, ..ImposedFlow::NONE }
     }
 
-    /// Flux of the imposed flow through the channel (area per time), which walls that slide have.
+    /// Returns the flux of the imposed flow through the channel (area per time), which walls that slide have.
     fn flux(&self, imposed: &ImposedFlow) -> f64 {
         2.0 * self.half * imposed.velocity[0]
     }
 
-    /// Mean pressure gradient along x (stress per length).
+    /// Returns the mean pressure gradient along x (stress per length).
     pub(crate) fn pressure_gradient(
         &self,
         curves: &[Curve],
@@ -334,7 +336,8 @@ impl Walls {
         1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * (flux - self.flux(imposed)))
     }
 
-    /// Sum of (h^2 - y^2) F_x (force times area): 2 l eta times the flux of the forces at zero mean pressure gradient.
+    /// Returns the sum of (h^2 - y^2) F_x (force times area): 2 l eta times the flux of the forces at zero mean
+    /// pressure gradient.
     pub(crate) fn force_moment(&self, curves: &[Curve]) -> f64 {
         let parabola = |y: f64| self.half * self.half - y * y;
         let nodes = |curve: &Curve| -> f64 {
@@ -344,7 +347,7 @@ impl Walls {
         curves.iter().map(nodes).sum()
     }
 
-    /// Moment of the double layer, `-2 sum [y (v_x n_y + v_y n_x) - x v.n]`: 2 l eta times its flux.
+    /// Returns the moment of the double layer, `-2 sum [y (v_x n_y + v_y n_x) - x v.n]`: 2 l eta times its flux.
     pub(crate) fn dipole_moment(&self, curves: &[Curve], density: Density<'_>) -> f64 {
         let mut sum = 0.0;
         for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {

@@ -168,8 +168,8 @@ impl Expansion {
         self.low = other.low;
     }
 
-    /// Adds the flow at `positions` (length) to `out` after [`Expansion::divide`]; `area` is that of a box, infinite
-    /// without a background force.
+    /// Adds the flow at `positions` (length) to `out` after [`Expansion::divide`]; `area` is the area of a box,
+    /// infinite without a background force.
     pub(crate) fn add_flow(&mut self, positions: &[Complex64], unit: f64, area: f64, out: &mut Vectors) {
         self.place(positions, unit);
         for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
@@ -250,7 +250,7 @@ impl Expansion {
     }
 }
 
-/// Replaces the coefficients of a polynomial by those of its derivative.
+/// Replaces the coefficients of a polynomial by the coefficients of its derivative.
 fn differentiate(coefficients: &mut Vectors) {
     for part in [&mut coefficients.x, &mut coefficients.y] {
         for k in 1..part.len() {
@@ -281,13 +281,13 @@ fn advance(power: &mut Vectors, positions: &[Complex64], unit: f64) {
     }
 }
 
-/// Sums over F z^k and over conj(F) z^k, from the components of F and the powers.
+/// Returns the sums over F z^k and over conj(F) z^k, from the components of F and the powers.
 fn sums(fx: &[f64], fy: &[f64], power: &Vectors) -> [Complex64; 2] {
     let (x, y) = (dot(fx, power), dot(fy, power));
     [Complex64::new(x.re - y.im, x.im + y.re), Complex64::new(x.re + y.im, x.im - y.re)]
 }
 
-/// Sum of a real column times the powers.
+/// Returns the sum of a real column times the powers.
 fn dot(column: &[f64], power: &Vectors) -> Complex64 {
     const LANES: usize = 8;
     let n = column.len();

@@ -1,4 +1,4 @@
-//! Taylor series of a Green's function where it has no singularity.
+//! Taylor series of a Green's function if it has no singularity.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,8 +15,8 @@ use motile_base::Region;
 /// Largest degree of a series: 62 + 2 coefficients fill half of the longer transform, the other half being their
 /// mirror images.
 pub(crate) const MOST_DEGREES: usize = 62;
-/// Largest ratio of the distance of points to that of the nearest singularity for which a series is used: at the
-/// largest degree its terms have fallen to 0.6^62 = 2e-14.
+/// Largest ratio of the distance of points to the distance of the nearest singularity for which a series is used: at
+/// the largest degree its terms have fallen to 0.6^62 = 2e-14.
 pub(crate) const LARGEST_RATIO: f64 = 0.6;
 
 /// Series of a Green's function around a distance D, for target minus source D + delta. The flow of a force F in
@@ -36,13 +36,13 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// The empty series, with memory for any degree.
+    /// Creates the empty series, with memory for any degree.
     pub(crate) fn new() -> Self {
         let room = || [Vec::with_capacity(MOST_DEGREES + 2), Vec::with_capacity(MOST_DEGREES + 2)];
         Self { s: room(), t: room() }
     }
 
-    /// Highest power; one coefficient more is stored for the derivative.
+    /// Returns the highest power; one coefficient more is stored for the derivative.
     pub(crate) fn degree(&self) -> usize {
         self.s[0].len().saturating_sub(2)
     }

@@ -13,7 +13,8 @@ const SHARES: usize = 16;
 /// Rows that are gathered from the columns at a time: eight complex numbers are two cache lines of each column.
 const BATCH: usize = 8;
 
-/// Least number of cells for which several threads are used: their spectrum takes 6 MB, more than the cache of a core.
+/// Minimum number of cells for which several threads are used: their spectrum takes 6 MB, more than the cache of a
+/// core.
 const LEAST_CELLS: usize = 800_000;
 
 /// A real forward and inverse transform in shares that any thread may take, with its working memory.
@@ -42,7 +43,7 @@ struct RowShare {
     finite: bool,
 }
 
-/// True if there are several threads and enough cells for them.
+/// Returns true if there are several threads and enough cells for them.
 pub(crate) fn pays(cells: usize) -> bool {
     cells >= LEAST_CELLS && rayon::current_num_threads() > 1
 }
@@ -66,7 +67,7 @@ impl ParallelTransform {
         })
     }
 
-    /// Number of rows of a share; the last one may have fewer.
+    /// Returns the number of rows of a share; the last one may have fewer.
     fn rows_of_share(&self) -> usize {
         self.ny.div_ceil(SHARES)
     }

@@ -19,7 +19,7 @@ pub(crate) struct Across {
     cosines: CosineTransform,
     /// `2 sin(pi n / (2 N))`, n = 0 to N: the symbol of the first difference.
     difference: Vec<f64>,
-    /// `1 / (k^2 + difference^2)`, zero where that is infinite: minus the symbol of the inverse Laplacian.
+    /// `1 / (k^2 + difference^2)`, zero if that is infinite: minus the symbol of the inverse Laplacian.
     inverse: Vec<f64>,
     k: f64,
     /// Force, then intermediate velocity along x, in the cells.
@@ -54,7 +54,7 @@ impl Across {
         }
     }
 
-    /// `2 sin(theta / 2)` of the wave number.
+    /// Returns `2 sin(theta / 2)` of the wave number.
     pub(crate) fn k(&self) -> f64 {
         self.k
     }

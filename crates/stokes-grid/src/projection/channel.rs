@@ -329,7 +329,8 @@ impl ChannelProjection {
         u.iter_mut().for_each(|p| *p *= stress);
     }
 
-    /// Intermediate velocities on the walls of one part of a wave number, from the potential that there is with none.
+    /// Returns the intermediate velocities on the walls of one part of a wave number, from the potential that there is
+    /// with none.
     fn wall_values(&mut self, m: usize, part: usize, goal: Goal) -> WallValues {
         let Some(response) = response(&self.responses, m) else {
             return WallValues { intermediate: [0.0; 2], change: [0.0; 2] };
@@ -359,7 +360,8 @@ impl ChannelProjection {
     }
 }
 
-/// Factor of x velocities by which they move to the centres and divergence and gradient become real, see [`Across`].
+/// Returns the factor of x velocities by which they move to the centres and divergence and gradient become real, see
+/// [`Across`].
 fn shift(m: usize, nx: usize) -> Complex64 {
     let half_angle = PI * m as f64 / nx as f64;
     Complex64::new(-half_angle.sin(), half_angle.cos())
@@ -371,12 +373,12 @@ fn both([bottom, top]: [f64; 2], factors: [f64; 2], apply: impl Fn(f64, f64) -> 
     [0.5 * (sum + difference), 0.5 * (sum - difference)]
 }
 
-/// The response at a wave number; there is none to the mean, which is the mean flow.
+/// Returns the response at a wave number; there is none to the mean, which is the mean flow.
 fn response(responses: &[WallResponse], m: usize) -> Option<&WallResponse> {
     responses.get(m.checked_sub(1)?)
 }
 
-/// Contribution of the values on both walls to each row.
+/// Returns the contribution of the values on both walls to each row.
 fn by_walls(response: &[f64], [bottom, top]: [f64; 2]) -> impl Iterator<Item = f64> {
     response.iter().zip(response.iter().rev()).map(move |(by_bottom, by_top)| bottom * by_bottom + top * by_top)
 }

@@ -8,8 +8,8 @@ const NUMBERS: usize = 4;
 /// Values of the intermediate velocity at both walls, in the solution before and for the next one.
 #[derive(Debug, Clone)]
 pub(crate) struct LaggedWalls {
-    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one;
-    /// then the number of rows of cells, by which the memory of another grid is known.
+    /// Solutions so far, two for more; then the values for the next solution, then the values used in the last one.
+    /// Then the number of rows of cells, by which the memory of another grid is known.
     numbers: Vec<f64>,
     /// These values after the present solution.
     coming: Vec<f64>,
@@ -23,7 +23,7 @@ impl LaggedWalls {
         Self { numbers, coming: vec![0.0; count] }
     }
 
-    /// All that the next solution depends on besides its arguments; empty before the first one.
+    /// Returns all that the next solution depends on besides its arguments; empty before the first one.
     pub(crate) fn memory(&self) -> &[f64] {
         if self.known() { &self.numbers } else { &[] }
     }
@@ -53,7 +53,8 @@ impl LaggedWalls {
         next.copy_from_slice(used);
     }
 
-    /// Values at the bottom and at the top for the next solution, of one part (real or imaginary) of a wave number.
+    /// Returns the values at the bottom and at the top for the next solution, of one part (real or imaginary) of a wave
+    /// number.
     pub(crate) fn next(&self, m: usize, part: usize) -> Option<[f64; 2]> {
         self.known().then(|| self.at(1, m, part))
     }
@@ -63,7 +64,7 @@ impl LaggedWalls {
         self.known().then(|| self.at(1 + self.coming.len() / 2, m, part))
     }
 
-    /// Values of the last solution minus those of the next one: the velocity by which the fluid slips.
+    /// Returns the values of the last solution minus the values of the next one: the velocity by which the fluid slips.
     pub(crate) fn slip(&self, m: usize, part: usize) -> [f64; 2] {
         let values = self.used(m, part).zip(self.next(m, part));
         values.map_or([0.0; 2], |(used, next)| [used[0] - next[0], used[1] - next[1]])

@@ -13,7 +13,7 @@ pub(crate) struct PeriodicProjection {
     viscosity: f64,
     pub(crate) mean_velocity: [f64; 2],
     transform: Transform,
-    /// From a component of the force to that of the intermediate velocity, Cowley (2.26).
+    /// From a component of the force to the same component of the intermediate velocity, Cowley (2.26).
     diffusion: Symbol,
     /// From h times the divergence of the intermediate velocity to phi / h, Cowley (2.27).
     poisson: Symbol,

@@ -15,7 +15,7 @@ pub(crate) struct WallResponse {
 }
 
 impl WallResponse {
-    /// The response for minus the symbol of the second difference along x, `k2 > 0`, and `n` cells across.
+    /// Creates the response for minus the symbol of the second difference along x, `k2 > 0`, and `n` cells across.
     pub(crate) fn new(k2: f64, n: usize) -> Self {
         let mode = Mode::new(k2, n);
         let halves = (0..n).map(|j| mode.at(j));
@@ -49,7 +49,7 @@ impl Mode {
         Self { decay, cells, tanh, sech: 1.0 / (0.5 * decay).cosh(), slip }
     }
 
-    /// Rows for equal walls and for opposite ones, the lower of which has the value 1.
+    /// Returns the rows for equal walls and for opposite ones, the lower of which has the value 1.
     fn at(&self, j: usize) -> [Row; 2] {
         let below = j as f64 + 0.5;
         let distance = below.min(self.cells - below);
@@ -58,7 +58,7 @@ impl Mode {
         [even, (side * odd.0, side * odd.1)]
     }
 
-    /// Equal walls, at a distance from the nearer one.
+    /// Returns the equal walls, at a distance from the nearer one.
     fn even(&self, distance: f64) -> Row {
         let (half, x) = (0.5 * self.cells, 0.5 * self.cells - distance);
         let (cosh, sinh) = over_cosh(self.decay, x, half);
@@ -70,7 +70,7 @@ impl Mode {
         (self.sech * cosh, self.sech * slope / self.slip[0])
     }
 
-    /// Opposite walls, at a distance from the nearer one.
+    /// Returns the opposite walls, at a distance from the nearer one.
     fn odd(&self, distance: f64) -> Row {
         let (half, x) = (0.5 * self.cells, 0.5 * self.cells - distance);
         let (cosh, sinh) = over_sinh(self.decay, x, half);
@@ -78,12 +78,12 @@ impl Mode {
         (self.sech * sinh, self.sech * slope / self.slip[1])
     }
 
-    /// `N cosh(lambda d) / sinh(lambda N)`: what the other wall adds.
+    /// Returns `N cosh(lambda d) / sinh(lambda N)`: what the other wall adds.
     fn far(&self, distance: f64) -> f64 {
         self.cells * over_sinh(self.decay, distance, self.cells).0
     }
 
-    /// `2 X tanh(lambda/2) coth(lambda X) - 1` for long waves.
+    /// Returns `2 X tanh(lambda/2) coth(lambda X) - 1` for long waves.
     fn coth_excess(&self, half: f64) -> f64 {
         let z = self.decay * half;
         let coth = coth_defect(z);
@@ -91,36 +91,36 @@ impl Mode {
     }
 }
 
-/// `1 / sinh(z)`, zero where that underflows.
+/// Returns `1 / sinh(z)`, zero if that underflows.
 fn csch(z: f64) -> f64 {
     -2.0 * (-z).exp() / (-2.0 * z).exp_m1()
 }
 
-/// `cosh(decay a) / cosh(decay b)` and `sinh(decay a) / cosh(decay b)` for 0 <= a <= b.
+/// Returns `cosh(decay a) / cosh(decay b)` and `sinh(decay a) / cosh(decay b)` for 0 <= a <= b.
 fn over_cosh(decay: f64, a: f64, b: f64) -> (f64, f64) {
     scaled(decay, a, b, 1.0 + (-2.0 * decay * b).exp())
 }
 
-/// `cosh(decay a) / sinh(decay b)` and `sinh(decay a) / sinh(decay b)` for 0 <= a <= b.
+/// Returns `cosh(decay a) / sinh(decay b)` and `sinh(decay a) / sinh(decay b)` for 0 <= a <= b.
 fn over_sinh(decay: f64, a: f64, b: f64) -> (f64, f64) {
     scaled(decay, a, b, -(-2.0 * decay * b).exp_m1())
 }
 
-/// `cosh(decay a)` and `sinh(decay a)` over `divisor exp(decay b) / 2`; the difference of a and b is taken first, so
-/// that large exponents do not round.
+/// Returns `cosh(decay a)` and `sinh(decay a)` over `divisor exp(decay b) / 2`; the difference of a and b is taken
+/// first, so that large exponents do not round.
 fn scaled(decay: f64, a: f64, b: f64, divisor: f64) -> (f64, f64) {
     let scale = (decay * (a - b)).exp() / divisor;
     (scale * (1.0 + (-2.0 * decay * a).exp()), -scale * (-2.0 * decay * a).exp_m1())
 }
 
-/// `1 - tanh(z / 2) / (z / 2)`.
+/// Returns `1 - tanh(z / 2) / (z / 2)`.
 fn tanh_defect(z: f64) -> f64 {
     // Of cosh and sinh, since 1 - tanh(y) / y = (y cosh(y) - sinh(y)) / (y cosh(y)).
     let y = 0.5 * z;
     y * y * cosh_minus_sinh(y) / y.cosh()
 }
 
-/// `1 - z / sinh(z)`.
+/// Returns `1 - z / sinh(z)`.
 fn sinh_defect(z: f64) -> f64 {
     if z > 2.0 {
         return 1.0 - z * csch(z);
@@ -130,12 +130,12 @@ fn sinh_defect(z: f64) -> f64 {
     excess / (1.0 + excess)
 }
 
-/// `z coth(z) - 1`.
+/// Returns `z coth(z) - 1`.
 fn coth_defect(z: f64) -> f64 {
     z * z * z * cosh_minus_sinh(z) / z.sinh()
 }
 
-/// `(cosh(z) - sinh(z) / z) / z^2`.
+/// Returns `(cosh(z) - sinh(z) / z) / z^2`.
 fn cosh_minus_sinh(z: f64) -> f64 {
     if z > 1.0 {
         return (z.cosh() - z.sinh() / z) / (z * z);
@@ -147,7 +147,7 @@ fn cosh_minus_sinh(z: f64) -> f64 {
 /// Terms of the series in use, far more than arguments up to 2 need.
 const TERMS: u32 = 16;
 
-/// The sum over k = 1, 2, ... of terms whose ratio to the one before is `x / divisor(k)`, the zeroth being one.
+/// Returns the sum over k = 1, 2, ... of terms whose ratio to the one before is `x / divisor(k)`, the zeroth being one.
 fn series(x: f64, divisor: impl Fn(f64) -> f64) -> f64 {
     let (mut term, mut sum) = (1.0, 0.0);
     for k in 1..TERMS {

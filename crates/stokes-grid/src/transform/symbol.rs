@@ -14,22 +14,24 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// Symbol of minus the inverse of h^2 times the five-point Laplacian, times `factor`; that of constants is zero.
+    /// Creates a symbol of minus the inverse of h^2 times the five-point Laplacian, times `factor`; for constants it is
+    /// zero.
     pub(crate) fn inverse_laplacian(nx: usize, ny: usize, factor: f64) -> Self {
         Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
     }
 
-    /// Symbol of the inverse of h^4 times the square of the five-point Laplacian, times `factor`; that of constants is
-    /// zero.
+    /// Creates a symbol of the inverse of h^4 times the square of the five-point Laplacian, times `factor`; for
+    /// constants it is zero.
     pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64) -> Self {
         Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
     }
 
-    /// A symbol with the factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The
-    /// normalisation `1 / (nx ny)` of the transforms is included, so that factors of one give the identity.
+    /// Returns a symbol with the factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by
+    /// symmetry. The normalisation `1 / (nx ny)` of the transforms is included, so that factors of one give the
+    /// identity.
     ///
     /// # Errors
-    /// More than [`crate::Grid::MAXIMUM_CELLS`] values.
+    /// Returns an error for more than [`crate::Grid::MAXIMUM_CELLS`] values.
     pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Result<Self, StokesError> {
         Grid::check_size(nx, ny)?;
         Ok(Self::of_size(nx, ny, factor))
@@ -44,7 +46,7 @@ impl Symbol {
         Self { nx, ny, values }
     }
 
-    /// True for transforms of that size.
+    /// Returns true for transforms of that size.
     pub(crate) fn fits(&self, nx: usize, ny: usize) -> bool {
         self.nx == nx && self.ny == ny
     }

@@ -32,7 +32,7 @@ struct Words<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// The next line that is not empty.
+    /// Returns the next line that is not empty.
     fn next(&mut self) -> Option<&'a str> {
         loop {
             self.number += 1;
@@ -43,7 +43,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The words of the next line of a section, which must be there.
+    /// Returns the words of the next line of a section, which must be there.
     fn words(&mut self, section: &'static str) -> Result<Words<'a>, SolidError> {
         match self.next() {
             Some(line) if !line.starts_with('$') => Ok(Words { words: line.split_whitespace(), line: self.number }),
@@ -77,7 +77,7 @@ impl Words<'_> {
     }
 }
 
-/// Beginning of a text that is quoted in a message.
+/// Returns the beginning of a text that is quoted in a message.
 fn shortened(text: &str) -> String {
     text.chars().take(40).collect()
 }

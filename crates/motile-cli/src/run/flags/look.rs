@@ -30,7 +30,7 @@ pub struct LookFlags {
 }
 
 impl LookFlags {
-    /// The settings of a run, replaced by the flags that were given.
+    /// Returns the settings of a run, replaced by the flags that were given.
     #[must_use]
     pub fn apply(&self, look: Look) -> Look {
         Look {

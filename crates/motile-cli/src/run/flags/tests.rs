@@ -23,10 +23,10 @@ fn a_run_in_two_parts_is_a_whole_one() {
     first.run(0.5).step_size(StepSize::Fixed(0.025)).go().unwrap();
     assert_eq!(first.checkpoint(""), second.checkpoint(""));
     let error = again.resume(&mut make(), "a droplet", 0.2).unwrap_err();
-    assert!(format!("{error:#}").contains("--time after"), "{error:#}");
+    assert!(format!("{error:#}").contains("Use a --time above"), "{error:#}");
     std::fs::write(&path, "nothing").unwrap();
     let error = flags.resume(&mut make(), "a droplet", 0.5).unwrap_err();
-    assert!(format!("{error:#}").contains("a file that is no checkpoint has this name"), "{error:#}");
+    assert!(format!("{error:#}").contains("a file with this name exists and is not a checkpoint"), "{error:#}");
     assert!(first.checkpoint("").write(&path).is_err() && std::fs::read(&path).unwrap() == b"nothing");
     let error = again.resume(&mut make(), "a droplet", 0.5).unwrap_err();
     assert!(format!("{error:#}").contains("not a checkpoint"), "{error:#}");
@@ -56,7 +56,7 @@ fn scene_files_of_others_are_kept() {
     }
     std::fs::write(&path, "# My scene.\n").unwrap();
     let error = flags.write_scene(&Setup::default()).unwrap_err().to_string();
-    assert!(error.contains("a file that no run has written has this name"), "{error}");
+    assert!(error.contains("a file with this name exists, and no run has written it"), "{error}");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "# My scene.\n");
     std::fs::remove_file(&path).unwrap();
 }

@@ -47,7 +47,7 @@ impl SceneRun {
     /// have a table (by their names, the first twenty of a kind), the changes since the start, and the cost of the run.
     ///
     /// # Errors
-    /// A state that cannot be measured.
+    /// Returns an error for a state that cannot be measured.
     pub fn summary(&mut self) -> Result<Summary> {
         let mut summary = Summary::default();
         if let Some(first) = &self.first {
@@ -114,12 +114,12 @@ impl SceneRun {
         Ok(())
     }
 
-    /// Summary of a run of a sweep: [`SceneRun::summary`], and of a first droplet with particles all observables, those
-    /// that depend on the convention also as printed by Cowley (`..._printed`), the growth rate of the speed over the
-    /// last quarter (1/time), and the regime of the motion across a channel.
+    /// Returns the summary of a run of a sweep: [`SceneRun::summary`], and of a first droplet with particles all
+    /// observables, those that depend on the convention also as printed by Cowley (`..._printed`), the growth rate of
+    /// the speed over the last quarter (1/time), and the regime of the motion across a channel.
     ///
     /// # Errors
-    /// A run that has not begun.
+    /// Returns an error for a run that has not begun.
     pub fn measured(&mut self) -> Result<Summary> {
         let mut summary = self.summary()?;
         let Some(First { droplet, recorder, .. }) = &self.first else { return Ok(summary) };
@@ -157,7 +157,7 @@ impl SceneRun {
     /// Adds the regime of the motion across the channel and its amplitude (length) to a summary.
     ///
     /// # Errors
-    /// A run that has not begun.
+    /// Returns an error for a run that has not begun.
     pub fn put_regime(&self, summary: &mut Summary) -> Result<Evidence> {
         // Swimmers are about as fast as their particles diffuse over a radius, in any unit.
         let First { particles, radius, recorder, .. } = self.first()?;
@@ -220,7 +220,7 @@ impl First {
     }
 }
 
-/// Area of the smooth curve through a droplet's markers (length squared), or its volume (length cubed).
+/// Returns the area of the smooth curve through a droplet's markers (length squared), or its volume (length cubed).
 pub(super) fn area(scene: &mut Scene<AnyFlow>, region: Region, droplet: Handle<ActiveDroplet>) -> Result<f64> {
     if region.is_axisymmetric() {
         return Ok(scene.observe(droplet)?.area);

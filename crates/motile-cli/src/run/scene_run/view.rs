@@ -16,13 +16,13 @@ const VIEW: f64 = 12.0;
 pub struct View {
     /// Spacing of the raster of fields in pictures (length).
     pub spacing: f64,
-    /// Text about the region in the title of a picture; empty where the picture shows the region itself.
+    /// Text about the region in the title of a picture; empty if the picture shows the region itself.
     pub region: String,
 }
 
 impl View {
-    /// View with the spacing of a scene's grid, or a twentieth of its length scale if it has none, and the sizes of a
-    /// channel or tube.
+    /// Creates a view with the spacing of a scene's grid, or a twentieth of its length scale if it has none, and the
+    /// sizes of a channel or tube.
     #[must_use]
     pub fn of(setup: &Setup) -> Self {
         let spacing = setup.method.spacing().unwrap_or(GridMethod::default().spacing * setup.length_scale());
@@ -36,8 +36,8 @@ impl View {
     }
 }
 
-/// Raster of that spacing (length) over a region, or over the surroundings of a centre in unbounded fluid, for a scene
-/// of that length scale (length).
+/// Returns the raster of that spacing (length) over a region, or over the surroundings of a centre in unbounded fluid,
+/// for a scene of that length scale (length).
 pub(super) fn view_of(
     region: Region,
     scene: &Scene<AnyFlow>,
@@ -62,8 +62,8 @@ pub(super) fn view_of(
     })
 }
 
-/// Title of pictures: the parameters of all particles of a scene, and the viscosities of its fluids. If bodies differ,
-/// it has the smallest and the largest value.
+/// Returns the title of pictures: the parameters of all particles of a scene, and the viscosities of its fluids. If
+/// bodies differ, it has the smallest and the largest value.
 pub(super) fn caption(setup: &Setup, region: &str) -> String {
     let droplets = || setup.droplets.iter();
     let of_interfaces = || setup.interfaces.iter().filter_map(|interface| interface.particles);
@@ -89,7 +89,7 @@ pub(super) fn caption(setup: &Setup, region: &str) -> String {
     parts.join(",  ").replace('-', "−")
 }
 
-/// One value that all have, or the least and the largest value.
+/// Returns one value that all have, or the least and the largest value.
 fn range(values: impl Iterator<Item = f64>) -> String {
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
     if low == high { format!("{low}") } else { format!("{low} to {high}") }

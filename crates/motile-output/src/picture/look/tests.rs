@@ -198,7 +198,7 @@ fn sizes_and_ranges_that_cannot_be_are_refused() {
         (Look { font_size: f64::NAN, ..Look::default() }, "size (pt)"),
         (Look { resolution: 1e5, ..Look::default() }, "resolution (pixels per cm)"),
         (Look { pressure_range: Some([1.0, 1.0]), ..Look::default() }, "colours cannot range from 1 to 1"),
-        (Look { pressure_range: Some([0.0, f64::INFINITY]), ..Look::default() }, "give finite ends"),
+        (Look { pressure_range: Some([0.0, f64::INFINITY]), ..Look::default() }, "Use two finite numbers"),
     ] {
         let told = refused(look);
         assert!(told.contains(words), "{told}");

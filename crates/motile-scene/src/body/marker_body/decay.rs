@@ -10,15 +10,15 @@ use tree::Tree;
 
 /// Fewest and most evaluations of the law.
 const EVALUATIONS: [usize; 2] = [10, 30];
-/// Size of the perturbation over that of the body.
+/// Size of the perturbation over the size of the body.
 const PERTURBATION: f64 = 1e-6;
-/// Part of the estimate that may be missing when it is taken.
+/// Fraction of the estimate that may be missing when it is taken.
 const TOLERANCE: f64 = 0.1;
 /// Most markers of which every pair is summed by itself.
 const MOST_PAIRED: usize = 1000;
 
-/// Mobility of markers, from above: forces at the distance r move a marker by `(ln(L/r) + 1)/(4 pi eta)`, with the
-/// smallest width L of the domain and for r the resolution at least: forces that differ within it cancel on a grid.
+/// Mobility of markers, from above: forces at the distance r move a marker by `(ln(L/r) + 1)/(4 pi eta)`. Here L is the
+/// smallest width of the domain and r at least the resolution, because forces that differ within it cancel on a grid.
 #[derive(Debug)]
 pub(super) struct Mobility<'a> {
     positions: &'a [Vec2],
@@ -41,12 +41,12 @@ impl<'a> Mobility<'a> {
         Self { positions, viscosity: view.viscosity, width, gyration, finest }
     }
 
-    /// Velocity for a unit force at the distance r (length).
+    /// Returns the velocity for a unit force at the distance r (length).
     fn at(&self, r: f64) -> f64 {
         if r > 0.0 { ((self.width / r).ln().max(0.0) + 1.0) / (4.0 * PI * self.viscosity) } else { 0.0 }
     }
 
-    /// Velocity of all markers under a unit force on each, or of one alone where that is faster.
+    /// Returns the velocity of all markers under a unit force on each, or of one alone where that is faster.
     pub(super) fn largest(&self) -> f64 {
         self.at(self.finest).max(self.positions.len() as f64 * self.at(self.gyration.max(self.finest)))
     }
@@ -77,9 +77,9 @@ impl<'a> Mobility<'a> {
         }
     }
 
-    /// The fastest decay of displacements under a law (1/time): the largest eigenvalue of the mobility times the
-    /// derivative of the forces, by the power method. Of more than [`MOST_PAIRED`] markers, those far away are taken
-    /// together.
+    /// Returns the fastest decay of displacements under a law (1/time). It is the largest eigenvalue of the mobility
+    /// times the derivative of the forces, by the power method. Of more than [`MOST_PAIRED`] markers, those far away
+    /// are taken together.
     pub(super) fn fastest_decay(&self, law: &mut dyn FnMut(&[Vec2], &mut [Vec2])) -> f64 {
         if self.positions.len() > MOST_PAIRED {
             let tree = Tree::new(self.positions);
@@ -89,9 +89,9 @@ impl<'a> Mobility<'a> {
         }
     }
 
-    /// The largest eigenvalue of a matrix times the derivative of the forces; zero where that is no number.
+    /// Returns the largest eigenvalue of a matrix times the derivative of the forces; zero if that is not a number.
     ///
-    /// The fastest modes lie densely, so that the estimate approaches it only as `1 - c/k` after k evaluations: what is
+    /// The fastest modes lie densely, so that the estimate approaches it only as `1 - c/k` after k evaluations. What is
     /// missing is k times the last change.
     pub(super) fn power_method(
         &self,

@@ -47,7 +47,7 @@ fn what_is_no_stiffness_and_no_force_is_refused_by_name() {
     scene.add(tethered(3, 0.2));
     scene.add(MarkerBody::new("bead", vec![Vec2::ZERO], |_, forces| forces[0].y = f64::NAN));
     let error = scene.run(0.1).go().unwrap_err().explanation();
-    assert_eq!(error, "at time 0 bead went wrong: entry 0 of the forces is NaN: give finite numbers");
+    assert_eq!(error, "at time 0 bead went wrong: entry 0 of the forces is NaN. Use finite numbers");
 }
 
 /// Circles of markers at rest that springs of `stiffness` hold together, neighbour to neighbour, and the calls of

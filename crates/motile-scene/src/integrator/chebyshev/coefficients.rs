@@ -22,7 +22,7 @@ pub(super) struct Coefficients {
     pub(super) later: Vec<Stage>,
 }
 
-/// Chebyshev polynomial T_j of the first kind and its first two derivatives at w.
+/// Returns the Chebyshev polynomial T_j of the first kind and its first two derivatives at w.
 fn chebyshev(degree: usize, w: f64) -> [f64; 3] {
     let mut last = [1.0, 0.0, 0.0];
     let mut this = [w, 1.0, 0.0];
@@ -71,13 +71,13 @@ impl Coefficients {
     }
 }
 
-/// Length of the interval of stability of `stages` stages: about 0.65 (s^2 - 1).
+/// Returns the length of the interval of stability of `stages` stages: about 0.65 (s^2 - 1).
 pub(super) fn interval(stages: usize) -> f64 {
     let s = stages.max(2) as f64;
     2.0 / 3.0 * (s * s - 1.0) * (1.0 - 2.0 / 15.0 * DAMPING)
 }
 
-/// Fewest stages whose interval is at least `length`.
+/// Returns the fewest stages whose interval is at least `length`.
 pub(super) fn stages_for(length: f64) -> usize {
     let s = (length / (2.0 / 3.0 * (1.0 - 2.0 / 15.0 * DAMPING)) + 1.0).max(0.0).sqrt().ceil();
     // Not a number gives the fewest: the step itself will say what is wrong.

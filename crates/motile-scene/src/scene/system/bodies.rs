@@ -47,24 +47,24 @@ impl Bodies {
         Handle::new(self.scene, self.list.len() - 1)
     }
 
-    /// The number of a body, if it is one of this scene.
+    /// Returns the number of a body, if it is one of this scene.
     pub(super) fn index_of(&self, handle: Handle<dyn Body>) -> Result<usize, SceneError> {
         if handle.scene() == self.scene { Ok(handle.index()) } else { Err(SceneError::foreign_handle()) }
     }
 
-    /// The name of a body, with its number where another one has the same.
+    /// Returns the name of a body, with its number where another one has the same.
     pub(in crate::scene) fn name_of(&self, index: usize) -> String {
         let name = self.list[index].name();
         let shared = self.list.iter().filter(|body| body.name() == name).count() > 1;
         if shared { format!("{name} (body {index})") } else { name.to_owned() }
     }
 
-    /// Some body is a closed curve.
+    /// Returns some body is a closed curve.
     pub(super) fn have_curves(&self) -> bool {
         self.list.iter().any(|body| body.kind().is_curve())
     }
 
-    /// The error of the body that failed, if one did.
+    /// Returns the error of the body that failed, if one did.
     pub(super) fn done(&self, time: f64, failed: Option<(usize, BodyError)>) -> Result<(), SceneError> {
         let failed = failed.map(|(index, source)| failure(time, self.list[index].as_ref(), source));
         failed.map_or(Ok(()), Err)
@@ -95,7 +95,7 @@ impl Bodies {
     }
 
     /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step;
-    /// `same` where the bodies themselves are those of the groups.
+    /// `same` if the bodies themselves belong to the groups.
     fn fit_markers(&mut self, same: bool) {
         let groups = self.markers.groups();
         let fits = same
@@ -121,7 +121,7 @@ impl Bodies {
         });
     }
 
-    /// Writes the forces of all bodies, those of interior_bodies on their hosts included.
+    /// Writes the forces of all bodies, including the forces of interior bodies on their hosts.
     pub(super) fn write_forces(&mut self, view: &FluidView, time: f64) -> Result<(), SceneError> {
         let Self { list, markers: Markers { forces, .. }, viscosity_around, .. } = self;
         let failed = Parts::of(list, forces.len(), forces).each(&markers, &|index, body, _, forces| {
@@ -167,7 +167,7 @@ impl Bodies {
         self.tell_surroundings();
     }
 
-    /// Tells the markers what they lie in.
+    /// Reports to the markers what they lie in.
     fn tell_surroundings(&mut self) {
         let Self { interior_bodies, enclosing, viscosity_around, markers, .. } = self;
         let is_guest = |body: usize| interior_bodies.iter().any(|&[_, interior_body]| interior_body == body);
@@ -227,7 +227,7 @@ pub(super) fn failure(time: f64, body: &dyn Body, source: BodyError) -> SceneErr
     SceneError::Body { time, body: body.name().to_owned(), source }
 }
 
-/// The part of a flat list that is the next body's, taken off the rest.
+/// Returns the part of a flat list that is the next body's, taken off the rest.
 pub(super) fn part<'a>(rest: &mut &'a mut [f64], body: &dyn Body) -> &'a mut [f64] {
     rest.split_off_mut(..body.state_len()).unwrap_or_default()
 }

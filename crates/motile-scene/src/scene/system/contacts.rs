@@ -17,7 +17,7 @@ const THINNEST: f64 = 0.02;
 pub(in crate::scene) struct Contacts {
     pub(super) surfaces: Surfaces,
     films: Films,
-    /// How far films were looked for since surfaces and surroundings are those of the present state (length).
+    /// How far films were looked for since surfaces and surroundings have been as they are (length).
     looked: Option<f64>,
     /// The gaps of the present state.
     pub(super) gaps: Gaps,
@@ -28,7 +28,7 @@ pub(in crate::scene) struct Contacts {
     closing: Option<(f64, usize)>,
     /// Fastest rate at which a repulsion opens the present films (1/time).
     opening: f64,
-    /// Narrowest gap that a run goes on with (length).
+    /// Narrowest gap that a run continues with (length).
     pub(in crate::scene) least_gap: Option<f64>,
     pub(in crate::scene) repulsion: Option<Repulsion>,
 }
@@ -47,7 +47,7 @@ impl Contacts {
         self.gaps = self.surfaces.gaps_near(view, self.least_gap.unwrap_or_default());
     }
 
-    /// Adds the forces of the repulsion, if there is one, to those of the markers.
+    /// Adds the forces of the repulsion, if there is one, to the forces of the markers.
     pub(super) fn push_apart(&mut self, bodies: &mut Bodies, flow: &impl Hydrodynamics) {
         if let Some(repulsion) = self.repulsion {
             self.find_films(bodies, flow, repulsion.range());
@@ -72,7 +72,7 @@ impl Contacts {
         }
     }
 
-    /// Load of the repulsion in the present films.
+    /// Returns the load of the repulsion in the present films.
     pub(super) fn load(&self) -> Option<RepulsionLoad> {
         self.repulsion.map(|repulsion| self.films.load(&repulsion, &self.surfaces))
     }
@@ -87,7 +87,7 @@ impl Contacts {
         self.looked = Some(reach);
     }
 
-    /// Tells `each` the bounds on the time step that films set, with the names of the bodies.
+    /// Reports to `each` the bounds on the time step that films set, with the names of the bodies.
     pub(super) fn each_limit<'a>(&self, bodies: &'a Bodies, viscosity: f64, each: &mut dyn FnMut(StepLimit, &'a str)) {
         if let Some((dt, body)) = self.closing {
             let cause = StepCause::Accuracy;

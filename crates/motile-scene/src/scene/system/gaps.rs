@@ -12,25 +12,25 @@ use motile_base::{
     internal::{decimals, told_apart},
 };
 
-/// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
-/// neighbouring nodes of an interface where there is no grid.
+/// The narrowest films in which velocities are within about 1 %, in grid spacings, and in distances of neighbouring
+/// nodes of an interface if there is no grid.
 const RESOLVED_CELLS: f64 = 1.0;
-/// Narrowest films of that accuracy in channels of given flux: the fluid that a droplet displaces has to pass it, and
-/// slow swimmers err by more.
+/// Narrowest films of that accuracy in channels of given flux: the fluid that a droplet displaces has to pass the gap,
+/// and the error is larger for slow swimmers.
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 /// Largest number of nodes that is recommended: what curves can have.
 const MOST_NODES: f64 = 4096.0;
 
 impl<H: Hydrodynamics> System<H> {
-    /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
-    /// a wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
+    /// Returns the smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative
+    /// beyond a wall, see [`wall_gap`]). It is `None` without walls or interfaces. Solids
     /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
         self.nearest_wall().map(|(gap, ..)| gap)
     }
 
-    /// The gap of [`System::wall_gap`], the body, and the place of its marker (length), found once in a state.
+    /// Returns the gap of [`System::wall_gap`], the body, and the place of its marker (length), found once in a state.
     fn nearest_wall(&mut self) -> Option<(f64, usize, Vec2)> {
         let bounded = self.hydrodynamics.fluid_view().domain.walls.is_some() || self.hydrodynamics.walls().is_some();
         if bounded {
@@ -41,8 +41,8 @@ impl<H: Hydrodynamics> System<H> {
         self.contacts.nearest_wall.flatten()
     }
 
-    /// The like without the films of rigid bodies at straight walls, if the flow resolves interfaces by modes: such a
-    /// flow refuses a film in which the speed of a rigid body would be off by a per cent.
+    /// Returns the like without the films of rigid bodies at straight walls, if the flow resolves interfaces by modes.
+    /// Such a flow refuses a film in which the speed of a rigid body would be off by 1 %.
     fn unrefused_wall_gap(&mut self) -> Option<f64> {
         let (gap, body, _) = self.nearest_wall()?;
         let refuses = self.hydrodynamics.fluid_view().shape_modes.is_some();
@@ -68,13 +68,13 @@ impl<H: Hydrodynamics> System<H> {
         gaps.reduce(nearer)
     }
 
-    /// The gap between two bodies at the present state (length): the smallest distance of the corners of the boundary
-    /// of each, or of its markers where it has none, from the boundary of the other, over all images. Negative where
-    /// the bodies overlap; for a body inside an interface the distance from within. `None` where neither has a
-    /// boundary. Needs no evaluation, but memory and time.
+    /// Returns the gap between two bodies at the present state (length). It is the smallest distance of the corners of
+    /// the boundary of each, or of its markers if it has none, from the boundary of the other, over all images.
+    /// Negative where the bodies overlap; for a body inside an interface the distance from within. `None` where neither
+    /// has a boundary. Needs no evaluation, but memory and time.
     ///
     /// # Errors
-    /// [`SceneError::Refused`].
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn gap(
         &self,
         first: impl Into<Handle<dyn Body>>,
@@ -85,28 +85,28 @@ impl<H: Hydrodynamics> System<H> {
         Ok(outline(first.into())?.gap(&outline(second.into())?, periods))
     }
 
-    /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at
-    /// the end of each step.
+    /// Returns the smallest [`System::wall_gap`] since the start (length): over the states after each addition of a
+    /// body and at the end of each step.
     #[must_use]
     pub fn minimum_wall_gap(&self) -> Option<f64> {
         self.findings.wall_gap
     }
 
     /// Returns the smallest gap between an interface and another body, its own image in a periodic domain, or a wall
-    /// (length) over the run: over the states at the start and at the ends of steps, and the present state. Of a body
-    /// and its own image the states count in which the gap is below four grid spacings (without a grid four times the
-    /// distance of markers), and the present one; of walls those of [`System::minimum_wall_gap`]. Gaps between two
-    /// solids do not count. Negative where bodies overlap; `None` where there is no such gap. Needs no evaluation, but
-    /// memory and time.
+    /// (length) over the run. It is taken over the states at the start and at the ends of steps, and the present state.
+    /// Of a body and its own image the states count in which the gap is below four grid spacings (without a grid four
+    /// times the distance of markers), and the present one. For walls the states of [`System::minimum_wall_gap`]. Gaps
+    /// between two solids do not count. Negative where bodies overlap; `None` if there is no such gap. Needs no
+    /// evaluation, but memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         let present = self.surfaces().narrowest(&self.hydrodynamics.fluid_view()).map(|gap| gap.width);
         [self.findings.gap, self.findings.wall_gap, present].into_iter().flatten().reduce(f64::min)
     }
 
-    /// The pairs of bodies, at least one of them an interface, whose surfaces are closer than `reach` (length) at the
-    /// present state, each once, with the narrowest gap between them (length; negative where they overlap); a body and
-    /// its own image are a pair too. Needs no evaluation.
+    /// Returns the pairs of bodies, at least one of them an interface, whose surfaces are closer than `reach` (length)
+    /// at the present state, each once, with the narrowest gap between them (length; negative where they overlap). A
+    /// body and its own image are a pair too. Needs no evaluation.
     #[must_use]
     pub fn pairs_within(&self, reach: f64) -> Vec<([Handle<dyn Body>; 2], f64)> {
         let pairs = self.surfaces().pairs_near(&self.hydrodynamics.fluid_view(), reach);
@@ -114,7 +114,7 @@ impl<H: Hydrodynamics> System<H> {
         pairs.into_iter().map(|(bodies, gap)| (bodies.map(handle), gap)).collect()
     }
 
-    /// The surfaces of the bodies in the present state, laid out anew where that is not known.
+    /// Returns the surfaces of the bodies in the present state, laid out again if they are not known.
     fn surfaces(&self) -> Cow<'_, Surfaces> {
         if self.known >= Known::Surfaces {
             return Cow::Borrowed(&self.contacts.surfaces);
@@ -125,7 +125,7 @@ impl<H: Hydrodynamics> System<H> {
         ))
     }
 
-    /// Where an interface is nearest to a solid at the present state.
+    /// Returns the place where an interface is nearest to a solid at the present state.
     pub(crate) fn nearest_solid(&self) -> Option<NearestSolid> {
         let found = self.surfaces().nearest_solid(self.hydrodynamics.fluid_view().domain.periods);
         found.map(|(gap, body, marker, place)| NearestSolid {
@@ -136,8 +136,8 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
-    /// Doubts about the accuracy of the present state: those of the flow and of the bodies, and films that the method
-    /// does not resolve.
+    /// Returns the doubts about the accuracy of the present state. These are the doubts of the flow and of the bodies,
+    /// and films that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
         if self.known < Known::Apart {
             // No step has looked at the gaps of this state.
@@ -179,13 +179,13 @@ impl<H: Hydrodynamics> System<H> {
         self.bodies.markers.groups()[body].kind == MarkerKind::Rigid
     }
 
-    /// The gap between a rigid body and another body that the nodes resolve worst.
+    /// Returns the gap between a rigid body and another body that the nodes resolve worst.
     fn coarse_pair(&self) -> Option<CoarseGap> {
         let view = self.hydrodynamics.fluid_view();
         self.contacts.surfaces.coarse_pair(&view.domain, view.shape_modes?)
     }
 
-    /// The gap between a body and a rigid wall that the nodes resolve worst.
+    /// Returns the gap between a body and a rigid wall that the nodes resolve worst.
     fn coarse_wall(&self) -> Option<CoarseGap> {
         let (view, spacings) = (self.hydrodynamics.fluid_view(), self.hydrodynamics.wall_spacings());
         let walls = self.hydrodynamics.walls().filter(|_| !spacings.is_empty())?;
@@ -203,7 +203,7 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    /// The warning of a gap that nodes do not resolve.
+    /// Returns the warning of a gap that nodes do not resolve.
     fn coarse_warning(&self, gap: &CoarseGap, view: &FluidView) -> Warning {
         let &CoarseGap { body, other, width, spacings: [own, others], resolved, .. } = gap;
         let [widest, resolved_text] = told_apart([own.max(others), resolved]);
@@ -224,7 +224,7 @@ impl<H: Hydrodynamics> System<H> {
         Warning { body: self.bodies.name_of(body), cause: "thin film".into(), excess: gap.excess().min(1e3), message }
     }
 
-    /// The narrowest film in which velocities are within about a per cent (length).
+    /// Returns the narrowest film in which velocities are within about 1 % (length).
     fn resolved_film(&self) -> f64 {
         let view = self.hydrodynamics.fluid_view();
         let closed = matches!(self.hydrodynamics.drive(), Some(Drive::ZeroFlux | Drive::Flux(_)));
@@ -233,7 +233,7 @@ impl<H: Hydrodynamics> System<H> {
         on_grid(&view).map_or_else(nodes, |spacing| cells * spacing)
     }
 
-    /// The largest distance of neighbouring nodes of an interface (length).
+    /// Returns the largest distance of neighbouring nodes of an interface (length).
     fn node_spacing(&self, view: &FluidView) -> f64 {
         let groups = self.bodies.markers.groups().iter().filter(|group| group.kind.is_curve());
         let spacings = groups.map(|group| {
@@ -244,17 +244,17 @@ impl<H: Hydrodynamics> System<H> {
         spacings.fold(0.0, f64::max)
     }
 
-    /// The repulsion between interfaces, if it is on.
+    /// Returns the repulsion between interfaces, if it is on.
     #[must_use]
     pub fn repulsion(&self) -> Option<&Repulsion> {
         self.contacts.repulsion.as_ref()
     }
 
-    /// Load of the repulsion in the present state; `None` where it is off. The flow is computed if it is not known
-    /// yet.
+    /// Returns the load of the repulsion in the present state; `None` if it is off. The flow is computed if it is not
+    /// known yet.
     ///
     /// # Errors
-    /// Those of [`System::evaluate`].
+    /// Returns the errors of [`System::evaluate`].
     pub fn repulsion_load(&mut self) -> Result<Option<RepulsionLoad>, SceneError> {
         self.evaluate()?;
         Ok(self.contacts.load())
@@ -284,7 +284,7 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Looks at the gaps that a step has led to: interfaces must not have come to be inside other bodies or their own
+    /// Looks at the gaps that a step has led to. Interfaces must not have come to be inside other bodies or their own
     /// images by more than [`Surfaces::allowed`], and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
         self.find_gaps();
@@ -329,7 +329,7 @@ impl<H: Hydrodynamics> System<H> {
         lower(&mut self.findings.gap, found);
     }
 
-    /// The warning of solids that are closer than the bound on gaps, which is not theirs.
+    /// Returns the warning of solids that are closer than the bound on gaps, which is not theirs.
     fn solids_below_bound(&self) -> Option<Warning> {
         let bound = self.contacts.least_gap?;
         let domain = self.hydrodynamics.fluid_view().domain;
@@ -351,7 +351,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 }
 
-/// Advice that resolves films so many times thinner.
+/// Returns the advice that resolves films so many times thinner.
 fn finer(view: &FluidView, times: f64) -> String {
     let nodes = view.shape_modes.map(|nodes| (times * nodes as f64).ceil());
     match (on_grid(view), nodes) {
@@ -363,7 +363,8 @@ fn finer(view: &FluidView, times: f64) -> String {
     }
 }
 
-/// The grid spacing (length) where films are on the grid: where interfaces have modes of their own they are not.
+/// Returns the grid spacing (length) where films are on the grid: if interfaces have separate modes, films are not on
+/// it.
 fn on_grid(view: &FluidView) -> Option<f64> {
     view.spacing.filter(|_| view.shape_modes.is_none())
 }

@@ -9,19 +9,19 @@ use super::{
 use crate::{Body, BodyFlow, FluidView, Handle, Hydrodynamics, Observe, SceneError, hydrodynamics::Everything};
 
 impl<H: Hydrodynamics> System<H> {
-    /// A body.
+    /// Returns a body.
     ///
     /// # Errors
-    /// [`SceneError::Refused`].
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
         let body: &dyn Any = self.any_body(handle)?;
         body.downcast_ref().ok_or_else(SceneError::foreign_handle)
     }
 
-    /// A body whose type does not matter.
+    /// Returns a body whose type does not matter.
     ///
     /// # Errors
-    /// [`SceneError::Refused`].
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn any_body(&self, handle: impl Into<Handle<dyn Body>>) -> Result<&dyn Body, SceneError> {
         Ok(self.bodies.list[self.bodies.index_of(handle.into())?].as_ref())
     }
@@ -35,7 +35,7 @@ impl<H: Hydrodynamics> System<H> {
         body.downcast_mut().ok_or_else(SceneError::foreign_handle)
     }
 
-    /// The bodies of type B with their handles, in the order in which they were added.
+    /// Returns the bodies of type B with their handles, in the order in which they were added.
     pub fn bodies<B: Body>(&self) -> impl Iterator<Item = (Handle<B>, &B)> {
         let bodies = self.bodies.list.iter().enumerate();
         bodies.filter_map(|(index, body)| {
@@ -44,15 +44,15 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
-    /// All bodies whatever their types, in the order in which they were added.
+    /// Returns all bodies whatever their types, in the order in which they were added.
     pub fn all_bodies(&self) -> impl ExactSizeIterator<Item = (Handle<dyn Body>, &dyn Body)> {
         self.bodies.list.iter().enumerate().map(|(index, body)| (Handle::new(self.bodies.scene, index), body.as_ref()))
     }
 
-    /// The flow at the markers of a body in the present state.
+    /// Returns the flow at the markers of a body in the present state.
     ///
     /// # Errors
-    /// [`SceneError::Refused`]; [`SceneError::Refused`] where the flow of the present state is not known, as
+    /// Returns [`SceneError::Refused`]; [`SceneError::Refused`] where the flow of the present state is not known, as
     /// before the first [`System::evaluate`].
     pub fn flow_at(&self, handle: impl Into<Handle<dyn Body>>) -> Result<BodyFlow<'_>, SceneError> {
         let index = self.bodies.index_of(handle.into())?;
@@ -72,20 +72,20 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
-    /// The fluid as a body sees it: with the viscosity of that around it, which is not the exterior one where the body
-    /// lies inside an interface. As of the last [`System::evaluate`].
+    /// Returns the fluid as a body sees it: with the viscosity of that around it, which is not the exterior one where
+    /// the body lies inside an interface. As of the last [`System::evaluate`].
     ///
     /// # Errors
-    /// [`SceneError::Refused`].
+    /// Returns [`SceneError::Refused`] for a handle of another scene.
     pub fn fluid_around(&self, handle: impl Into<Handle<dyn Body>>) -> Result<FluidView, SceneError> {
         let outside = self.bodies.viscosity_around[self.bodies.index_of(handle.into())?];
         Ok(self.hydrodynamics.fluid_view().in_fluid(outside).into_owned())
     }
 
-    /// Observables of a body in the present state, whose flow is computed if it is not known yet.
+    /// Returns the observables of a body in the present state, whose flow is computed if it is not known yet.
     ///
     /// # Errors
-    /// [`SceneError::Refused`]; those of [`System::evaluate`] and of [`Observe::observables`].
+    /// Returns [`SceneError::Refused`]; the errors of [`System::evaluate`] and of [`Observe::observables`].
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         let index = self.bodies.index_of(handle.into())?;
         self.evaluate()?;

@@ -28,12 +28,12 @@ enum Law {
 }
 
 impl Imposed {
-    /// A flow as a function of the time of the scene (time).
+    /// Returns a flow as a function of the time of the scene (time).
     pub fn of_time(flow: impl Fn(f64) -> ImposedFlow + Send + Sync + 'static) -> Self {
         Self(Law::OfTime(Arc::new(flow)))
     }
 
-    /// The flow at a time (time).
+    /// Returns the flow at a time (time).
     #[must_use]
     pub fn at(&self, time: f64) -> ImposedFlow {
         match &self.0 {
@@ -63,7 +63,7 @@ impl fmt::Debug for Imposed {
 }
 
 /// Entries of the state of a scene whose flow changes: the time and the strain, which integrators advance with the
-/// bodies, so that every stage of theirs has the flow and the images of its own time.
+/// bodies. Each of their stages therefore has the flow and the images of its own time.
 const CLOCK: usize = 2;
 
 /// The imposed flow with the time and the strain that it is at.
@@ -100,13 +100,13 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// The flow that is imposed in the present state: part of all velocities.
+    /// Returns the flow that is imposed in the present state: part of all velocities.
     #[must_use]
     pub fn imposed(&self) -> ImposedFlow {
         self.hydrodynamics.imposed()
     }
 
-    /// Length of the part of the state that is the clock of the imposed flow.
+    /// Returns the length of the part of the state that is the clock of the imposed flow.
     pub(super) fn clock_len(&self) -> usize {
         if self.background.moves { CLOCK } else { 0 }
     }
@@ -145,19 +145,19 @@ impl<H: Hydrodynamics> System<H> {
         if flow == self.imposed() { Ok(()) } else { self.set_flow(flow, self.hydrodynamics.strain()) }
     }
 
-    /// The imposed flow at another time (time) than that of the present state; a steady one is what the flow has.
+    /// Returns the imposed flow at another time (time) than the present one; a steady one is what the flow has.
     pub(crate) fn imposed_at(&self, time: f64) -> ImposedFlow {
         let imposed = &self.background.imposed;
         if imposed.is_steady() { self.imposed() } else { imposed.at(time) }
     }
 
-    /// True for an imposed flow that is a function of time.
+    /// Returns true for an imposed flow that is a function of time.
     pub(crate) fn is_flow_of_time(&self) -> bool {
         !self.background.imposed.is_steady()
     }
 }
 
-/// Numbers of an imposed flow by their names, without those that are zero.
+/// Returns the numbers of an imposed flow by their names, without those that are zero.
 pub(crate) fn flow_properties(flow: ImposedFlow) -> impl Iterator<Item = (&'static str, f64)> {
     let ImposedFlow { velocity: [u, v], gradient: [[ux, uy], [vx, _]], bend } = flow;
     let numbers = [

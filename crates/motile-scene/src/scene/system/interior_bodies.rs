@@ -73,7 +73,7 @@ impl Bodies {
     }
 }
 
-/// A host and its interior_body, by their numbers.
+/// Returns a host and its interior body, by their numbers.
 fn pair(bodies: &mut [Box<dyn Body>], [host, interior_body]: [usize; 2]) -> Option<(&dyn Body, &mut dyn InteriorBody)> {
     let (before, from) = bodies.split_at_mut(interior_body);
     Some((before.get(host)?.as_ref(), from.first_mut()?.as_interior_body()?))

@@ -19,7 +19,7 @@ pub(super) struct Parts<'a, T> {
 }
 
 impl<'a, T: Send> Parts<'a, T> {
-    /// All bodies, with so many entries of the lists, of which `values` are written.
+    /// Creates all bodies, with so many entries of the lists, of which `values` are written.
     pub(super) fn of(bodies: &'a mut [Box<dyn Body>], entries: usize, values: &'a mut [T]) -> Self {
         Self { first: 0, start: 0, entries, bodies, values }
     }
@@ -60,12 +60,12 @@ impl<'a, T: Send> Parts<'a, T> {
     }
 }
 
-/// Number of markers of a body.
+/// Returns the number of markers of a body.
 pub(super) fn markers(_: usize, body: &dyn Body) -> usize {
     body.marker_count()
 }
 
-/// Number of entries of the state of a body.
+/// Returns the number of entries of the state of a body.
 pub(super) fn states(_: usize, body: &dyn Body) -> usize {
     body.state_len()
 }

@@ -4,16 +4,16 @@ use super::bodies::Bodies;
 use crate::{FlowError, Hydrodynamics};
 use motile_base::{SolveReport, Vec2};
 
-/// Part of the velocities, in the norm of what is dissipated, by which forces may miss them.
+/// Fraction of the velocities, in the norm of what is dissipated, by which forces may miss them.
 const TOLERANCE: f64 = 1e-8;
 /// Part at which a solution is taken that comes no nearer, for flows that are iterated themselves.
 const ACCEPTED: f64 = 1e-5;
 /// Most iterations.
 const MOST: usize = 200;
 
-/// Solves `v = V(F - D v)` for the velocities v of the markers, V being those of the flow for given forces and -D v the
-/// forces of [`crate::Viscous`] bodies, by conjugate gradients: V is affine in the forces, `V(F - g) = V(F) - M g` with
-/// a symmetric M, so that `1 + M D` is symmetric and positive in the product `u D v`.
+/// Solves `v = V(F - D v)` for the velocities v of the markers, V being the velocities of the flow for given forces and
+/// -D v the forces of [`crate::Viscous`] bodies, by conjugate gradients. V is affine in the forces, `V(F - g) = V(F) -
+/// M g` with a symmetric M, so that `1 + M D` is symmetric and positive in the product `u D v`.
 #[derive(Debug, Default)]
 pub(super) struct Resistance {
     /// Forces that do not depend on velocities (force).
@@ -113,7 +113,7 @@ impl Resistance {
         Ok(report)
     }
 
-    /// The flow with the forces at the trial velocities.
+    /// Returns the flow with the forces at the trial velocities.
     fn evaluate<H: Hydrodynamics>(&mut self, flow: &mut H, bodies: &mut Bodies) -> Result<SolveReport, FlowError> {
         resist(bodies, &self.trial, &mut self.resisting);
         let forces = bodies.markers.forces.iter_mut().zip(&self.forces).zip(&self.resisting);
@@ -121,7 +121,7 @@ impl Resistance {
         flow.velocities(&mut bodies.markers)
     }
 
-    /// `u D u` (energy per time).
+    /// Returns `u D u` (energy per time).
     fn dissipated(&mut self, bodies: &mut Bodies, of: impl Fn(&Self) -> &[Vec2]) -> f64 {
         let mut resisting = std::mem::take(&mut self.resisting);
         resist(bodies, of(self), &mut resisting);

@@ -81,7 +81,7 @@ impl<H: Hydrodynamics> Dynamics for System<H> {
 }
 
 impl<H: Hydrodynamics> System<H> {
-    /// Size of a body by its markers, or where they are at one place, of what is around it (length).
+    /// Returns the size of a body by its markers, or where they are at one place, of what is around it (length).
     fn extent(&self, body: usize) -> f64 {
         let markers = &self.bodies.markers;
         let own = markers.groups().get(body).and_then(|group| markers.positions().get(group.range.clone()));
@@ -94,7 +94,7 @@ impl<H: Hydrodynamics> System<H> {
         sizes.into_iter().find(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
     }
 
-    /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
+    /// Gives the bodies a state whose parts have the lengths `lengths` (one per body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
         let (bodies, clock) = state.split_at(lengths.iter().sum::<usize>().min(state.len()));
@@ -132,15 +132,16 @@ impl<H: Hydrodynamics> System<H> {
         lengths.extend(self.bodies.list.iter().map(|body| body.state_len()));
     }
 
-    /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs
-    /// from it by what the end of a step did.
+    /// Returns the rate of change at the present state, the implicit part with it; `state` is that state or one that
+    /// differs from it by what the end of a step did.
     pub(crate) fn whole_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
         self.present_rate(rate)?;
         self.add_implicit(state, 1.0, rate);
         Ok(())
     }
 
-    /// The largest over the bodies of the root mean square of `errors / scales`; both have the length of the state.
+    /// Returns the largest over the bodies of the root mean square of `errors / scales`; both have the length of the
+    /// state.
     pub(crate) fn error_norm(&self, errors: &[f64], scales: &[f64]) -> f64 {
         let (mut start, mut largest) = (0, 0.0_f64);
         for body in &self.bodies.list {
@@ -155,7 +156,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 }
 
-/// Root mean square distance of points from their mean (length); zero without points.
+/// Returns the root mean square distance of points from their mean (length); zero without points.
 fn spread(points: &[Vec2]) -> f64 {
     let count = points.len().max(1) as f64;
     let mean = points.iter().sum::<Vec2>() / count;

@@ -12,7 +12,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Empty cells of a region for neighbours within `reach` (length), some `count` of them.
+    /// Creates empty cells of a region for neighbours within `reach` (length), some `count` of them.
     pub(super) fn new(region: &Region, reach: f64, count: usize) -> Self {
         let lengths = region.lengths();
         let most = (count as f64).sqrt().ceil().max(1.0) * 2.0;
@@ -21,7 +21,7 @@ impl Cells {
         Self { lengths: lengths.into(), counts, wraps, lists: vec![Vec::new(); counts[0] * counts[1]] }
     }
 
-    /// The cell of a place, in x and y.
+    /// Returns the cell of a place, in x and y.
     fn cell(&self, place: Vec2) -> [usize; 2] {
         [0, 1].map(|axis| {
             let part = place[axis] / self.lengths[axis] + 0.5;
@@ -40,7 +40,7 @@ impl Cells {
         self.lists.iter_mut().for_each(Vec::clear);
     }
 
-    /// The numbers in the cell of a place and those around it, each once.
+    /// Returns the numbers in the cell of a place and those around it, each once.
     pub(super) fn near(&self, place: Vec2) -> impl Iterator<Item = usize> + '_ {
         let [x, y] = self.cell(place);
         let columns = around(x, self.counts[0], true);
@@ -50,7 +50,7 @@ impl Cells {
     }
 }
 
-/// The neighbours of a number below `count`, and itself, each once.
+/// Returns the neighbours of a number below `count`, and itself, each once.
 fn around(number: usize, count: usize, wraps: bool) -> impl Iterator<Item = usize> {
     let steps = if count < 3 { 0..count } else { 0..3 };
     steps.filter_map(move |step| {

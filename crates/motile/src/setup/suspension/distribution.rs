@@ -46,7 +46,7 @@ struct Table {
 }
 
 impl Distribution {
-    /// The least and the largest value.
+    /// Returns the least and the largest value.
     #[must_use]
     pub fn bounds(self) -> [f64; 2] {
         match self {
@@ -56,7 +56,8 @@ impl Distribution {
         }
     }
 
-    /// Mean of the squares; of a normal distribution without the cut, which takes off 2.7 per cent of its variance.
+    /// Returns the mean of the squares; of a normal distribution without the cut, which takes off 2.7 % of its
+    /// variance.
     pub(super) fn mean_square(self) -> f64 {
         match self {
             Self::Value(value) => value * value,
@@ -65,7 +66,7 @@ impl Distribution {
         }
     }
 
-    /// The next value.
+    /// Returns the next value.
     pub(super) fn draw(self, random: &mut SplitMix64) -> f64 {
         match self {
             Self::Value(value) => value,
@@ -85,8 +86,8 @@ impl Distribution {
     pub(super) fn check(self, checked: &Checked<'_>, key: &str, positive: bool) -> Result<(), SetupError> {
         let [least, most] = self.bounds();
         let unordered = !least.is_finite() || !most.is_finite() || least > most;
-        checked.refuse_if(unordered, key, self, "give a finite number, or [least, most] in this order")?;
-        let remedy = format!("{least} would be among them: give positive ones");
+        checked.refuse_if(unordered, key, self, "use a finite number, or [smallest, largest] in this order")?;
+        let remedy = format!("the range contains {least}. Use positive numbers only");
         checked.refuse_if(positive && least <= 0.0, key, self, remedy)
     }
 }

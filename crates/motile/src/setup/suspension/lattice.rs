@@ -3,9 +3,9 @@
 use active_interface::internal::SplitMix64;
 use motile_base::{Region, Vec2};
 
-/// So many sites of the lattice of rows along x, each second one displaced by half a spacing or none, whose least
-/// distance is the largest; `margin` is what a channel's sites keep from its walls (length). The lattice may have more
-/// sites, of which random ones are taken.
+/// So many sites of the lattice of rows along x, each second one displaced by half a spacing or none, whose minimum
+/// distance is the largest. The `margin` is what a channel's sites keep from its walls (length). The lattice may have
+/// more sites, of which random ones are taken.
 pub(super) fn sites(region: &Region, count: usize, margin: f64, random: &mut SplitMix64) -> Vec<Vec2> {
     let [length, width] = region.lengths();
     let periodic = region.periods()[1].is_some();

@@ -28,12 +28,12 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// The radius with half of the gap (length).
+    /// Returns the radius with half of the gap (length).
     pub(super) fn extent(&self) -> f64 {
         self.radius + 0.5 * self.gap
     }
 
-    /// The least distance from the centre of another one (length).
+    /// Returns the minimum distance from the centre of another one (length).
     fn least_distance(&self, other: &Self) -> f64 {
         self.radius + other.radius + self.gap.max(other.gap)
     }
@@ -47,7 +47,7 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// The room of a region, for these circles, those of which that are fixed are in it.
+    /// Creates the room of a region, for these circles; the fixed ones are in it.
     pub(super) fn new(region: &Region, circles: &[Circle]) -> Self {
         let reach = circles.iter().map(|circle| 2.0 * circle.radius + circle.gap).fold(0.0, f64::max);
         let gap = circles.iter().map(|circle| circle.gap).fold(0.0, f64::max);
@@ -65,7 +65,7 @@ impl Room {
         0.5 * self.lengths.y - margin
     }
 
-    /// Puts circles of these numbers at random places, the largest first, those of the cells in mind.
+    /// Puts circles of these numbers at random places, the largest first, with the cells in mind.
     pub(super) fn place_at_random(&mut self, circles: &mut [Circle], own: Range<usize>, random: &mut SplitMix64) {
         let mut order: Vec<usize> = own.collect();
         order.sort_by(|&a, &b| circles[b].radius.total_cmp(&circles[a].radius));
@@ -90,12 +90,12 @@ impl Room {
         })
     }
 
-    /// Moves circles apart until each has its gap from any other one and from walls; false where that fails.
+    /// Moves circles apart until each has its gap from any other one and from walls; false if that fails.
     pub(super) fn move_apart(&mut self, circles: &mut [Circle]) -> bool {
         (0..ROUNDS).any(|_| self.round(circles))
     }
 
-    /// Moves apart once each two circles that overlap; true where none did.
+    /// Moves apart once each two circles that overlap; true if none did.
     fn round(&mut self, circles: &mut [Circle]) -> bool {
         let mut apart = true;
         self.cells.clear();

@@ -138,32 +138,32 @@ fn what_makes_no_suspension_is_refused() {
     let template = |droplet: DropletSetup| SuspensionSetup { droplet, ..counted.clone() };
     let bent = DropletShape::Ellipse { half_axes: [1.0, 2.0] };
     for (suspension, region, start) in [
-        (part(0.95), region, "suspension[0].area-fraction = 0.95: give a number above 0 and below 0.9069"),
+        (part(0.95), region, "suspension[0].area-fraction = 0.95: use a number above 0 and below 0.9069"),
         (part(0.88), region, "suspension[0].area-fraction = 0.88: no places were found in a region of 6 x 6"),
-        (part(f64::NAN), region, "suspension[0].area-fraction = NaN: give a number above 0"),
-        (part(-0.5), region, "suspension[0].area-fraction = -0.5: give a number above 0"),
-        (part(0.01), region, "suspension[0].area-fraction = 0.01: it makes 0 droplets"),
-        (part(0.5), Region::Box { lengths: [1e4, 1e4] }, "suspension[0].area-fraction = 0.5: it makes 63661977"),
-        (small(), region, "suspension[0].count = none: give how many droplets"),
-        (SuspensionSetup { count: Some(4), ..part(0.3) }, region, "suspension[0].count = 4: area-fraction says"),
-        (SuspensionSetup { count: Some(0), ..small() }, region, "suspension[0].count = 0: give a number from 1"),
+        (part(f64::NAN), region, "suspension[0].area-fraction = NaN: use a number above 0"),
+        (part(-0.5), region, "suspension[0].area-fraction = -0.5: use a number above 0"),
+        (part(0.01), region, "suspension[0].area-fraction = 0.01: this makes 0 droplets"),
+        (part(0.5), Region::Box { lengths: [1e4, 1e4] }, "suspension[0].area-fraction = 0.5: this makes 63661977"),
+        (small(), region, "suspension[0].count = none: the number of droplets is missing"),
+        (SuspensionSetup { count: Some(4), ..part(0.3) }, region, "suspension[0].count = 4: area-fraction sets"),
+        (SuspensionSetup { count: Some(0), ..small() }, region, "suspension[0].count = 0: use a number from 1"),
         (SuspensionSetup { count: Some(60), ..small() }, region, "suspension[0].count = 60: no places were found"),
         (SuspensionSetup { gap: -1.0, ..counted.clone() }, region, "suspension[0].gap = -1"),
         (
             SuspensionSetup { radius: Some(Distribution::Value(5.0)), ..counted.clone() },
             region,
-            "suspension[0].radius = 5: a region of 6 x 6 has no room for it and a gap of 0.025",
+            "suspension[0].radius = 5: a region of 6 x 6 has no room for such a droplet and a gap of 0.025",
         ),
         (counted.clone(), channel(6.0, 1.02), "suspension[0].radius = 0.5: a region of 6 x 1.02 has no room"),
         (
             SuspensionSetup { radius: Some(Distribution::Between([1.0, 0.5])), ..counted.clone() },
             region,
-            "suspension[0].radius = [1, 0.5]: give a finite number",
+            "suspension[0].radius = [1, 0.5]: use a finite number",
         ),
         (
             SuspensionSetup { radius: Some(Distribution::Normal { mean: 1.0, deviation: 0.5 }), ..counted.clone() },
             region,
-            "suspension[0].radius = normal around 1 with 0.5: -0.5 would be among them",
+            "suspension[0].radius = normal around 1 with 0.5: the range contains -0.5",
         ),
         (template(DropletSetup { shape: bent, ..DropletSetup::default() }), region, "suspension[0].droplet.shape"),
         (template(DropletSetup { angle: 1.0, ..DropletSetup::default() }), region, "suspension[0].droplet.angle = 1"),
@@ -173,7 +173,7 @@ fn what_makes_no_suspension_is_refused() {
             region,
             "suspension[0].activity = -2: droplets without particles",
         ),
-        (counted.clone(), Region::Plane, "region = plane: suspensions fill a box or a channel"),
+        (counted.clone(), Region::Plane, "region = plane: a suspension needs a box or a channel"),
     ] {
         let error = of(suspension, region).build().map(|_| ()).unwrap_err().to_string();
         assert!(error.starts_with(start), "{error} / {start}");
@@ -195,8 +195,8 @@ fn ten_lines_are_a_thousand_droplets() {
     for (values, words) in [
         ("radius = [1.0]", "a range has two numbers, [least, most]"),
         ("radius = \"large\"", "a number, [least, most] or { normal"),
-        ("radius = { norm = 1.0 }", "unknown field `norm`"),
-        ("radii = 1.0", "unknown field `radii`"),
+        ("radius = { norm = 1.0 }", "unknown key `norm`"),
+        ("radii = 1.0", "unknown key `radii`"),
     ] {
         let error = Setup::from_toml(&format!("[[suspension]]\ncount = 3\n{values}")).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
@@ -268,7 +268,7 @@ fn ranges_that_begin_at_zero_are_refused() {
         [SuspensionSetup { radius: from_zero, ..small() }, SuspensionSetup { viscosity: from_zero, ..small() }]
     {
         let error = check(suspension).unwrap_err();
-        assert!(error.contains("0 would be among them: give positive ones"), "{error}");
+        assert!(error.contains("the range contains 0. Use positive numbers only"), "{error}");
     }
     assert_eq!(check(SuspensionSetup { activity: Some(Distribution::Between([-0.5, 0.0])), ..small() }), Ok(()));
     assert_eq!(check(SuspensionSetup { radius: Some(Distribution::Between([0.25, 0.5])), ..small() }), Ok(()));

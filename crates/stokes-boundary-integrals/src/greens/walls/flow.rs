@@ -6,7 +6,7 @@ use super::{LANES, Lanes, WallModes, WallPoints};
 use crate::greens::Flow;
 
 impl WallModes {
-    /// Flow of the correction at point i.
+    /// Returns the flow of the correction at point i.
     pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> Flow {
         let y = points.y[i];
         let mut velocity = Complex64::new(self.mean_velocity(y), self.rise);

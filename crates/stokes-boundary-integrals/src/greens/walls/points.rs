@@ -59,7 +59,7 @@ pub(crate) struct WallPoints {
 }
 
 impl WallPoints {
-    /// No points, in a channel with this period and this half of its width (length).
+    /// Creates no points, in a channel with this period and this half of its width (length).
     pub(crate) fn new(period: f64, half: f64) -> Self {
         Self { k: TAU / period, half, sides: Default::default(), x: Vec::new(), y: Vec::new() }
     }
@@ -98,7 +98,7 @@ impl WallPoints {
         );
     }
 
-    /// Smallest distance of a point from a wall (length), infinite without points.
+    /// Returns the smallest distance of a point from a wall (length), infinite without points.
     pub(crate) fn gap(&self) -> f64 {
         self.sides.iter().flatten().map(|p| p.distance).fold(f64::INFINITY, f64::min)
     }

@@ -139,7 +139,7 @@ fn bodies_that_overlap_at_the_start_are_to_be_moved_apart() {
     let disc = |x: f64| Disc(circle(centre(x), 0.5));
     let overlap = |scene: &mut Scene<DragBox>| {
         let error = scene.run(0.1).go().unwrap_err();
-        assert!(error.to_string().ends_with("move the bodies apart"), "{error}");
+        assert!(error.to_string().ends_with("Move the bodies apart"), "{error}");
         assert_eq!(scene.steps(), 0);
         let SceneError::Overlap { depth, .. } = error else { panic!("{error}") };
         depth
