@@ -1,8 +1,8 @@
 //! Particles bind to the interface of a droplet and unbind into its inside.
 //!
 //! `cargo run --release --example exchange` starts with a droplet that swims. No particle is lost: their number on the
-//! interface and inside changes by less than 1e-9 of itself. A droplet below the threshold comes to rest with both in
-//! equilibrium, where there are 0.8 particles on the interface for each one inside.
+//! interface and inside changes by less than 1e-9 of itself. With an activity weaker than the threshold, it comes to
+//! rest with both in equilibrium, where there are 0.8 particles on the interface for each one inside.
 
 use motile::prelude::*;
 use motile::setup::ExchangeSetup;

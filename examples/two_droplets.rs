@@ -5,8 +5,6 @@
 //! each other, and the gap between them never falls below 0.27 radii.
 
 use motile::prelude::*;
-use motile::scene::{FlowError, System};
-use motile::setup::AnyFlow;
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let droplet = |x: f64, y: f64, angle: f64| DropletSetup { centre: [x, y], angle, ..DropletSetup::active(-3.0) };
@@ -19,12 +17,9 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..Setup::default()
     };
     let Built { mut scene, droplets, .. } = setup.build()?;
-    let mut gap = f64::INFINITY;
-    let mut record = |system: &mut System<AnyFlow>| -> Result<(), FlowError> {
-        gap = gap.min(system.minimum_gap().unwrap_or(gap));
-        Ok(())
-    };
-    scene.run(20.0).observe(Every::Steps(1), &mut record).go()?;
+    scene.run(20.0).go()?;
+    // The smallest gap of all steps.
+    let gap = scene.system().minimum_gap().ok_or("no gap")?;
     let [first, second] = [scene.observe(droplets[0])?, scene.observe(droplets[1])?];
     println!("first at {:.3}, second at {:.3}, smallest gap {gap:.3}", first.centroid, second.centroid);
     assert!((first.centroid + second.centroid).length() < 1e-6, "the symmetry is lost");

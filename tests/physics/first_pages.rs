@@ -40,5 +40,13 @@ fn first_pages_show_the_programs_that_stand_alone() {
         } else {
             assert!(shown == program, "the first page of {name} shows another program than tests/alone/{name}");
         }
+        let code = program.lines().map(|line| line.strip_prefix("//! ").unwrap_or_default().to_owned() + "\n");
+        let readme = fs::read_to_string(root.join("crates").join(name).join("README.md")).expect("a page");
+        if let Some((_, after)) = readme.split_once("```rust\n") {
+            let shown = after.split_once("```").map_or(after, |(shown, _)| shown);
+            assert!(shown == code.collect::<String>(), "the README of {name} shows another program");
+        } else {
+            assert!(!["stokes-grid", "ib-core"].contains(&name), "the README of {name} shows no program");
+        }
     }
 }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use motile::active_interface::{Flux, Tension};
 use motile::base::Drive;
 use motile::base::Region;
-use motile::scene::{Every, Warnings};
+use motile::scene::{Every, Scene, Warnings};
 use motile::setup::{
-    Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup,
+    AnyFlow, Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, LayersMethod, Method, Particles, Setup,
     SolidOutline, WallSetup,
 };
 
@@ -80,6 +80,13 @@ fn settings_that_cost_a_per_cent_are_told() {
     let arcs = SolidOutline::Polygon { corners, rounding: 0.1 };
     let walls = vec![WallSetup::new(arcs, 0.1)];
     assert_eq!(causes(&Setup { walls, ..channel(6.0, integral(24), -1.0) }, 0.05), ["corners not resolved"]);
+    // The wedge of the guide has arcs that its nodes resolve.
+    let corners = vec![[4.0, -1.2], [5.0, -1.2], [4.5, -0.8]];
+    for (rounding, expected) in [(0.08, &[][..]), (0.05, &["corners not resolved"])] {
+        let arcs = SolidOutline::Polygon { corners: corners.clone(), rounding };
+        let walls = vec![WallSetup::new(arcs, 0.05)];
+        assert_eq!(causes(&Setup { walls, ..channel(12.0, integral(24), -1.0) }, 0.05), expected, "{rounding}");
+    }
     let round = SolidOutline::Disc { centre: [2.0, 0.0], radius: 0.3 };
     let walls = vec![WallSetup::new(round, 0.1)];
     assert!(causes(&Setup { walls, ..channel(6.0, integral(24), -1.0) }, 0.05).is_empty());
@@ -143,6 +150,33 @@ impl Tension for Saturating {
     fn slope(&self, c: f64) -> f64 {
         4e4 / (c + 100.0).powi(2)
     }
+}
+
+/// A law with the values of the one that levels off, and the slope at the mean concentration everywhere.
+#[derive(Debug)]
+struct SameSlope;
+
+impl Tension for SameSlope {
+    fn value(&self, c: f64) -> f64 {
+        Saturating.value(c)
+    }
+
+    fn slope(&self, _c: f64) -> f64 {
+        1.0
+    }
+}
+
+#[test]
+fn a_wrong_slope_is_told() {
+    let method = Method::Integral(IntegralMethod { nodes: 24, elements: 96 });
+    let Built { mut scene, droplets, .. } = Setup { method, ..Setup::default() }.build().unwrap();
+    let told = |scene: &mut Scene<AnyFlow>| {
+        scene.system_mut().warnings().iter().any(|warning| warning.cause == "slope of the tension wrong")
+    };
+    scene.body_mut(droplets[0]).unwrap().set_tension(Saturating);
+    assert!(!told(&mut scene));
+    scene.body_mut(droplets[0]).unwrap().set_tension(SameSlope);
+    assert!(told(&mut scene));
 }
 
 /// Where an activity lowers the tension below zero, by any method and in any region, the start says so.

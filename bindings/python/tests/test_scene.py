@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -42,6 +43,19 @@ def test_the_command_line_gives_the_same_numbers(tmp_path: Path) -> None:
             assert np.allclose(track[name], rows[name], rtol=1e-12, atol=1e-12, equal_nan=True), name
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["speed"] == pytest.approx(track["speed"][-1], rel=1e-5)
+
+
+def test_a_run_warns_once_of_each_kind() -> None:
+    scene = motile.Setup(method=motile.integral(nodes=24, elements=48), droplets=[motile.droplet(-4)]).build()
+    with pytest.warns(UserWarning) as given:
+        scene.run(0.1)
+    assert len(given) == len(scene.warnings)
+    assert any("edge of the concentration not resolved" in str(warning.message) for warning in given)
+    kinds = len(scene.warnings)
+    with warnings.catch_warnings(record=True) as more:
+        warnings.simplefilter("always")
+        scene.run(0.2)
+    assert len(more) == len(scene.warnings) - kinds
 
 
 def test_a_copy_goes_on_by_itself() -> None:

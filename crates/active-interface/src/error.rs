@@ -38,7 +38,7 @@ pub enum InterfaceError {
     /// A tension law without a plateau has drawn the particles together to a point.
     #[error(
         "{part:.2} of all particles are on one interface element: the tension law does not level off, so they collapse \
-         towards a point at any resolution. Use an activity below the strength of the excluded volume"
+         towards a point at any resolution. Use a law that levels off, for example with an excluded volume stronger than the activity"
     )]
     Collapse {
         /// Fraction of the particles on the fullest segment.
@@ -52,6 +52,12 @@ pub enum InterfaceError {
 motile_base::debug_as_explanation!(InterfaceError);
 
 impl InterfaceError {
+    /// Returns the error for a law whose tension (force) is not finite at a concentration (particles per length).
+    pub(crate) fn tension_not_finite(tension: f64, c: f64) -> Self {
+        let what = format!("the tension law returns {tension} at c = {}", told(c));
+        Self::refused(what, "", "Correct the law, so that it is finite at any concentration from 0 on")
+    }
+
     /// Returns the error for a marker of an axisymmetric interface that has no mirror image.
     pub(crate) fn not_axisymmetric(marker: Vec2) -> Self {
         let what = format!("the marker at {} has no mirror image in the x axis", place(marker.x, marker.y));

@@ -22,6 +22,10 @@ pub trait Tension: Debug + Send + Sync {
     fn value(&self, c: f64) -> f64;
 
     /// Returns the slope d gamma / d c (force times length) at the concentration `c` (particles per length).
+    ///
+    /// Forces follow from [`Tension::value`] alone. The slope sets the longest stable time step and the implicit part
+    /// of a step, which damps crowded particles, and steady states use it for growth rates. If it differs from
+    /// differences of `value` by more than 5 %, interfaces warn.
     fn slope(&self, c: f64) -> f64;
 
     /// Writes the tension (force) of every concentration (particles per length).

@@ -17,8 +17,7 @@
 //! use std::error::Error;
 //! use std::f64::consts::TAU;
 //!
-//! use ib_core::{BSpline, ImmersedBoundary, MarkerBody, MarkerKind, Scene, StepSize, Vec2};
-//! use stokes_grid::{Grid, PeriodicStokes};
+//! use ib_core::{BSpline, Grid, ImmersedBoundary, MarkerBody, MarkerKind, PeriodicStokes, Scene, StepSize, Vec2};
 //!
 //! /// Markers of an ellipse, nearly equally spaced.
 //! fn ellipse(count: usize) -> Vec<Vec2> {
@@ -108,6 +107,10 @@ pub use motile_base::{Drive, FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
     self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Observer,
     PrescribedFlow, Scene, SceneError, StepSize, Substrate, System, Warnings,
+};
+pub use stokes_grid::{
+    CentreField, ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesError, StokesSolver,
+    TwoPhaseStokes,
 };
 pub use transfer::Transfer;
 

@@ -33,6 +33,23 @@ use polynomial::{interpolate, spread};
 /// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster
 /// than reading them from memory. If the machine has fused multiply-add, it is used, so that results differ between
 /// machines by round-off; on one machine they do not depend on the number of threads (feature `rayon`).
+///
+/// ```
+/// use ib_core::{Grid, Peskin4, StaggeredField, StokesError, Transfer, Vec2};
+///
+/// # fn main() -> Result<(), StokesError> {
+/// let grid = Grid::periodic(32, 32, 0.1)?;
+/// let mut transfer = Transfer::new(grid, Peskin4);
+/// transfer.locate(&[Vec2::new(0.3, 0.4), Vec2::new(-1.2, 0.7)]);
+/// let mut density = StaggeredField::zeros(grid);
+/// transfer.spread(&[Vec2::new(2.0, 0.0), Vec2::new(1.0, -1.0)], &mut density)?;
+/// // The force density has the total force of the markers, 3 along x.
+/// let total = 0.1 * 0.1 * density.x().iter().sum::<f64>();
+/// println!("total force {total:.3}");
+/// assert!((total - 3.0).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone)]
 #[doc(alias("spreading", "interpolation", "delta function", "immersed boundary"))]
 pub struct Transfer<K> {

@@ -9,7 +9,7 @@ pub fn explanation(error: &dyn Error) -> String {
     let mut source = error.source();
     while let Some(cause) = source {
         let text = cause.to_string();
-        if !told.ends_with(&text) {
+        if !told.contains(&text) {
             told = format!("{told}: {text}");
         }
         source = cause.source();

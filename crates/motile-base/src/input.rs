@@ -56,7 +56,7 @@ pub enum InputError {
         minimum: usize,
     },
     /// Slices of different length.
-    #[error("{name} has {found} entries, but {expected} are needed. Use as many")]
+    #[error("the number of entries of {name} is {found}, but it must be {expected}")]
     WrongLength {
         /// The slice.
         name: &'static str,

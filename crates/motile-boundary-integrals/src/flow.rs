@@ -13,7 +13,12 @@ use motile_scene::{
 };
 use stokes_boundary_integrals::{InterfaceFlow, LayerError, Settings};
 
-use crate::{RigidWall, error::of_layers, interface_groups::InterfaceGroups, wall::narrowest};
+use crate::{
+    RigidWall,
+    error::of_layers,
+    interface_groups::InterfaceGroups,
+    wall::{SharpCorner, narrowest},
+};
 
 /// Angle by which a wall may turn within the distance of two nodes (radians): the angle of a right corner which is
 /// rounded over this distance. A sharp corner puts speeds next to it off by 1 % at nodes 0.1 radii apart.
@@ -40,8 +45,8 @@ pub struct BoundaryIntegral {
     walls: Boundary,
     /// Distance of the nodes of the walls at each side of their boundary (length).
     wall_spacings: Vec<f64>,
-    /// Largest angle by which a wall turns within the distance of two nodes (radians).
-    sharpest_turn: f64,
+    /// Corners of the walls that their nodes do not resolve.
+    sharp_corners: Vec<SharpCorner>,
     /// Minimum distance of the sides of a channel of rigid walls (length).
     narrowest: f64,
 }
@@ -58,7 +63,7 @@ impl BoundaryIntegral {
             work: FlowWork::default(),
             walls: Boundary::default(),
             wall_spacings: Vec::new(),
-            sharpest_turn: 0.0,
+            sharp_corners: Vec::new(),
             narrowest: f64::INFINITY,
         })
     }
@@ -90,8 +95,9 @@ impl BoundaryIntegral {
             wall_spacings.extend(wall.spacings(&boundary.sides()[before..]));
         }
         boundary.sort();
-        let sharpest_turn = walls.iter().map(RigidWall::sharpest_turn).fold(0.0, f64::max);
-        Ok(Self { walls: boundary, wall_spacings, sharpest_turn, narrowest: narrowest(walls), ..self })
+        let sharp_corners = walls.iter().enumerate().map(|(number, wall)| wall.sharp_corner(number, SHARPEST_TURN));
+        let sharp_corners = sharp_corners.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        Ok(Self { walls: boundary, wall_spacings, sharp_corners, narrowest: narrowest(walls), ..self })
     }
 
     /// Returns the forces of the rigid walls on the fluid (force), wall by wall, from the last evaluation.
@@ -111,19 +117,22 @@ impl BoundaryIntegral {
         self.interfaces.flow.settings()
     }
 
-    /// Returns the corners of walls that their nodes do not resolve.
-    fn sharp_corner(&self) -> Option<Warning> {
-        if self.sharpest_turn <= SHARPEST_TURN {
-            return None;
-        }
-        let [turn, limit] = told_apart([self.sharpest_turn, SHARPEST_TURN]);
-        let message = format!(
-            "they turn by {turn} (radians) within the distance of two nodes, above {limit}: speeds beside such \
-             a corner are off by about a per cent at nodes 0.1 radii apart; give a rounding of 1.25 times the distance \
-             of the nodes, or more"
-        );
-        let (body, cause) = ("rigid walls".to_owned(), "corners not resolved".into());
-        Some(Warning { body, cause, excess: self.sharpest_turn / SHARPEST_TURN, message })
+    /// Returns the warnings of walls with corners that their nodes do not resolve.
+    fn sharp_corners(&self) -> impl Iterator<Item = Warning> {
+        self.sharp_corners.iter().map(|&SharpCorner { wall, turn, spacing, rounding }| {
+            let [text, limit] = told_apart([turn, SHARPEST_TURN]);
+            let spacing = decimals(3, spacing);
+            let remedy = match rounding {
+                Some(length) => format!("give this wall a rounding of {} or more, or closer nodes", rounded_up(length)),
+                None => "give this wall closer nodes".to_owned(),
+            };
+            let message = format!(
+                "a corner turns by {text} (radians) between two nodes, which are {spacing} apart, above {limit}: speeds \
+                 beside such a corner are off by about a per cent at nodes 0.1 radii apart; {remedy}"
+            );
+            let (body, cause) = (format!("walls[{wall}]"), "corners not resolved".into());
+            Warning { body, cause, excess: turn / SHARPEST_TURN, message }
+        })
     }
 
     /// Returns the sides of a channel so close to one another that the smallest interface leaves a film there that its
@@ -161,6 +170,12 @@ impl BoundaryIntegral {
         }
         Ok(())
     }
+}
+
+/// Returns the text of a positive number with two digits, none of which makes it smaller.
+fn rounded_up(value: f64) -> String {
+    let unit = 10.0_f64.powf(value.log10().floor() - 1.0);
+    decimals(2, (value / unit).ceil() * unit)
 }
 
 impl Hydrodynamics for BoundaryIntegral {
@@ -203,7 +218,7 @@ impl Hydrodynamics for BoundaryIntegral {
     }
 
     fn warnings(&self) -> Vec<Warning> {
-        self.sharp_corner().into_iter().chain(self.narrow_place()).collect()
+        self.sharp_corners().chain(self.narrow_place()).collect()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -19,6 +19,9 @@ const GENTLE: f64 = 0.157;
 /// which waves that nodes do not resolve are round-off.
 const TRANSITION: f64 = 10.0;
 
+/// Precision of the rounding that resolves a corner.
+const PRECISE: f64 = 1e-3;
+
 /// Most points of a side that distances are measured between.
 const MOST_MEASURED: usize = 1000;
 
@@ -64,6 +67,32 @@ pub struct RigidWall {
     /// side, to the left for an upper one, zero for an obstacle.
     period: Vec2,
     nodes: usize,
+    /// How its corners have been rounded.
+    rounding: Rounding,
+    /// The wall before its nodes were spread by [`RigidWall::graded`].
+    even: Option<Box<Self>>,
+}
+
+/// The roundings of a wall so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Rounding {
+    /// Perimeter before the first of them (length).
+    perimeter: f64,
+    /// Sum of the squares of their standard deviations, each over the perimeter before it.
+    variance: f64,
+}
+
+/// Corners of a wall that its nodes do not resolve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SharpCorner {
+    /// Number of the wall.
+    pub wall: usize,
+    /// Largest angle by which the wall turns within the distance of two nodes (radians).
+    pub turn: f64,
+    /// Distance of the nodes next to them, or before they were rounded (length).
+    pub spacing: f64,
+    /// Rounding of the wall, in place of the present one, that its nodes resolve (length), if there is one.
+    pub rounding: Option<f64>,
 }
 
 impl RigidWall {
@@ -151,12 +180,14 @@ impl RigidWall {
         within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
         within("the number of points of a wall", points.len() as f64, nodes as f64, MOST_POINTS)?;
         all_points_finite("the points of a wall", &points)?;
-        Ok(Self { points, period, nodes })
+        Ok(Self { points, period, nodes, rounding: Rounding::default(), even: None })
     }
 
     /// Rounds the corners of a wall through points of equal distance, by a Gaussian along the line with the standard
     /// deviation `length` (length). Straight stretches stay, and a bend of radius R moves inwards by `length^2/(2 R)`.
-    /// Nodes resolve the corners if they are no farther apart than 0.8 times the length.
+    /// Nodes resolve right angles if they are no farther apart than 0.8 times the length. Sharper corners need more,
+    /// because a Gaussian leaves them narrower: [`Hydrodynamics::warnings`](motile_scene::Hydrodynamics::warnings)
+    /// names the length.
     ///
     /// # Errors
     /// Returns an error for a length that is negative or not finite.
@@ -167,8 +198,11 @@ impl RigidWall {
         }
         let count = self.points.len();
         let step = self.period / count as f64;
-        let ends = self.points.iter().skip(1).copied().chain([self.points[0] + self.period]);
-        let perimeter: f64 = self.points.iter().zip(ends).map(|(a, b)| a.distance(b)).sum();
+        let perimeter = self.perimeter();
+        if self.rounding.variance == 0.0 {
+            self.rounding.perimeter = perimeter;
+        }
+        self.rounding.variance += (length / perimeter).powi(2);
         let mut series = PeriodicSeries::new(count)?;
         series.analyse(self.periodic_part())?;
         let decay = std::f64::consts::TAU * length / perimeter;
@@ -186,6 +220,7 @@ impl RigidWall {
     /// # Errors
     /// Returns an error for distances that are not positive and finite, or that need more than 3000 nodes.
     pub fn graded(mut self, wanted: impl Fn(Vec2) -> f64) -> Result<Self, LayerError> {
+        let even = self.even.take().unwrap_or_else(|| Box::new(self.clone()));
         self.refine()?;
         let count = self.points.len();
         let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
@@ -229,7 +264,14 @@ impl RigidWall {
             points.push(interpolated(std::array::from_fn(|j| value(from as isize + j as isize - 2)), sought));
         }
         self.points = points;
+        self.even = Some(even);
         Ok(self)
+    }
+
+    /// Returns the length of one period, or of an obstacle (length).
+    fn perimeter(&self) -> f64 {
+        let ends = self.points.iter().skip(1).copied().chain([self.points[0] + self.period]);
+        self.points.iter().zip(ends).map(|(a, b)| a.distance(b)).sum()
     }
 
     /// Interpolates to so many points for each node that polynomials through neighbours are exact to round-off.
@@ -256,19 +298,78 @@ impl RigidWall {
         })
     }
 
-    /// Returns the largest angle by which the wall turns within the distance of its nodes (radians): what nodes do not
-    /// resolve is as sharp as a corner.
-    pub(crate) fn sharpest_turn(&self) -> f64 {
+    /// Returns the largest angle by which the wall turns within the distance of its nodes (radians), and this distance
+    /// (length): what nodes do not resolve is as sharp as a corner.
+    pub(crate) fn sharpest_turn(&self) -> (f64, f64) {
         let count = self.points.len();
         let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
         let turn = |k: usize| (at(k + 1) - at(k)).angle_to(at(k + 2) - at(k + 1));
         // Within one node's distance, and no less than one turn.
         let within = (count / self.nodes).max(1);
         let mut sum: f64 = (0..within).map(turn).sum();
-        (0..count).fold(sum.abs(), |largest, k| {
+        let (mut largest, mut place) = (sum.abs(), 0);
+        for k in 0..count {
             sum += turn(k + within) - turn(k);
-            largest.max(sum.abs())
-        })
+            if sum.abs() > largest {
+                (largest, place) = (sum.abs(), k + 1);
+            }
+        }
+        let steps = (place..place + within).map(|k| at(k).distance(at(k + 1)));
+        (largest, steps.sum::<f64>() * count as f64 / (within * self.nodes) as f64)
+    }
+
+    /// Returns the corners that turn by more than `limit` (radians) within the distance of the nodes of this wall, which
+    /// has that number.
+    pub(crate) fn sharp_corner(&self, wall: usize, limit: f64) -> Result<Option<SharpCorner>, LayerError> {
+        let (turn, spacing) = self.sharpest_turn();
+        if turn <= limit {
+            return Ok(None);
+        }
+        let is_rounded = self.even.is_none() && self.rounding.variance > 0.0;
+        let spacing = if is_rounded { self.rounding.perimeter / self.nodes as f64 } else { spacing };
+        let sharp = self.even.as_deref().unwrap_or(self);
+        let resolved = |length: f64| {
+            let rounded = sharp.clone().rounded(length)?;
+            // Nodes that are spread keep their distance, others come closer where a corner is cut.
+            let measured = if self.even.is_some() { rounded.evened(spacing) } else { rounded };
+            Ok::<_, LayerError>(measured.sharpest_turn().0 <= limit)
+        };
+        // A rounding that suffices, and one that does not. A Gaussian as wide as a quarter of the wall leaves no shape.
+        let (most, mut enough, mut few) = (0.25 * sharp.perimeter(), spacing, 0.0);
+        while enough < most && !resolved(enough)? {
+            (few, enough) = (enough, 2.0 * enough);
+        }
+        if enough >= most {
+            return Ok(Some(SharpCorner { wall, turn, spacing, rounding: None }));
+        }
+        while enough - few > PRECISE * enough {
+            let middle = 0.5 * (few + enough);
+            if resolved(middle)? { enough = middle } else { few = middle }
+        }
+        let Rounding { perimeter, variance } = sharp.clone().rounded(enough)?.rounding;
+        Ok(Some(SharpCorner { wall, turn, spacing, rounding: Some(perimeter * variance.sqrt()) }))
+    }
+
+    /// Returns the wall with nodes at equal distances of about `spacing` (length).
+    fn evened(&self, spacing: f64) -> Self {
+        let perimeter = self.perimeter();
+        let nodes = (perimeter / spacing).ceil().clamp(NODES[0], MOST_POINTS / FINEST as f64);
+        let many = FINEST * nodes as usize;
+        let (mut points, mut before, mut k) = (Vec::with_capacity(many), 0.0, 0);
+        let count = self.points.len();
+        let at = |k: usize| self.points[k % count] + self.period * (k / count) as f64;
+        while points.len() < many && k < count {
+            let wanted = perimeter * points.len() as f64 / many as f64;
+            let piece = at(k).distance(at(k + 1));
+            if wanted <= before + piece {
+                points.push(at(k) + (at(k + 1) - at(k)) * ((wanted - before) / piece.max(f64::MIN_POSITIVE)));
+            } else {
+                before += piece;
+                k += 1;
+            }
+        }
+        let nodes = (points.len() / FINEST).max(1);
+        Self { points, period: self.period, nodes, rounding: self.rounding, even: None }
     }
 
     /// Returns the points of one period, or of an obstacle (length).

@@ -1,9 +1,10 @@
 //! Checks of scenes: what would run, without running it.
 
+use std::error::Error;
 use std::time::Instant;
 
 use anyhow::Result;
-use motile::scene::{Every, SceneError, StepSize, System};
+use motile::scene::{Every, SceneError, StepSize, System, Warnings};
 use motile::setup::{AnyFlow, DropletShape, Numbers, Setup};
 use motile_cli::keys::written_out;
 use motile_cli::run::{Decided, Summary, say};
@@ -15,7 +16,8 @@ const TRIED: usize = 10;
 const MOST_BODIES: usize = 20;
 
 /// Builds a scene, takes its first steps, and prints what a run to the time `end` would be: region, method, bodies with
-/// their sizes and dimensionless numbers, steps, cost, and the warnings at the start. Writes no files.
+/// their sizes and dimensionless numbers, steps, cost, and the warnings of
+/// the start and the first steps. Writes no files.
 ///
 /// # Errors
 /// Returns an error for a scene that cannot be built, or whose first steps fail.
@@ -62,7 +64,8 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
         );
     }
     scene.system_mut().evaluate()?;
-    let warnings = scene.system_mut().warnings();
+    let mut warnings = Warnings::default();
+    warnings.look(scene.system_mut());
 
     // The first steps.
     if let StepSize::Fixed(dt) = setup.step {
@@ -72,7 +75,11 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
         report.put("step_limit", limit, &format!("at the start (time), set by {reason} of {body}"));
     }
     let started = Instant::now();
-    let mut few = |system: &mut System<AnyFlow>| if system.steps() < TRIED { Ok(()) } else { Err(Decided) };
+    let mut few = |system: &mut System<AnyFlow>| {
+        system.evaluate()?;
+        warnings.look(system);
+        if system.steps() < TRIED { Ok::<_, Box<dyn Error + Send + Sync>>(()) } else { Err(Decided.into()) }
+    };
     match scene.run(end).observe(Every::Steps(1), &mut few).go() {
         Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => {}
         outcome => outcome?,
@@ -82,7 +89,7 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
     report.put("steps", (end / longest).ceil(), &format!("to t = {end}, if all were as long as the first ones"));
     report.put("seconds", seconds * end / longest, "for them on this machine, without pictures");
     say(report.table().trim_end());
-    for warning in warnings {
+    for (_, warning) in warnings.worst() {
         say(format_args!("warning: {warning}"));
     }
     Ok(())

@@ -354,7 +354,7 @@ pub(crate) fn in_words(problem: &str) -> String {
 ///
 /// # Errors
 /// Returns an error if the activity of a droplet is at least as strong as its excluded volume, so that nothing stops
-/// particles that attract each other, and far above the threshold of swimming.
+/// particles that attract each other, and far stronger than the threshold of swimming.
 pub fn refuse_collapse(setup: &Setup) -> Result<()> {
     let placed = setup.placed()?;
     for (number, droplet) in placed.droplets.iter().enumerate() {

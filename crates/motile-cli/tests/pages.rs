@@ -96,3 +96,43 @@ fn scenes_and_commands_of_the_pages_run() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(one.0 + other.0 > 40, "only {} scenes and commands", one.0 + other.0);
 }
+
+/// Words of a text, joined by one blank, with one at each end.
+fn words(text: &str) -> String {
+    let words = text.split(|letter: char| !letter.is_alphabetic()).filter(|word| !word.is_empty());
+    format!(" {} ", words.collect::<Vec<_>>().join(" "))
+}
+
+/// Text of the sources in a folder and below it, without comments.
+fn sources(folder: &Path) -> String {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let read = |path: PathBuf| match path.extension() {
+        _ if path.is_dir() => sources(&path),
+        Some(end) if end == "rs" => fs::read_to_string(&path).expect("a source"),
+        _ => String::new(),
+    };
+    let text: String = entries.map(read).collect();
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).flat_map(|line| [line, "\n"]).collect()
+}
+
+/// A message under "If something goes wrong" opens a point as code. Its words, up to numbers and `...`, are in the sources.
+#[test]
+fn messages_that_pages_quote_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let (sources, mut count, mut wrong) = (words(&sources(&root.join("crates"))), 0, Vec::new());
+    for page in pages(&root.join("docs")) {
+        let text = fs::read_to_string(&page).expect("a page");
+        let Some((_, below)) = text.split_once("\n## If something goes wrong\n") else { continue };
+        let points = below.split("\n## ").next().unwrap_or(below).split("\n* `").skip(1);
+        for message in points.filter_map(|point| point.split('`').next()) {
+            let parts = message.replace("...", "0").replace('\n', " ");
+            let mut parts = parts.split(|letter: char| letter.is_ascii_digit() || ":=,()[]\"".contains(letter));
+            if !parts.all(|part| words(part).trim().is_empty() || sources.contains(&words(part))) {
+                wrong.push(format!("{}: {message}", page.display()));
+            }
+            count += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "no source has these messages:\n{}", wrong.join("\n"));
+    assert!(count > 25, "only {count} messages");
+}

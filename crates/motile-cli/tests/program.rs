@@ -324,6 +324,19 @@ fn a_check_tells_what_would_run_and_writes_nothing() {
     let told = succeeds(&[&["check", &scene][..], &film].concat());
     assert!(told.contains("warning: ") && told.contains("thin film"), "{told}");
     assert_eq!(fs::read_dir(&directory.0).unwrap().count(), before);
+    // Doubts that need the flow of a step are told as well, and each once, as a run tells them.
+    let coarse = directory.file(
+        "coarse.toml",
+        "region.box.lengths = [6.0, 6.0]\nmethod.integral = { nodes = 24, elements = 64 }\n\
+         [[droplets]]\nparticles.activity = -4.0\n",
+    );
+    let told = succeeds(&["check", &coarse]);
+    let ran = motile(&["run", &coarse, "--time", "0.01", "--quiet", "--no-pictures", "--out", &directory.path("out")]);
+    let ran = String::from_utf8(ran.stderr).expect("text");
+    for cause in ["edge of the concentration not resolved", "stresslet not resolved"] {
+        assert!(ran.contains(cause), "{cause}: {ran}");
+        assert_eq!(told.matches(cause).count(), 1, "{cause}: {told}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motile_base::{
     InputError, Refusal,
-    internal::{Refuse, decimals, place, told, told_apart},
+    internal::{Refuse, decimals, given, place, told, told_apart},
 };
 
 use crate::checkpoint::CheckpointError;
@@ -155,7 +155,7 @@ pub enum BodyError {
     /// An interface crosses itself.
     #[error(
         "the interface crosses itself at {}, between markers {first} and {second}. Use a smaller time \
-         step or activity, or a finer grid",
+         step, a weaker activity, or more nodes (with a grid, a finer one)",
         place(*x, *y)
     )]
     SelfCrossing {
@@ -257,7 +257,7 @@ pub enum SceneError {
     /// An interface and another body, or its own image in a periodic domain, or two solids have come to overlap.
     #[error(
         "at time {time} {body} has crossed {other} by {} at ({x:.4}, {y:.4}), more than {}. Use a \
-         smaller time step, a finer grid or a repulsion between the interfaces",
+         repulsion between the interfaces, a smaller time step, or more nodes (with a grid, a finer one)",
         told_apart([*depth, *allowed])[0], told_apart([*depth, *allowed])[1],
         time = told(*time)
     )]
@@ -488,6 +488,12 @@ impl SceneError {
     pub(crate) fn immovable(body: &str) -> Self {
         let remedy = "Move only droplets, rigid bodies, shells and plain markers";
         Self::refused(format!("{body} cannot be moved as a whole"), "", remedy)
+    }
+
+    /// Returns the error for a run up to a time before the present one.
+    pub(crate) fn ends_before(until: f64, time: f64) -> Self {
+        let what = format!("the run is to end at {}, before the scene's time {}", given(until), told(time));
+        Self::refused(what, "", "Give the time at which it ends, not the length of the run")
     }
 
     /// Returns the error for a handle of another scene.

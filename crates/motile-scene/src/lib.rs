@@ -47,6 +47,7 @@ pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+2");
 
 pub use body::{Body, InteriorBody, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};
+pub use gap::Repulsion;
 pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,
     Substrate,

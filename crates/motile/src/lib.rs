@@ -2,11 +2,11 @@
 //!
 //! Use motile to simulate swimming cells as active droplets. A droplet is a closed fluid interface that carries active
 //! particles. The particles raise its tension, differences of tension drive flow along the interface, and the flow
-//! gathers the particles. Above a threshold of activity the droplet polarises and swims. motile computes this in
-//! unbounded fluid, in periodic boxes, in channels with rigid walls and between elastic solids, by boundary integrals
-//! or by the immersed boundary method on a staggered grid with a correction that makes velocities on interfaces
-//! second-order accurate. The model comes from Natasha Cowley, "Effects of mechanical properties of the environment on
-//! cell migration", PhD thesis, University of Sheffield.
+//! gathers the particles. If the activity is stronger than a threshold, the droplet polarises and swims. motile
+//! computes this in unbounded fluid, in periodic boxes, in channels with rigid walls and between elastic solids, by
+//! boundary integrals or by the immersed boundary method on a staggered grid with a correction that makes velocities on
+//! interfaces second-order accurate. The model comes from Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 //!
 //! You describe a scene with a [`Setup`](setup::Setup), build it, run it, and measure its bodies:
 //!

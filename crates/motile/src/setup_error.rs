@@ -134,12 +134,12 @@ impl SetupError {
     /// it would be squeezed to (length).
     pub(crate) fn wider_than_walls(radius: f64, room: f64, half_height: f64, to: Squeezed) -> Self {
         let [radius, room] = told_apart([radius, room]);
-        let what = format!("a round droplet of radius {radius} does not fit between the walls");
+        let what = format!("a round droplet of radius {radius} does not fit between the walls and obstacles");
         let value = format!("they leave {room} around its centre");
         let to = if to == Squeezed::Ellipse { "an ellipse" } else { "a stadium" };
         let remedy = format!(
-            "Add `squeezed = true` to the droplet, so that it starts as {to} of its area of the half height {}, or use \
-             a smaller radius or wider walls",
+            "Move the droplet or the obstacle, use a smaller radius or wider walls, or add `squeezed = true` to the \
+             droplet, so that it starts as {to} of its area of the half height {}",
             told(half_height)
         );
         Self::refused(what, value, remedy)

@@ -80,7 +80,7 @@ impl StaggeredField {
     }
 
     /// Returns a field with the components of a vector function of the place (length), each where it belongs on the
-    /// grid. Places are measured from the grid's origin of coordinates.
+    /// grid. Places are in the coordinates of the grid, whose lower left corner is at [`Grid::origin`].
     #[must_use]
     pub fn from_fn(grid: Grid, function: impl Fn(Vec2) -> Vec2) -> Self {
         let (mut field, [x0, y0], h) = (Self::zeros(grid), grid.origin(), grid.spacing());

@@ -87,7 +87,9 @@ impl Entry {
 
     /// Where a page has it.
     fn anchor(&self) -> String {
-        format!("figure-{}", self.number.to_lowercase().replace('.', ""))
+        // A section such as 3.1.1 is not figure 3.11.
+        let kind = if self.number.matches('.').count() == 1 { "figure" } else { "section" };
+        format!("{kind}-{}", self.number.to_lowercase().replace('.', ""))
     }
 
     /// Its pictures, by their paths from the page.
@@ -124,6 +126,11 @@ pub(super) fn write() -> Result<()> {
 /// The names of all pages and tables, and their texts.
 pub(super) fn all() -> Result<Vec<(String, String)>> {
     let entries = numbers()?.iter().map(|number| Entry::of(number)).collect::<Result<Vec<_>>>()?;
+    let mut anchors: Vec<String> = entries.iter().map(Entry::anchor).collect();
+    anchors.sort();
+    if let Some(twice) = anchors.windows(2).find(|pair| pair[0] == pair[1]) {
+        bail!("two figures have the anchor {}", twice[0]);
+    }
     let mut texts = Vec::new();
     for path in tables::files("studies/book/chapters", "md")? {
         let name = path.file_name().context("a name")?.to_string_lossy().into_owned();
@@ -162,6 +169,11 @@ fn section(entry: &Entry) -> String {
     text += &wrapped(&format!("**Verdict: {}.** {}", entry.verdict, figure.why));
     for picture in entry.pictures() {
         let _ = write!(text, "\n![{}]({picture})\n", entry.name());
+    }
+    let axes = figure.axes();
+    if !axes.is_empty() {
+        text += "\n";
+        text += &wrapped(&format!("*Axes: {axes}.*"));
     }
     let own = format!("cargo run --release -p studies -- figure {}", entry.number);
     let mut last = format!("Reproduce: `{}`", figure.command.as_ref().unwrap_or(&own));

@@ -6,6 +6,7 @@ import importlib
 import os
 import sys
 import time as clock
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -217,9 +218,10 @@ class Scene:
         `callback` is called with the scene at the same times (at the end alone if `every` is None), the start among
         them, and may look at everything; what it raises ends the run. `step` is a step size as in a setup
         (`{"fixed": 0.01}`), the setup's by default. With `progress` there is a bar in the terminal or notebook.
+        Each new entry of `scene.warnings` is also given to Python's `warnings.warn`.
         `checkpoint` is saved after each call of the callback, except at the start, and at the end.
         """
-        first, start = len(self._scene.records()), self.time
+        first, start, known = len(self._scene.records()), self.time, len(self.warnings)
         bar = _Bar(self.time, until) if progress else None
         try:
             for stop in self._stops(until, every if callback or checkpoint else None):
@@ -231,6 +233,8 @@ class Scene:
         finally:
             if bar:
                 bar.close(self.time)
+        for text in self.warnings[known:]:
+            warnings.warn(text, stacklevel=2)
         return Track(self._scene.names, self._without_repeats(first))
 
     def _stops(self, until: float, every: float | None) -> Iterator[float]:

@@ -52,6 +52,10 @@ impl Body for ActiveInterface {
         if self.law.bending.is_some() && uneven {
             return Err(InterfaceError::uneven_bending().into());
         }
+        if let Some(place) = self.derived.tensions.iter().position(|tension| !tension.is_finite()) {
+            let (tension, c) = (self.derived.tensions[place], self.derived.concentrations[place]);
+            return Err(InterfaceError::tension_not_finite(tension, c).into());
+        }
         Ok(self.all_forces(view, forces)?)
     }
 

@@ -2,7 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motile_base::{Vec2, internal::told_apart};
+use motile_base::{
+    Vec2,
+    internal::{told, told_apart},
+};
 use motile_scene::{FluidView, StepCause, StepLimit};
 
 use super::{ActiveInterface, Motion};
@@ -35,6 +38,13 @@ pub(super) fn finest_response(view: &FluidView) -> f64 {
 /// Multiple of the mean concentration beyond which a tension law is not looked at: the concentration of all particles
 /// on one of a thousand segments.
 const MOST_CONCENTRATED: f64 = 1024.0;
+
+/// Multiples of the mean concentration at which the slope of a tension law is compared with its values.
+const SLOPE_SAMPLES: [f64; 6] = [0.5, 0.8, 1.0, 1.3, 1.8, 2.5];
+/// Distance of the values that are compared, over the mean concentration.
+const SLOPE_STEP: f64 = 1e-4;
+/// Relative error of the slope that is passed over: it changes time steps and growth rates by as much.
+const SLOPE_ERROR: f64 = 0.05;
 
 /// Returns true for a tension that grows in proportion to the concentration, or faster, up to the largest one looked
 /// at. Then the flow that the particles drive grows as fast as the diffusion that spreads them, however densely they
@@ -162,6 +172,34 @@ impl ActiveInterface {
         })
     }
 
+    /// Returns the doubt about a slope of the tension law that is not the slope of its values.
+    fn wrong_slope(&self) -> Option<(&'static str, f64, String)> {
+        if !self.carries() {
+            return None;
+        }
+        let (tension, mean) = (self.law.tension.as_ref(), self.mean_concentration());
+        SLOPE_SAMPLES.iter().find_map(|part| {
+            let (c, by) = (part * mean, SLOPE_STEP * mean);
+            let [before, here, after] = [c - by, c, c + by].map(|c| tension.value(c));
+            let [left, right] = [(here - before) / by, (after - here) / by];
+            let slope = tension.slope(c);
+            // A law may have a kink, and its values have round-off.
+            let largest = left.abs().max(right.abs()).max(slope.abs());
+            let slack = SLOPE_ERROR * largest + 64.0 * f64::EPSILON * here.abs().max(after.abs()) / by;
+            let off = (left.min(right) - slope).max(slope - left.max(right));
+            (!slope.is_finite() || off > slack).then(|| {
+                let message = format!(
+                    "`slope` of the tension law returns {} at c = {}, but the values change by {} per concentration \
+                     there: time steps and growth rates follow the slope, so they are wrong; correct `slope`",
+                    told(slope),
+                    told(c),
+                    told(0.5 * (left + right))
+                );
+                ("slope of the tension wrong", if slope.is_finite() { off / slack } else { f64::INFINITY }, message)
+            })
+        })
+    }
+
     /// Returns the doubt about a negative tension: waves of an interface under compression grow faster the shorter they
     /// are, unless its bending holds the shortest of them.
     fn negative_tension(&self, view: &FluidView) -> Option<(&'static str, f64, String)> {
@@ -209,19 +247,20 @@ impl ActiveInterface {
     /// Returns the doubts about the present state, as cause, excess and message.
     pub(super) fn doubts(&self, view: &FluidView) -> impl Iterator<Item = (&'static str, f64, String)> {
         let law = self.collapse().map(|message| ("tension without a plateau", f64::INFINITY, message));
-        let negative = self.negative_tension(view);
+        let (negative, slope) = (self.negative_tension(view), self.wrong_slope());
         let peclet = self.element_peclet();
         let edge = (peclet > PECLET_LIMIT).then(|| {
             let spacing = self.geometry().mean_length() * PECLET_LIMIT / peclet;
             let remedy = if spacing > 0.0 {
                 let cells = (self.geometry().perimeter / spacing).ceil();
-                format!("use {cells} cells (markers) instead of {}, {spacing:.2e} apart", self.geometry().lengths.len())
+                format!("use {cells} elements instead of {}, each {spacing:.2e} long", self.geometry().lengths.len())
             } else {
                 "use a positive diffusion constant".to_owned()
             };
             let [text, limit] = told_apart([peclet, PECLET_LIMIT]);
             let message = format!(
-                "the flow along a cell over diffusion across it, its Peclet number, is {text}, above {limit}: the \
+                "the Péclet number of an interface element, the flow along it over diffusion across it, is {text}, \
+                 above {limit}: the \
                  speed may be off by a per cent and more; {remedy}"
             );
             ("edge of the concentration not resolved", peclet / PECLET_LIMIT, message)
@@ -229,17 +268,17 @@ impl ActiveInterface {
         let few = view.shape_modes.filter(|nodes| *nodes < LEAST_NODES && self.carries()).map(|nodes| {
             let message = format!(
                 "{nodes} nodes carry too few waves of the shape: the speed is off by up to two per cent, the \
-                 stresslet by more, with however many cells; use {LEAST_NODES} nodes or more"
+                 stresslet by more, with however many elements; use {LEAST_NODES} nodes or more"
             );
             ("shape not resolved", LEAST_NODES as f64 / nodes as f64, message)
         });
         let upwind = self.scheme.transport.as_ref().is_some_and(|transport| transport.flux() == Flux::Upwind);
         let smeared = upwind.then(|| {
-            let message = "the upwind flux is of first order, with 200 cells the speed is 3 to 7 per cent too high: \
+            let message = "the upwind flux is of first order, with 200 elements the speed is 3 to 7 per cent too high: \
                            use the flux weno5";
             ("edge of the concentration smeared", UPWIND_ERROR, message.to_owned())
         });
-        law.into_iter().chain(negative).chain(edge).chain(few).chain(smeared)
+        law.into_iter().chain(negative).chain(slope).chain(edge).chain(few).chain(smeared)
     }
 }
 

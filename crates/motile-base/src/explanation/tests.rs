@@ -22,6 +22,18 @@ fn a_program_that_returns_an_error_prints_a_sentence() {
     assert_eq!(explanation(&*returned), sentence);
 }
 
+/// An error whose text has more after its cause.
+#[derive(Debug, thiserror::Error)]
+#[error("{0} (no shorter steps avoid it)")]
+struct Around(#[source] InputError);
+
+#[test]
+fn a_cause_is_told_once() {
+    let error = Around(InputError::NotPositive { name: "the viscosity", value: -1.0 });
+    let once = "the viscosity is -1. Use a positive finite number (no shorter steps avoid it)";
+    assert_eq!(explanation(&error), once);
+}
+
 #[test]
 fn numbers_have_as_many_digits_as_it_takes() {
     // Six at most by themselves, without zeros at the end, powers of ten where they are far from one.

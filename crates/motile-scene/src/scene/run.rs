@@ -7,7 +7,31 @@ use motile_base::{not_negative, positive, within};
 
 use crate::{Hydrodynamics, Scene, SceneError, StepSize, System, integrator::Dynamics as _};
 
-/// Records data while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
+/// Records data while a scene runs.
+///
+/// Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers if `E: Into<Box<dyn Error + Send + Sync>>`, for
+/// example [`SceneError`], `String` or `Infallible`. Name the type of the argument, because the compiler cannot infer
+/// that the closure accepts a borrow of any lifetime.
+///
+/// ```
+/// use motile_base::Vec2;
+/// use motile_scene::{Every, MarkerBody, PrescribedFlow, Scene, SceneError, StepSize, System};
+///
+/// # fn main() -> Result<(), SceneError> {
+/// // A marker moves with a flow of speed 2 along x.
+/// let mut scene = Scene::new(PrescribedFlow::new(|_| Vec2::new(2.0, 0.0)));
+/// let marker = scene.add(MarkerBody::new("marker", vec![Vec2::ZERO], |_, _| {}));
+/// let mut seen = Vec::new();
+/// let mut watch = |system: &mut System<PrescribedFlow>| {
+///     seen.push((system.time(), system.body(marker)?.markers()[0].x));
+///     Ok::<(), SceneError>(())
+/// };
+/// scene.run(1.0).step_size(StepSize::Fixed(0.25)).observe(Every::Steps(1), &mut watch).go()?;
+/// assert_eq!(seen.len(), 5);
+/// assert!(seen.iter().all(|(time, x)| (x - 2.0 * time).abs() < 1e-12));
+/// # Ok(())
+/// # }
+/// ```
 pub trait Observer<H> {
     /// Called at the start of a run, when due, and at its end. It may evaluate and sample the flow; it cannot change
     /// the bodies.
@@ -325,6 +349,9 @@ impl<'a, H: Hydrodynamics> Run<'a, H> {
     }
 
     fn check(&mut self) -> Result<(), SceneError> {
+        if self.until < self.scene.time() {
+            return Err(SceneError::ends_before(self.until, self.scene.time()));
+        }
         let length = not_negative("the time to the end of the run", self.until - self.scene.time())?;
         not_negative("the shortest step", self.least.unwrap_or_default())?;
         for watch in &self.watches {

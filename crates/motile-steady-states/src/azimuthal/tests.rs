@@ -2,6 +2,7 @@ use motile::prelude::*;
 use motile::setup::ExcludedVolume;
 
 use super::*;
+use crate::system::System;
 
 fn setup(activity: f64, viscosities: [f64; 2], nodes: usize) -> Setup {
     let mut setup = Setup {

@@ -76,7 +76,7 @@ impl Setup {
             let remedy = format!("use a number from {least:e} to {most:e}");
             let holds = (least..=most).contains(&tolerance);
             top.require(holds, "tolerance", tolerance, &remedy)?;
-            self.computed("an an accuracy of its own", &[MethodKind::Integral, MethodKind::Layers])?;
+            self.computed("an accuracy of its own", &[MethodKind::Integral, MethodKind::Layers])?;
         }
         self.flow.check(self)?;
         if !self.flow.is_none() {

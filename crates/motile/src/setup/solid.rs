@@ -193,7 +193,9 @@ pub enum SolidOutline {
     Polygon {
         /// Its corners in order (length).
         corners: Vec<[f64; 2]>,
-        /// Radius to which corners are rounded (length); 0 for sharp ones.
+        /// Radius of the arcs that replace corners (length); 0 for sharp ones. For a rigid wall, use at least 1.5 times
+        /// its spacing, however sharp the corner is. [`WallSetup::rounding`](super::WallSetup::rounding) rounds in
+        /// another way, by a Gaussian.
         #[serde(default)]
         rounding: f64,
     },

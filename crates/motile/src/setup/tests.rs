@@ -112,6 +112,13 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method = grid: it does not support rigid bodies. Use integral or layers", {
             Setup { rigid_bodies: vec![RigidBodySetup::default()], ..grid(coarse) }
         }),
+        ("method = grid: it does not support imposed flows. Use integral", {
+            Setup { flow: FlowSetup { shear: 0.1, ..FlowSetup::default() }, ..grid(coarse) }
+        }),
+        ("method = grid: it does not support rigid walls that stand in a channel. Use integral", {
+            let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
+            Setup { region: channel(6.0), walls, ..grid(coarse) }
+        }),
         ("method = layers: it does not support rigid walls", {
             let walls = WallSetup::channel(&ChannelShape::Straight { width: 3.0 }, 0.15);
             Setup { region: channel(6.0), method: layers(), walls, ..Setup::default() }
@@ -691,7 +698,10 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
     // Where no place has room for the circle it may be squeezed wherever it is.
     let mut aside = at(2.0, 0.3);
     let error = refused(&aside);
-    assert!(error.contains("a round droplet of radius 1 does not fit between the walls: they leave 0.7"), "{error}");
+    assert!(
+        error.contains("a round droplet of radius 1 does not fit between the walls and obstacles: they leave 0.7"),
+        "{error}"
+    );
     aside.droplets[0].squeezed = true;
     assert!(aside.build().is_ok());
 }
@@ -717,7 +727,7 @@ fn round_droplets_are_squeezed_only_on_request() {
             continue;
         };
         let error = shape(&setup).unwrap_err();
-        assert!(error.contains("Add `squeezed = true` to the droplet"), "{error}");
+        assert!(error.contains("or add `squeezed = true` to the droplet"), "{error}");
         assert!(setup.build().is_err_and(|error| error.to_string().starts_with("droplets[0]: a round droplet")));
         setup.droplets[0].squeezed = true;
         let Ok(DropletShape::Squeezed { radius, half_height, to }) = shape(&setup) else { panic!("{setup:?}") };
@@ -1428,4 +1438,32 @@ fn obstacles_that_touch_or_cross_the_straight_walls_are_refused() {
             "{error}"
         );
     }
+}
+
+/// The wall that crosses itself is named, not the droplet that has no room next to it.
+#[test]
+fn walls_that_cross_themselves_are_named() {
+    let bow = vec![[1.8, -0.4], [2.6, 0.4], [2.6, -0.4], [1.8, 0.4]];
+    let bow = WallSetup::new(SolidOutline::Polygon { corners: bow, rounding: 0.0 }, 0.05);
+    let disc = WallSetup::new(SolidOutline::Disc { centre: [-2.5, 0.0], radius: 0.3 }, 0.05);
+    let setup = Setup { region: channel(6.0), walls: vec![disc.clone(), bow], ..Setup::default() };
+    let error = refused(&setup);
+    // The edges cross at (2.2, 0), and the curve has nodes 0.05 apart.
+    let near = error.strip_prefix("walls[1]: the outline crosses itself near (").and_then(|rest| rest.split_once(')'));
+    let place: Vec<f64> = near.expect("a place").0.split(", ").map(|x| x.parse().unwrap()).collect();
+    assert!((place[0] - 2.2).abs() < 0.05 && place[1].abs() < 0.05, "{error}");
+    let setup = Setup { walls: vec![disc], ..Setup::default() };
+    assert!(refused(&setup).starts_with("walls[0]: rigid walls need region.channel; this region is a box. Use region"));
+}
+
+#[test]
+fn warnings_have_the_number_of_their_droplet() {
+    let method = Method::Integral(IntegralMethod { nodes: 16, elements: 64 });
+    let droplet = |x: f64| DropletSetup { centre: [x, 0.0], ..DropletSetup::active(-2.0) };
+    let region = Region::Box { lengths: [8.0, 6.0] };
+    let setup = Setup { region, method, droplets: vec![droplet(-2.0), droplet(2.0)], ..Setup::default() };
+    let warnings = setup.build().unwrap().scene.system_mut().warnings();
+    let few = warnings.iter().filter(|warning| warning.cause == "shape not resolved");
+    let bodies: Vec<&str> = few.map(|warning| warning.body.as_str()).collect();
+    assert_eq!(bodies, ["droplet (body 0)", "droplet (body 1)"]);
 }

@@ -1,7 +1,12 @@
 //! Descriptions of rigid walls and obstacles.
 
+use active_interface::InterfaceError;
 use elastic_solids::{ChannelShape, Outline};
-use motile_base::{Region, Vec2};
+use motile_base::{
+    Region, Vec2,
+    internal::{Refuse as _, place},
+    polygon::CrossingFinder,
+};
 use motile_boundary_integrals::{RigidWall, Settings};
 use motile_scene::{Hydrodynamics, gap::Boundary};
 use serde::{Deserialize, Serialize};
@@ -51,8 +56,10 @@ pub struct WallSetup {
     /// [`RigidWall::graded`].
     #[serde(default = "uniform")]
     pub grading: f64,
-    /// Length over which its corners are rounded; see [`RigidWall::rounded`]. For accurate flow there, use no less than
-    /// the spacing. It is 0 for smooth outlines, which is the default in a file.
+    /// Length over which corners are rounded: the standard deviation of a Gaussian along the wall (length), for walls
+    /// of any outline ([`RigidWall::rounded`]). A right angle needs 1.25 times the spacing, sharper corners need more,
+    /// and the warning of a corner that is not resolved names the length. To round the corners of a polygon by arcs
+    /// instead, leave this 0, which is the default in a file, and give [`SolidOutline::Polygon`] a radius.
     #[serde(default)]
     pub rounding: f64,
 }
@@ -89,6 +96,13 @@ impl WallSetup {
         checked.refuse_if(nodes.is_nan() || nodes > MOST_NODES, "spacing", self.spacing, remedy)?;
         let nodes = 2 * (0.5 * nodes).ceil() as usize;
         let points = points(&outline, (FINER * nodes as f64) as usize)?;
+        let advance = if self.outline.is_wall() { period } else { 0.0 };
+        if let Some((first, _)) =
+            CrossingFinder::default().first_crossing_over(&points, advance).map_err(InterfaceError::from)?
+        {
+            let what = format!("the outline crosses itself near {}", place(points[first].x, points[first].y));
+            return Err(SetupError::refused(what, "", "Give its points in order, around the wall"));
+        }
         let wall = if !self.outline.is_wall() {
             RigidWall::obstacle(points, nodes)?
         } else if self.outline.is_above() {
@@ -132,8 +146,15 @@ impl WallSetup {
         checked.not_negative("rounding", self.rounding)?;
         let remedy = format!("use a number from 1, for equal distances, to {MOST_GRADING}");
         checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
-        let remedy = "rigid walls stand in a channel that is wider than they are. Use the region channel";
-        checked.refuse_if(!matches!(setup.region, Region::Channel { .. }), "outline", "a rigid wall", remedy)
+        let region = match setup.region {
+            Region::Channel { .. } => return Ok(()),
+            Region::Box { .. } => "a box",
+            Region::Plane => "the plane",
+            _ => "axisymmetric",
+        };
+        let remedy = "Use region.channel, with a width above that of the walls";
+        let what = format!("rigid walls need region.channel; this region is {region}");
+        Err(SetupError::refused(what, "", remedy).of(place))
     }
 }
 

@@ -3,8 +3,7 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use ib_core::{BSpline, ImmersedBoundary, MarkerBody, MarkerKind, Scene, StepSize, Vec2};
-use stokes_grid::{Grid, PeriodicStokes};
+use ib_core::{BSpline, Grid, ImmersedBoundary, MarkerBody, MarkerKind, PeriodicStokes, Scene, StepSize, Vec2};
 
 /// Markers of an ellipse, nearly equally spaced.
 fn ellipse(count: usize) -> Vec<Vec2> {

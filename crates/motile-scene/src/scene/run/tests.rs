@@ -302,3 +302,11 @@ fn a_run_takes_no_more_steps_than_allowed() {
     let (outcome, steps) = run(3);
     assert!(matches!(outcome, Err(SceneError::TooManySteps { most: 3, .. })) && steps == 3, "{outcome:?} {steps}");
 }
+
+#[test]
+fn a_run_cannot_end_before_the_present() {
+    let mut scene = empty();
+    scene.run(4.0).go().unwrap();
+    let error = scene.run(1.0).go().unwrap_err().to_string();
+    assert!(error.starts_with("the run is to end at 1, before the scene's time 4. Give"), "{error}");
+}

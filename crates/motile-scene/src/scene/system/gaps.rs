@@ -144,7 +144,14 @@ impl<H: Hydrodynamics> System<H> {
             self.find_gaps();
         }
         let view = self.hydrodynamics.fluid_view();
-        let of_bodies = self.bodies.list.iter().flat_map(|body| body.warnings(&view));
+        // Bodies of one name are told apart by their numbers.
+        let of_bodies = self.bodies.list.iter().enumerate().flat_map(|(index, body)| {
+            let (name, full) = (body.name().to_owned(), self.bodies.name_of(index));
+            let own = move |warning: Warning| {
+                if warning.body == name { Warning { body: full.clone(), ..warning } } else { warning }
+            };
+            body.warnings(&view).into_iter().map(own)
+        });
         let mut warnings: Vec<Warning> = self.hydrodynamics.warnings().into_iter().chain(of_bodies).collect();
         let between = self
             .contacts
