@@ -38,7 +38,8 @@ pub enum InterfaceError {
     /// A tension law without a plateau has drawn the particles together to a point.
     #[error(
         "{part:.2} of all particles are on one interface element: the tension law does not level off, so they collapse \
-         towards a point at any resolution. Use a law that levels off, for example with an excluded volume stronger than the activity"
+         towards a point at any resolution. Use a law that levels off, for example with an \
+         excluded volume stronger than the activity"
     )]
     Collapse {
         /// Fraction of the particles on the fullest segment.

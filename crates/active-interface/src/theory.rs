@@ -100,7 +100,8 @@ impl LinearTheory {
     }
 
     /// Returns the threshold of the activity (force times length), which is negative. If the activity is stronger, the
-    /// uniform state is unstable and the droplet swims. If it is weaker, the droplet stays at rest. Eq. (2.20): -2 D (eta_in + eta_out) / (R0 c0).
+    /// uniform state is unstable and the droplet swims. If it is weaker, the droplet stays at rest. Eq. (2.20):
+    /// -2 D (eta_in + eta_out) / (R0 c0).
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
         let droplet = &self.0;

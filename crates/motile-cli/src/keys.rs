@@ -134,7 +134,8 @@ pub fn setup_of(table: &Value) -> Result<Setup> {
     Ok(setup)
 }
 
-/// Returns the scene of a table, which may break rules. By way of its text, because the reader of texts is compiled already.
+/// Returns the scene of a table, which may break rules. It reads the text of the table, because the reader of texts is
+/// compiled already.
 ///
 /// # Errors
 /// Returns an error for an entry that lacks others, or has another kind than the scene's.

@@ -115,7 +115,8 @@ fn sources(folder: &Path) -> String {
     text.lines().filter(|line| !line.trim_start().starts_with("//")).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// A message under "If something goes wrong" opens a point as code. Its words, up to numbers and `...`, are in the sources.
+/// A message under "If something goes wrong" opens a point as code. Its words, up to numbers and `...`, are in the
+/// sources.
 #[test]
 fn messages_that_pages_quote_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -2,7 +2,8 @@
 //!
 //! A page is written from a text in `studies/book/chapters`, in which `{{figure 3.4}}` stands for a picture with its
 //! caption, `{{3.4 | NAME}}` for the number that the check NAME of figure 3.4 found, `{{3.4 | NAME | GROUP}}` for the
-//! number of one of its groups, both with `| %` behind them for per cent or `| ±` for the number with its error, `| error` for the error alone, and
+//! number of one of its groups. Behind them, `| %` stands for percent, `| ±` for the number with its error, and `| error`
+//! for the error alone. There are also
 //! `{{failed 4.19}}`, `{{verdicts}}`, `{{questions}}`, `{{counts}}` and `{{sections}}` for what the machinery knows of all
 //! figures. Everything else that is known of the checks is in `docs/book/checks`.
 
