@@ -4,15 +4,20 @@ use super::*;
 use crate::{ActiveDroplet, Curve};
 use motile_scene::{Body, Domain};
 
-fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
-    let view = FluidView {
+/// A fluid of viscosity 3 without walls, on a grid of spacing 0.1.
+fn view() -> FluidView {
+    FluidView {
         domain: Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None },
         viscosity: 3.0,
         spacing: Some(0.1),
         shape_modes: None,
         second_order: true,
         interface_stiffness: 0.5,
-    };
+    }
+}
+
+fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
+    let view = view();
     let mut found = Vec::new();
     droplet.step_limits(&view, &mut |limit| {
         assert_eq!(limit.cause, StepCause::Decay);
@@ -119,14 +124,7 @@ fn a_wrong_slope_of_the_tension_is_told() {
 
 #[test]
 fn a_law_that_is_not_finite_is_named() {
-    let view = FluidView {
-        domain: Domain { origin: [0.0; 2], periods: [None; 2].into(), walls: None },
-        viscosity: 3.0,
-        spacing: Some(0.1),
-        shape_modes: None,
-        second_order: true,
-        interface_stiffness: 0.5,
-    };
+    let view = view();
     let mut forces = vec![Vec2::ZERO; 64];
     let mut droplet = with_law(|c| (9.0 - c).sqrt(), |_| 0.0);
     let error = droplet.write_forces(&view, &mut forces).unwrap_err().to_string();
