@@ -14,6 +14,7 @@ mod expression;
 mod figure;
 mod pages;
 pub(crate) mod statistics;
+pub(crate) mod witnesses;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -89,7 +90,6 @@ impl Making {
 /// Record of a figure that was made, in `docs/book/figures`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
-    commit: String,
     runs: usize,
     left_out: usize,
     /// Those that ended in an error, each with it.
@@ -263,7 +263,6 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
     }
     let own = || figure.data.iter().filter_map(|name| made.get(name));
     let kept = Kept {
-        commit: String::new(),
         runs: own().map(|data| data.wanted).sum(),
         left_out: own().map(|data| data.failures.len()).sum(),
         failures: own().flat_map(|data| data.failures.clone()).collect(),
@@ -290,8 +289,6 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
     }
     say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
     if common.write {
-        let commit = tables::commit(&["tests/src/validation", "crates/motile-steady-states/src"])?;
-        let kept = Kept { commit, ..kept };
         fs::create_dir_all(&folder)?;
         fs::write(pages::kept_file(number), serde_json::to_string_pretty(&kept)? + "\n")?;
     }

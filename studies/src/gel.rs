@@ -9,7 +9,7 @@ use motile::interior::{DirectorStart, GelInDroplet, GelMaterial};
 use motile::setup::{Built, DropletSetup, GelSetup, GridMethod, Method, Setup};
 use motile_tests::validation::Table;
 
-use crate::tables;
+use crate::tables::{self, Measure};
 
 /// Tension of the interface (force).
 const TENSION: f64 = 200.0;
@@ -23,10 +23,12 @@ pub(crate) fn run(keep: tables::Keep) -> Result<()> {
     let mut swimmers = Table::new("Passive droplets with a free gel, K = 2, tension 200, at t = 80", columns);
     for [alignment, activity] in GELS {
         for spacing in [0.2, 0.15, 0.1] {
-            swimmers.row(format_args!("{}", swimmer(alignment, activity, spacing)?));
+            swimmers.measure(format_args!("{alignment} | {activity} | {spacing}"), || {
+                swimmer(alignment, activity, spacing)
+            })?;
         }
     }
-    keep.tables("gel", "gel", &["crates/motile-interior", "studies/src/gel.rs"], &[swimmers])
+    keep.tables("gel", "gel", &[swimmers])
 }
 
 fn setup(alignment: f64, activity: f64, spacing: f64) -> Setup {
@@ -48,6 +50,5 @@ fn swimmer(alignment: f64, activity: f64, spacing: f64) -> Result<String> {
     let seen = scene.observe(gel)?;
     let (speed, aspect_ratio, defects) = (droplet.speed(), droplet.aspect_ratio_moments, seen.defects.len());
     let (polarisation, steps) = (Vec2::from(seen.polarisation).length(), scene.steps() as f64 / END);
-    let result = format!("{speed:.4} | {aspect_ratio:.3} | {polarisation:.3} | {defects} | {steps:.1}");
-    Ok(format!("{alignment} | {activity} | {spacing} | {result}"))
+    Ok(format!("{speed:.4} | {aspect_ratio:.3} | {polarisation:.3} | {defects} | {steps:.1}"))
 }

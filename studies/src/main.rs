@@ -63,8 +63,8 @@ enum Study {
     Nucleus(nucleus::Flags),
     /// Lets droplets exchange their particles with the inside
     Exchange(tables::Keep),
-    /// Lists the tables that are older than the last change of what they measure
-    Stale,
+    Witnesses(tables::WitnessFlags),
+    All(tables::AllFlags),
     Pages(pages::PagesFlags),
     Site(site::Flags),
     Pictures(pictures::Flags),
@@ -73,7 +73,11 @@ enum Study {
 }
 
 fn main() -> ExitCode {
-    motile_cli::command_line::run(|flags: &Flags| match &flags.study {
+    motile_cli::command_line::run(run)
+}
+
+fn run(flags: &Flags) -> anyhow::Result<()> {
+    match &flags.study {
         Study::Validation(flags) => validation::run(flags),
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
@@ -89,11 +93,12 @@ fn main() -> ExitCode {
         Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
         Study::Exchange(keep) => exchange::run(*keep),
-        Study::Stale => tables::stale(),
+        Study::Witnesses(flags) => tables::witnesses(flags),
+        Study::All(flags) => tables::all(flags),
         Study::Pages(flags) => pages::pages(flags),
         Study::Site(flags) => site::run(flags),
         Study::Pictures(flags) => pictures::run(flags),
         Study::Animations(flags) => animations::run(flags),
         Study::SharedBenchmark(flags) => shared_benchmark::run(flags),
-    })
+    }
 }

@@ -20,7 +20,7 @@ use crate::track::turning_rate;
 use motile_steady_states::{Parameter, Profile, SteadyState};
 use motile_tests::validation::Table;
 
-use crate::tables;
+use crate::tables::{self, Measure, all_wanted};
 
 /// Circles of droplets with a nucleus.
 #[derive(Debug, Args)]
@@ -178,14 +178,14 @@ fn elastic(keep: tables::Keep) -> Result<()> {
     let mut table = Table::new(&title, columns);
     for activity in ACTIVITIES {
         for shear in SHEARS.map(Some).into_iter().chain([None]) {
-            let [speed, turning, aside] = circle(activity, shear)?;
-            let shear = shear.map_or("rigid".to_owned(), |shear| shear.to_string());
-            let radius = speed / turning.abs();
-            table.row(format_args!("{activity} | {shear} | {speed:.5} | {turning:+.5} | {radius:.3} | {aside:+.4}"));
+            let name = shear.map_or("rigid".to_owned(), |shear| shear.to_string());
+            table.measure(format_args!("{activity} | {name}"), || {
+                let [speed, turning, aside] = circle(activity, shear)?;
+                Ok(format!("{speed:.5} | {turning:+.5} | {:.3} | {aside:+.4}", speed / turning.abs()))
+            })?;
         }
     }
-    let own = ["crates/elastic-solids", "studies/src/nucleus.rs"];
-    keep.tables("nucleus-elastic", "nucleus --elastic", &own, &[table])
+    keep.tables("nucleus-elastic", "nucleus --elastic", &[table])
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -194,19 +194,19 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     let columns = format!("activity | viscosity | radius | start | {VALUES}");
     let mut table = Table::new("Steady droplets with a rigid nucleus, and the mode that grows fastest", &columns);
-    let mut first = None;
     for scene in &SCENES {
         let (activity, viscosity, radius, [x, y]) = scene;
-        let row = format!("{activity} | {viscosity} | {radius} | {x}, {y}");
-        let state = push(&mut table, &row, found(scene, flags.time));
-        if *scene == FROM {
-            first = state;
-        }
+        table.measure(format_args!("{activity} | {viscosity} | {radius} | {x}, {y}"), || {
+            Ok(found(scene, flags.time).and_then(|state| values(&state)).unwrap_or_else(|error| explained(&error)))
+        })?;
     }
     let title = "Droplets of activity -1 that swim in circles, over the radius of the nucleus";
     let mut branch = Table::new(title, &format!("radius | {VALUES}"));
-    let first = first.context("there is no state to start from")?;
     let (before, after): (Vec<f64>, Vec<f64>) = RADII.into_iter().partition(|radius| *radius < FROM.2);
+    if !all_wanted() {
+        return flags.keep.tables("nucleus", "nucleus", &[table]);
+    }
+    let first = found(&FROM, flags.time).context("there is no state to start from")?;
     for list in [before.into_iter().rev().collect::<Vec<_>>(), after] {
         let mut state = first.clone();
         for radius in list {
@@ -218,6 +218,5 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }
         }
     }
-    let own = ["crates/elastic-solids", "crates/motile-steady-states/src", "studies/src/nucleus.rs"];
-    flags.keep.tables("nucleus", "nucleus", &own, &[table, branch])
+    flags.keep.tables("nucleus", "nucleus", &[table, branch])
 }

@@ -11,12 +11,11 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use motile_cli::run::say;
 use motile_tests::validation::interfaces::relax;
 use motile_tests::validation::{Reference, Table, relaxation};
 use motile_timing::median;
 
-use crate::tables;
+use crate::tables::{self, Measure, all_wanted, note};
 use crate::work_precision::cost::processor_time;
 
 /// A relaxing ellipse by motile and by IB2d.
@@ -28,9 +27,8 @@ pub(crate) struct Flags {
     /// Python with what IB2d needs
     #[arg(long, value_name = "FILE", default_value = "python3")]
     python: PathBuf,
-    /// Write the table to docs/tables, with the commit and what it depends on
-    #[arg(long, requires = "ib2d")]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 /// Cells of the box along a side and step of IB2d. Longer steps than the first of each are as accurate, shorter ones
@@ -46,6 +44,9 @@ const END: f64 = 2.0;
 /// Repetitions, of which the median time counts, and processor time that is measured at least (seconds).
 const REPETITIONS: usize = 5;
 const LONG: f64 = 0.1;
+
+/// How the table is made.
+const COMMAND: &str = "shared_benchmark --ib2d FOLDER";
 
 /// Result of a run: aspect ratio less that of the reference, relative change of the area, seconds.
 type Found = [f64; 3];
@@ -79,7 +80,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }),
         ));
     }
-    if let Some(folder) = &flags.ib2d {
+    if let Some(folder) = flags.ib2d.as_ref().filter(|_| all_wanted()) {
         let code = folder.join("pyIB2d/IBM_Blackbox");
         ensure!(code.is_dir(), "--ib2d {}: there is no {}: give a clone of IB2d", folder.display(), code.display());
     }
@@ -95,31 +96,31 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             }),
         ));
     }
+    let mut table = Table::new(title, columns);
+    let per_cent = |value: f64| format!("{:.1e}", 100.0 * value);
+    let cells = |[error, area, _]: Found| format!("{} | {}", per_cent(error / expected), per_cent(area));
+    if !all_wanted() {
+        for (code, settings, run) in &runs {
+            table.measure(format_args!("{code} | {settings}"), || Ok(cells(run()?) + " | "))?;
+        }
+        return flags.keep.tables("shared-benchmark", COMMAND, &[table]);
+    }
     // By turns, so that what else the machine does meets all alike.
     let mut found = vec![Vec::new(); runs.len()];
     for _ in 0..REPETITIONS {
-        for (found, (_, _, run)) in found.iter_mut().zip(&runs) {
-            found.push(run()?);
+        for (found, (code, settings, run)) in found.iter_mut().zip(&runs) {
+            // Python is not on every machine.
+            match code.starts_with("motile") {
+                true => found.push(note(&table, &format!("{code} | {settings}"), run)?),
+                false => found.push(run()?),
+            }
         }
     }
-    let mut table = Table::new(title, columns);
     for (found, (code, settings, _)) in found.iter().zip(&runs) {
         let seconds = median(&mut found.iter().map(|found| found[2]).collect::<Vec<_>>());
-        let [error, area, _] = found[0];
-        let per_cent = |value: f64| format!("{:.1e}", 100.0 * value);
-        table.row(format_args!(
-            "{code} | {settings} | {} | {} | {seconds:.2e}",
-            per_cent(error / expected),
-            per_cent(area)
-        ));
+        table.row(format_args!("{code} | {settings} | {} | {seconds:.2e}", cells(found[0])));
     }
-    say(&table);
-    if flags.write {
-        let command = "shared_benchmark --ib2d FOLDER";
-        let inputs = ["tests/src/validation", "studies/ib2d", "studies/src/shared_benchmark.rs"];
-        tables::write("shared-benchmark", command, &inputs, &[table])?;
-    }
-    Ok(())
+    flags.keep.tables("shared-benchmark", COMMAND, &[table])
 }
 
 /// Result of a run, and its processor time (seconds), which is too coarse a clock for a single short run.

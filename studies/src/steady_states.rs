@@ -31,9 +31,6 @@ pub(crate) struct Flags {
     keep: tables::Keep,
 }
 
-/// Sources that the tables depend on besides those of every run.
-const INPUTS: [&str; 3] = ["tests/src/validation", "crates/motile-steady-states/src", "studies/src/steady_states"];
-
 /// What makes the tables of a name, with so many nodes where they have no list of their own.
 type Run = fn(usize) -> Result<Vec<Table>>;
 
@@ -63,7 +60,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let Flags { table, nodes, keep } = flags;
     for (name, tables) in TABLES.into_iter().filter(|(name, _)| name == table) {
         let (file, command) = (format!("steady-{name}"), format!("steady_states {name} --nodes {nodes}"));
-        keep.tables(&file, &command, &INPUTS, &tables(*nodes)?)?;
+        keep.tables(&file, &command, &tables(*nodes)?)?;
     }
     Ok(())
 }

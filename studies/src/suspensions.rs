@@ -94,11 +94,10 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut rows = Rows::open(flags.rows.as_deref())?;
-    let inputs = ["crates/motile-output/src/suspension", "studies/src/suspensions.rs", "studies/src/suspensions"];
     let wanted = |part: &str| flags.part.as_deref().is_none_or(|only| only == part);
     for (number, (part, table)) in PARTS.into_iter().enumerate().filter(|(_, (part, _))| wanted(part)) {
         let name = if number > 0 { format!("suspensions-{}", number + 1) } else { "suspensions".to_owned() };
-        flags.keep.tables(&name, &format!("suspensions --part {part}"), &inputs, &[table(flags, &mut rows)?])?;
+        flags.keep.tables(&name, &format!("suspensions --part {part}"), &[table(flags, &mut rows)?])?;
     }
     Ok(())
 }

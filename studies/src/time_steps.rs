@@ -14,7 +14,7 @@ use motile::scene::{Handle, Hydrodynamics, Scene, StepSize, integrator::RungeKut
 use motile::setup::{AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 
-use crate::tables;
+use crate::tables::{self, Measure, Once};
 
 /// Makes a table.
 type Run = fn() -> Result<Table>;
@@ -34,10 +34,9 @@ pub(crate) struct Flags {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let inputs = ["crates/elastic-solids", "studies/src/time_steps.rs", "studies/src/time_steps"];
     for (name, table) in STUDIES.into_iter().filter(|(name, _)| flags.study.as_deref().is_none_or(|one| one == *name)) {
         let (file, command) = (format!("time-steps-{name}"), format!("time_steps --study {name}"));
-        flags.keep.tables(&file, &command, &inputs, &[table()?])?;
+        flags.keep.tables(&file, &command, &[table()?])?;
     }
     Ok(())
 }
@@ -73,11 +72,10 @@ fn errors(cost: &Cost, exact: &Cost) -> Result<[f64; 2]> {
     Ok([(own - other).length(), (squares.sum::<f64>() / exact.markers.len() as f64).sqrt()])
 }
 
-fn push(table: &mut Table, name: &str, step: impl std::fmt::Display, cost: &Cost, exact: &Cost) -> Result<()> {
+fn cells(cost: &Cost, exact: &Cost) -> Result<String> {
     let [place, shape] = errors(cost, exact)?;
     let Cost { steps, taken_back, evaluations, .. } = cost;
-    table.row(format_args!("{name} | {step} | {steps} | {taken_back} | {evaluations} | {place:.1e} | {shape:.1e}"));
-    Ok(())
+    Ok(format!("{steps} | {taken_back} | {evaluations} | {place:.1e} | {shape:.1e}"))
 }
 
 const COLUMNS: &str = "method | step | steps | rejected | evaluations | error of position | error of shape";
@@ -116,21 +114,16 @@ fn orders() -> Result<Table> {
     ]);
     for (flow, method, filter) in flows {
         for (stabilised, name) in [(true, "on"), (false, "off")] {
-            let motion = Motion::Equidistributed { relaxation: 50.0, filter: filter != "off" };
-            let droplets = vec![DropletSetup { motion, ..DropletSetup::default() }];
-            let setup = Setup { method, droplets, ..Setup::default() };
-            let [long, middle, short] = [0.004, 0.002, 0.001].map(|dt| after(&setup, stabilised, dt));
-            let (long, middle, short) = (long?, middle?, short?);
-            let change = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [0, 1].map(|i| rms([&a[i], &b[i]]));
-            let ([a, b], [c, d]) = (change(&long, &middle), change(&middle, &short));
-            let orders = [(a / c).log2(), (b / d).log2()];
-            let orders = format!("{:.2}, {:.2}", orders[0], orders[1]);
-            table.row(format_args!(
-                "{flow} | {name} | {filter} | {} | {} | {}",
-                &format!("{c:.1e}"),
-                &format!("{d:.1e}"),
-                &orders
-            ));
+            table.measure(format_args!("{flow} | {name} | {filter}"), || {
+                let motion = Motion::Equidistributed { relaxation: 50.0, filter: filter != "off" };
+                let droplets = vec![DropletSetup { motion, ..DropletSetup::default() }];
+                let setup = Setup { method, droplets, ..Setup::default() };
+                let [long, middle, short] = [0.004, 0.002, 0.001].map(|dt| after(&setup, stabilised, dt));
+                let (long, middle, short) = (long?, middle?, short?);
+                let change = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [0, 1].map(|i| rms([&a[i], &b[i]]));
+                let ([a, b], [c, d]) = (change(&long, &middle), change(&middle, &short));
+                Ok(format!("{c:.1e} | {d:.1e} | {:.2}, {:.2}", (a / c).log2(), (b / d).log2()))
+            })?;
         }
     }
     Ok(table)
@@ -147,20 +140,22 @@ fn transient() -> Result<Table> {
     };
     let title = format!("A swimmer of activity -4 starts, viscosity 100, h = 0.1, to t = {until}");
     let mut table = Table::new(&title, COLUMNS);
-    let exact = run(false, StepSize::Adaptive { tolerance: 1e-8 })?;
-    push(&mut table, "midpoint (reference)", "adaptive 1e-8", &exact, &exact)?;
+    let found = Once::new();
+    let exact = || found.get(|| run(false, StepSize::Adaptive { tolerance: 1e-8 }));
+    table.measure("midpoint (reference) | adaptive 1e-8", || cells(exact()?, exact()?))?;
     for dt in [0.04, 0.02, 0.01, 0.005, 0.0025] {
-        match run(false, StepSize::Fixed(dt)) {
-            Ok(cost) => push(&mut table, "midpoint", dt, &cost, &exact)?,
-            Err(error) => table.row(format_args!("midpoint | {dt} | {error}")),
-        }
+        table.measure(format_args!("midpoint | {dt}"), || match run(false, StepSize::Fixed(dt)) {
+            Ok(cost) => cells(&cost, exact()?),
+            Err(error) => Ok(format!("{error} |  |  |  | ")),
+        })?;
     }
     for (name, chebyshev, tolerances) in
         [("midpoint", false, &[1e-4, 1e-5, 1e-6, 1e-7][..]), ("RKC", true, &[1e-4, 1e-5, 1e-6])]
     {
         for &tolerance in tolerances {
-            let cost = run(chebyshev, StepSize::Adaptive { tolerance })?;
-            push(&mut table, name, format_args!("adaptive {tolerance:.0e}"), &cost, &exact)?;
+            table.measure(format_args!("{name} | adaptive {tolerance:.0e}"), || {
+                cells(&run(chebyshev, StepSize::Adaptive { tolerance })?, exact()?)
+            })?;
         }
     }
     Ok(table)

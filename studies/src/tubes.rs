@@ -25,12 +25,9 @@ pub(crate) struct Flags {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let (inputs, found): (&[&str], _) = match flags.table.as_str() {
-        "cost" => (&["studies/src/tubes/cost.rs", "benches/src/turns.rs"], cost::cost()),
-        _ => (&constrictions::INPUTS, constrictions::constrictions()),
-    };
+    let found = if flags.table == "cost" { cost::cost() } else { constrictions::constrictions() };
     let name = &flags.table;
-    flags.keep.tables(&format!("tubes-{name}"), &format!("tubes {name}"), inputs, &[found?])
+    flags.keep.tables(&format!("tubes-{name}"), &format!("tubes {name}"), &[found?])
 }
 
 /// One droplet, computed with so many nodes.

@@ -1,5 +1,5 @@
 //! Compares motile with exact and independently computed values, study by study, and prints the tables of
-//! `docs/validation.md`, and those of solids in `docs/elastic.md`.
+//! `docs/evidence/accuracy.md`, and the tables of solids in `docs/evidence/results/elastic-walls.md`.
 //!
 //! `cargo run --release -p studies -- validation all` runs everything (about half an hour on one core), a study's name
 //! only that study.
@@ -20,14 +20,13 @@ mod viscoelastic;
 use clap::{Args, builder::PossibleValuesParser};
 use motile::ib_core::{AnyKernel, Kernel};
 use motile::scene::StepSize;
-use motile::setup::{DropletSetup, GridMethod, Method, Setup};
-use motile_cli::run::say;
+use motile::setup::{GridMethod, Method, Setup};
 use motile_tests::validation::growth::Mode;
-use motile_tests::validation::scene::{on_grid, reference, without_grid};
-use motile_tests::validation::swimmers::{steady, transient};
+use motile_tests::validation::scene::{on_grid, reference};
+use motile_tests::validation::swimmers::steady;
 use motile_tests::validation::{Case, StudyError, Table, fixed_shapes, growth, order};
 
-use crate::tables;
+use crate::tables::{self, Measure};
 
 /// Compares motile with exact and independently computed values.
 #[derive(Debug, Args)]
@@ -35,12 +34,8 @@ pub(crate) struct Flags {
     /// The comparison
     #[arg(default_value = ALL, value_parser = names())]
     study: String,
-    /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
-    write: bool,
-    /// Fail if the tables are not those of docs/tables
-    #[arg(long)]
-    check: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
 }
 
 type Tables = Result<Vec<Table>, StudyError>;
@@ -48,13 +43,10 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn() -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 18] = [
+const STUDIES: [(&str, Run); 15] = [
     ("fixed-shapes", fixed),
     ("growth", grow),
     ("steady", swim),
-    ("without-grid", integrals),
-    ("transient", start_on_grid),
-    ("interface-transient", start_without_grid),
     ("recommended", recommended::recommended),
     ("channel-swimmers", channels::channel_swimmers),
     ("contrast-shapes", contrast::shapes),
@@ -77,16 +69,7 @@ fn names() -> PossibleValuesParser {
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
     for (name, run) in STUDIES.into_iter().filter(|(name, _)| [ALL, *name].contains(&flags.study.as_str())) {
-        let found = run()?;
-        found.iter().for_each(say);
-        let solids = matches!(name, "solids" | "elastic-walls" | "viscoelastic" | "soft-walls");
-        let solids = solids.then_some("crates/elastic-solids");
-        let inputs: Vec<&str> = ["tests/src/validation"].into_iter().chain(solids).collect();
-        if flags.check {
-            tables::check(name, &found)?;
-        } else if flags.write {
-            tables::write(name, &format!("validation {name}"), &inputs, &found)?;
-        }
+        flags.keep.tables(name, &format!("validation {name}"), &run()?)?;
     }
     Ok(())
 }
@@ -105,11 +88,13 @@ fn fixed() -> Tables {
     for kernel in AnyKernel::ALL {
         for corrected in [false, true] {
             for case in Case::ALL {
-                let error = |&h: &f64| Ok(fixed_shapes::errors(&kernel, corrected, h, case)?.maximum);
-                let errors = SPACINGS.iter().map(error).collect::<Result<Vec<_>, StudyError>>()?;
-                let (on, order) = (if corrected { "on" } else { "off" }, order(&SPACINGS, &errors));
-                let (kernel, case, errors) = (kernel.name(), case.name(), list(errors));
-                table.row(format_args!("{kernel} | {on} | {case} | {errors} | {order:.2}"));
+                let on = if corrected { "on" } else { "off" };
+                table.measure(format_args!("{} | {on} | {}", kernel.name(), case.name()), || {
+                    let error = |&h: &f64| Ok(fixed_shapes::errors(&kernel, corrected, h, case)?.maximum);
+                    let errors = SPACINGS.iter().map(error).collect::<Result<Vec<_>, StudyError>>()?;
+                    let order = order(&SPACINGS, &errors);
+                    Ok(format!("{} | {order:.2}", list(errors)))
+                })?;
             }
         }
     }
@@ -128,10 +113,12 @@ fn grow() -> Tables {
     );
     let (accurate, thesis) = (on_grid(0.05), Setup::thesis());
     for mode in Mode::ALL {
-        let theory = mode.theory(&accurate)?;
-        let [own, cowley] = [growth::rate(&accurate, mode)?, growth::rate(&thesis, mode)?];
-        let [error, other] = [own, cowley].map(|rate| per_cent((rate - theory) / theory.abs()));
-        table.row(format_args!("{mode:?} | {theory:.4} | {own:.4} | {error} | {cowley:.4} | {other}"));
+        table.measure(format_args!("{mode:?}"), || {
+            let theory = mode.theory(&accurate)?;
+            let [own, cowley] = [growth::rate(&accurate, mode)?, growth::rate(&thesis, mode)?];
+            let [error, other] = [own, cowley].map(|rate| per_cent((rate - theory) / theory.abs()));
+            Ok(format!("{theory:.4} | {own:.4} | {error} | {cowley:.4} | {other}"))
+        })?;
     }
     Ok(vec![table])
 }
@@ -154,50 +141,11 @@ fn swim() -> Tables {
                     (GridMethod::default(), Setup::default())
                 };
                 let method = Method::Grid(GridMethod { spacing: h, marker_spacing: Some(ds), ..preset });
-                let errors = list(steady(&reference(Setup { method, ..base }, activity), 80.0)?.list());
-                table.row(format_args!("{name} | {activity} | {h} | {ds} | {errors}"));
+                table.measure(format_args!("{name} | {activity} | {h} | {ds}"), || {
+                    Ok(list(steady(&reference(Setup { method, ..base }, activity), 80.0)?.list()))
+                })?;
             }
         }
-    }
-    Ok(vec![table])
-}
-
-fn integrals() -> Tables {
-    let mut table = Table::new(
-        "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active \
-         fraction, maximum concentration",
-        "viscosities in/out | activity | nodes | elements | errors",
-    );
-    for (inside, viscosity, activity) in [(None, 100.0, -2.0), (None, 100.0, -4.0), (Some(100.0), 10.0, -1.0)] {
-        for (nodes, elements) in [(32, 256), (48, 256), (64, 256), (64, 512), (96, 384), (128, 512), (192, 768)] {
-            let droplets = vec![DropletSetup { viscosity: inside, ..DropletSetup::default() }];
-            let setup = Setup { viscosity, droplets, ..without_grid(nodes, elements) };
-            let errors = list(steady(&reference(setup, activity), 80.0)?.list());
-            let inside = inside.unwrap_or(viscosity);
-            table.row(format_args!("{inside}/{viscosity} | {activity} | {nodes} | {elements} | {errors}"));
-        }
-    }
-    Ok(vec![table])
-}
-
-fn start_on_grid() -> Tables {
-    let mut table =
-        Table::new("Transient at activity -1: largest relative error of the speed", "h | error in % | at time");
-    for h in SPACINGS {
-        let (error, time) = transient(&reference(on_grid(h), -1.0))?;
-        table.row(format_args!("{h} | {} | {time}", per_cent(error)));
-    }
-    Ok(vec![table])
-}
-
-fn start_without_grid() -> Tables {
-    let mut table = Table::new(
-        "Transient at activity -1 without a grid, 6 x 6 box: largest relative error of the speed",
-        "nodes | elements | error in % | at time",
-    );
-    for (nodes, elements) in [(48, 192), (64, 256), (96, 384), (128, 512), (192, 768)] {
-        let (error, time) = transient(&reference(without_grid(nodes, elements), -1.0))?;
-        table.row(format_args!("{nodes} | {elements} | {:.4} | {time}", 100.0 * error));
     }
     Ok(vec![table])
 }

@@ -9,7 +9,7 @@ use motile::scene::{Every, Warnings};
 use motile::setup::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 
-use crate::tables;
+use crate::tables::{self, Measure};
 
 /// Time to which the scenes are run.
 const TIME: f64 = 8.0;
@@ -105,22 +105,23 @@ pub(crate) fn run(keep: tables::Keep) -> Result<()> {
     let mut table = Table::new(title, columns);
     for scene in &SCENES {
         let (channel, activity, [inside, outside], spacing) = scene;
-        let setup = setup(scene);
-        let (exact, _) = end(&Setup { method: RESOLVED, ..setup.clone() }, TIME)?;
-        let results = match end(&setup, TIME) {
-            Ok((found, causes)) => {
-                let errors = errors(&found, &exact)?;
-                let larger =
-                    |a: (&'static str, f64), b: &(&'static str, f64)| if b.1.abs() > a.1.abs() { *b } else { a };
-                let (name, largest) = errors.iter().fold(errors[0], larger);
-                let [error, largest] = [errors[0].1, largest].map(per_cent);
-                format!("{:.5} | {error} | {largest} | {name} | {causes}", found.speed())
-            }
-            Err(error) => format!(" |  |  |  | {error}"),
-        };
         let region = channel.map_or("box".to_owned(), |[length, width]| format!("channel {length} x {width}"));
         let method = spacing.map_or("integrals".to_owned(), |spacing| format!("grid {spacing}"));
-        table.row(format_args!("{region} | {activity} | {inside}/{outside} | {method} | {results}"));
+        table.measure(format_args!("{region} | {activity} | {inside}/{outside} | {method}"), || {
+            let setup = setup(scene);
+            let (exact, _) = end(&Setup { method: RESOLVED, ..setup.clone() }, TIME)?;
+            Ok(match end(&setup, TIME) {
+                Ok((found, causes)) => {
+                    let errors = errors(&found, &exact)?;
+                    let larger =
+                        |a: (&'static str, f64), b: &(&'static str, f64)| if b.1.abs() > a.1.abs() { *b } else { a };
+                    let (name, largest) = errors.iter().fold(errors[0], larger);
+                    let [error, largest] = [errors[0].1, largest].map(per_cent);
+                    format!("{:.5} | {error} | {largest} | {name} | {causes}", found.speed())
+                }
+                Err(error) => format!(" |  |  |  | {error}"),
+            })
+        })?;
     }
-    keep.tables("warnings", "warnings", &["studies/src/warnings.rs"], &[table])
+    keep.tables("warnings", "warnings", &[table])
 }

@@ -2,9 +2,9 @@
 //! integrators.
 //!
 //! `cargo run --release -p studies -- work_precision` takes some minutes on one core; `--only
-//! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/COMMIT/`, COMMIT being the
-//! last change to the library or to this study, and is not made again, so that the tables may be made in several goes,
-//! by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and PNG); with
+//! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/BUILD/`, where BUILD
+//! is a number that another build of this program does not have, and is not made again. So the tables may be made in
+//! several goes, by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and PNG); with
 //! `--write` the tables of docs/tables and the figures of docs/images/work_precision.
 //!
 //! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
@@ -20,7 +20,7 @@ mod shapes;
 mod studies;
 mod swimmers;
 
-use crate::tables;
+use crate::tables::{self, Measure, all_wanted, program};
 use anyhow::{Context, Result};
 use clap::Args;
 use motile_cli::run::{OutputFlags, Summary, say, write_results};
@@ -39,9 +39,8 @@ pub(crate) struct Flags {
     /// Print the speed that the swimmer of ratio 100 is compared with, and nothing else
     #[arg(long)]
     reference: bool,
-    /// Write the tables and figures of docs/ too
-    #[arg(long)]
-    write: bool,
+    #[command(flatten)]
+    keep: tables::Keep,
     #[command(flatten)]
     output: OutputFlags,
 }
@@ -57,8 +56,14 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         .flat_map(|study| lists::settings(study).into_iter().map(move |settings| (study, settings)))
         .collect();
     let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
-    let commit = tables::commit(&CODE)?;
-    let runs = directory.join("runs").join(&commit);
+    if !all_wanted() {
+        let mut table = report::empty();
+        for job in &jobs {
+            table.measure(report::name(job.0, &job.1), || Ok(report::cells(&point(job)?, " | ", "")))?;
+        }
+        return flags.keep.tables("work-precision", COMMAND, &[table]);
+    }
+    let runs = directory.join("runs").join(program()?);
     let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, point);
 
     let mut points = Vec::new();
@@ -72,10 +77,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
     write_results(&directory.join("points.csv"), &rows)?;
     let found = report::tables(&points);
-    found.iter().for_each(say);
-    if flags.write {
-        tables::write("work-precision", "work_precision", &CODE, &found)?;
-    }
+    flags.keep.tables("work-precision", COMMAND, &found)?;
     for study in Study::all() {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
         if own.is_empty() || flags.output.no_pictures {
@@ -83,7 +85,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         }
         let figure = figures::figure(study, &own);
         figure.write(&directory, study.name())?;
-        if flags.write {
+        if flags.keep.writes() {
             let pictures = tables::root().join("docs/images/work_precision");
             motile_cli::run::make_directory(&pictures)?;
             let path = pictures.join(format!("{}.svg", study.name()));
@@ -96,14 +98,16 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 }
 
 fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
+    let started = std::time::Instant::now();
     let (error, cost) = study.run(settings)?;
     let mut summary = Summary::default();
     summary.put("study", study.name(), "");
     settings.put(&mut summary);
     summary.put("error", error, "");
     cost.put(&mut summary);
+    summary.put("seconds", started.elapsed().as_secs_f64(), "");
     Ok(summary)
 }
 
-/// Sources that the tables depend on beside runs of droplets.
-const CODE: [&str; 3] = ["tests/src/validation", "crates/elastic-solids", "studies/src/work_precision"];
+/// How the tables are made.
+const COMMAND: &str = "work_precision";

@@ -21,6 +21,7 @@ mod frames;
 
 use super::Making;
 use super::expression::Row;
+use super::figure::Point;
 use crate::tables;
 use bisection::Bisection;
 use frames::Frames;
@@ -161,15 +162,12 @@ impl Data {
     /// Rows with panel, group, x and y, and a name of the curve's label that is 1.
     pub(super) fn in_points(text: &str) -> Self {
         let row = |line: &str| -> Option<Row> {
-            let (panel, rest) = line.split_once(',')?;
-            // Labels may have commas.
-            let mut parts = rest.rsplitn(5, ',').skip(1);
-            let (y, x, group, label) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
-            let numbers = [("panel", panel), ("group", group), ("x", x), ("y", y)];
-            let mut row: Row =
-                numbers.iter().filter_map(|(name, text)| Some(((*name).to_owned(), text.parse().ok()?))).collect();
-            row.insert("labelled".to_owned(), f64::from(u8::from(!label.is_empty())));
-            row.insert(plain(label), 1.0);
+            let Point { panel, curve, group, x, y } = Point::read(line)?;
+            let numbers = [("panel", panel as f64), ("x", x), ("y", y)];
+            let mut row: Row = numbers.map(|(name, value)| (name.to_owned(), value)).into();
+            row.extend(group.parse().ok().map(|group| ("group".to_owned(), group)));
+            row.insert("labelled".to_owned(), f64::from(u8::from(!curve.is_empty())));
+            row.insert(plain(&curve), 1.0);
             Some(row)
         };
         let rows = text.lines().skip(1).filter_map(row).collect();
@@ -279,6 +277,12 @@ impl Source {
             }
         }
         Ok(data)
+    }
+
+    /// The row of the run of that label, nothing if it fails or is not there.
+    pub(super) fn row(&self, name: &str, making: &Making, label: &str) -> Result<Option<Row>> {
+        let trials = self.trials(name, making)?.into_iter().filter(|trial| trial.label == label).collect();
+        Ok(self.made(name, making, trials, &mut Data::default())?.into_iter().flatten().next())
     }
 
     /// A row of each run, nothing of those that failed; what they took and failures are added to the data. Runs that

@@ -248,6 +248,28 @@ impl Judged {
     }
 }
 
+/// A point of a figure, as it is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Point {
+    pub(super) panel: usize,
+    /// Label of its curve.
+    pub(super) curve: String,
+    pub(super) group: String,
+    pub(super) x: f64,
+    pub(super) y: f64,
+}
+
+impl Point {
+    /// Of a line of the file, in which labels may have commas.
+    pub(super) fn read(line: &str) -> Option<Self> {
+        let (panel, rest) = line.split_once(',')?;
+        let mut parts = rest.rsplitn(5, ',').skip(1);
+        let (y, x, group, curve) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
+        let (curve, group) = (curve.to_owned(), group.to_owned());
+        Some(Self { panel: panel.parse().ok()?, curve, group, x: x.parse().ok()?, y: y.parse().ok()? })
+    }
+}
+
 /// Points of a group in the order of x, with the standard deviations of those that are means.
 type Group = (f64, Vec<(f64, f64, f64)>);
 
@@ -454,6 +476,21 @@ impl Figure {
             plots.extend((!colours.is_empty()).then_some(plot));
         }
         Ok((plots, table))
+    }
+
+    /// The points of all panels that the data make, without curves of which the data have no column.
+    pub(super) fn points(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Point>> {
+        let definitions = self.definitions(common)?;
+        let mut all = Vec::new();
+        for (k, panel) in self.panel.iter().enumerate() {
+            for curve in &panel.curve {
+                for (group, points) in self.groups(&curve.points, &definitions, data).unwrap_or_default() {
+                    let point = |x, y| Point { panel: k + 1, curve: curve.label.clone(), group: shown(group), x, y };
+                    all.extend(points.iter().filter(|(x, ..)| x.is_finite()).map(|(x, y, _)| point(*x, *y)));
+                }
+            }
+        }
+        Ok(all)
     }
 
     fn groups(&self, points: &Points, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Group>> {

@@ -13,6 +13,7 @@ use motile_steady_states::{
 use motile_tests::validation::Table;
 
 use super::{channel, nodes};
+use crate::tables::{Measure, Once, all_wanted};
 
 /// The threshold of polarisation along x: where the slowest symmetric mode of the droplet at rest neither grows nor
 /// decays.
@@ -59,27 +60,24 @@ pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
         let droplets = vec![DropletSetup::contractile(-0.4, 10.0)];
         Setup { region, method: nodes(count), droplets, ..Setup::default() }
     };
-    let mut exact = f64::NAN;
+    let in_the_plane = Once::new();
     let mut add = |name: String, setup: &Setup, strength: f64, diffusion: f64| {
-        let found = match polarisation(setup) {
-            Ok(critical) => {
-                let (found, frequency) = (activity(&critical), critical.mode.value.im);
-                exact = if exact.is_nan() { found } else { exact };
-                let onset = onset(critical, diffusion).map_or_else(|_| "-".into(), |value| digits(value, 3));
-                format!("{} | {} | {frequency:.4} | {onset}", digits(found, 7), digits(found / exact, 7))
-            }
-            Err(_) => "not found |  |  | ".to_owned(),
-        };
-        table.row(format_args!("{name} | {strength} | {diffusion} | {found}"));
+        table.measure(format_args!("{name} | {strength} | {diffusion}"), || {
+            let Ok(critical) = polarisation(setup) else { return Ok("not found |  |  | ".to_owned()) };
+            let (found, frequency) = (activity(&critical), critical.mode.value.im);
+            let exact = in_the_plane.get(|| Ok(activity(&polarisation(&scene(Region::Plane))?)))?;
+            let onset = onset(critical, diffusion).map_or_else(|_| "-".into(), |value| digits(value, 3));
+            Ok(format!("{} | {} | {frequency:.4} | {onset}", digits(found, 7), digits(found / exact, 7)))
+        })
     };
-    add("plane".into(), &scene(Region::Plane), 10.0, 0.1);
+    add("plane".into(), &scene(Region::Plane), 10.0, 0.1)?;
     for side in [4.0, 6.0, 12.0] {
-        add(format!("box {side}"), &scene(Region::Box { lengths: [side; 2] }), 10.0, 0.1);
+        add(format!("box {side}"), &scene(Region::Box { lengths: [side; 2] }), 10.0, 0.1)?;
     }
     for width in [2.1, 2.2, 2.3, 2.5, 3.0, 3.5, 4.0, 5.0] {
         // From where swimming is about to set in.
         let start = -0.4 - 0.3 / (width - 1.5_f64).powi(3);
-        add(format!("channel {width}"), &channel(12.0, width, start, 10.0, count), 10.0, 0.1);
+        add(format!("channel {width}"), &channel(12.0, width, start, 10.0, count), 10.0, 0.1)?;
     }
     for (strength, diffusion) in [
         (0.0, 0.1),
@@ -102,7 +100,7 @@ pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
             let mut setup = scene(region);
             setup.droplets = vec![DropletSetup::contractile(10.0 * start * diffusion, strength)];
             setup.droplets[0].particles.iter_mut().for_each(|particles| particles.diffusion = diffusion);
-            add(name.into(), &setup, strength, diffusion);
+            add(name.into(), &setup, strength, diffusion)?;
         }
     }
     Ok(vec![table])
@@ -114,29 +112,27 @@ pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
     let mut table = Table::new("Straight swimmers: activities from -0.6 to -6", header);
     for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [12.0, 18.0, 24.0].map(|l| (a, l))) {
         for width in [2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0] {
-            let start = SteadyState::find(&channel(length, width, -0.6, strength, count))?;
-            let settings = Continuation { largest_step: 0.06, ..Continuation::new(Parameter::Activity, -0.6, -6.0) };
-            let branch = settings.follow(&start, |_, _| true)?;
-            let (mut hopf, mut other) = (Vec::new(), Vec::new());
-            for point in &branch.special {
-                let (at, mode) = (point.value, &point.critical.mode);
-                match point.kind {
-                    SpecialKind::Hopf => hopf.push(format!("{at:.4} ({:.4})", mode.value.im)),
-                    kind => other.push(format!("{at:.4} ({}, {})", kind.name(), mode.symmetry.name())),
+            table.measure(format_args!("{strength} | {length} | {width}"), || {
+                let start = SteadyState::find(&channel(length, width, -0.6, strength, count))?;
+                let range = Continuation::new(Parameter::Activity, -0.6, -6.0);
+                let branch = Continuation { largest_step: 0.06, ..range }.follow(&start, |_, _| true)?;
+                let (mut hopf, mut other) = (Vec::new(), Vec::new());
+                for point in &branch.special {
+                    let (at, mode) = (point.value, &point.critical.mode);
+                    match point.kind {
+                        SpecialKind::Hopf => hopf.push(format!("{at:.4} ({:.4})", mode.value.im)),
+                        kind => other.push(format!("{at:.4} ({}, {})", kind.name(), mode.symmetry.name())),
+                    }
                 }
-            }
-            let stable: Vec<_> = branch
-                .points
-                .iter()
-                .map(|point| (point.value, point.spectrum.stability() == Stability::Stable))
-                .collect();
-            let last = stable.last().map_or(f64::NAN, |point| point.0);
-            table.row(format_args!(
-                "{strength} | {length} | {width} | {} | {} | {} | {last:.2}",
-                hopf.join("; "),
-                other.join("; "),
-                intervals(&stable)
-            ));
+                let stable: Vec<_> = branch
+                    .points
+                    .iter()
+                    .map(|point| (point.value, point.spectrum.stability() == Stability::Stable))
+                    .collect();
+                let last = stable.last().map_or(f64::NAN, |point| point.0);
+                let points = [hopf.join("; "), other.join("; ")];
+                Ok(format!("{} | {} | {} | {last:.2}", points[0], points[1], intervals(&stable)))
+            })?;
         }
     }
     Ok(vec![table])
@@ -170,20 +166,30 @@ const GOAL: f64 = -5.0;
 /// Limit cycles of width 5 and A = 10, from the Hopf point to an activity of -5.
 pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let parameter = Parameter::Activity;
-    let state = SteadyState::find(&channel(12.0, 5.0, -2.5, 10.0, count))?;
-    let spectrum = state.spectrum()?;
-    let swing = |mode: &&Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
-    let mode = spectrum.modes.iter().find(swing).context("no swings")?;
-    let hopf = state.critical(mode, parameter)?;
-    let header = "activity | amplitude | period | mean speed | instants | last harmonics | largest multiplier | of the \
+    let found = Once::new();
+    let hopf = || {
+        found.get(|| {
+            let state = SteadyState::find(&channel(12.0, 5.0, -2.5, 10.0, count))?;
+            let spectrum = state.spectrum()?;
+            let swing = |mode: &&Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
+            let mode = spectrum.modes.iter().find(swing).context("no swings")?;
+            Ok(state.critical(mode, parameter)?)
+        })
+    };
+    let header = "cycle | activity | amplitude | period | mean speed | instants | last harmonics | largest multiplier | of the \
         shifts less 1";
     let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", header);
-    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: &str| {
-        let row = format!("{at:.5} | {amplitude:.4} | {period:.3} | {speed:.6} | {rest}");
-        motile_cli::run::say(&row);
-        table.row(format_args!("{row}"));
+    let row = |at: f64, amplitude: f64, period: f64, speed: f64, rest: &str| {
+        format!("{at:.5} | {amplitude:.4} | {period:.3} | {speed:.6} | {rest}")
     };
-    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, " |  |  | ");
+    table.measure("Hopf point", || {
+        let hopf = hopf()?;
+        Ok(row(activity(hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, " |  |  | "))
+    })?;
+    if !all_wanted() {
+        return Ok(vec![table]);
+    }
+    let mut number = 0;
     let mut show = |cycle: &LimitCycle| -> Result<()> {
         let (at, amplitude) = (cycle.value(parameter), cycle.amplitude()?);
         let multipliers = cycle.multipliers()?;
@@ -192,10 +198,13 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
         let largest = resolved.map_or_else(String::new, |value| format!("{:.4}", value.norm()));
         let (instants, tail, neutral) = (cycle.instants(), cycle.tail(), multipliers.neutral);
         let told = format!("{instants} | {tail:.0e} | {largest} | {neutral:.0e}");
-        push(at, amplitude, cycle.period(), cycle.mean_speed(), &told);
+        let row = row(at, amplitude, cycle.period(), cycle.mean_speed(), &told);
+        number += 1;
+        motile_cli::run::say(&row);
+        table.row(format_args!("{number} | {row}"));
         Ok(())
     };
-    LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
+    LimitCycle::follow(hopf()?, parameter, AMPLITUDE, INSTANTS, |cycle| {
         // The last one at the activity of the reference.
         let last = cycle.value(parameter) < GOAL;
         let shown = match last {

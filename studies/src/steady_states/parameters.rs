@@ -9,6 +9,7 @@ use motile_tests::validation::Table;
 
 use super::{channel, nodes};
 use crate::book::statistics::line;
+use crate::tables::{Measure, Once, all_wanted};
 
 /// Lengths of the table, and the largest factor from one to the next on the way.
 const LENGTHS: [f64; 13] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 120.0, 144.0, 180.0, 240.0];
@@ -42,17 +43,19 @@ fn film(state: &SteadyState, width: f64) -> f64 {
 /// Speeds over the length of a channel of width 2, and two laws; then the stresslet in one of width 3.
 pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     let width = 2.0;
-    let mut open: Vec<(f64, SteadyState)> = Vec::new();
-    for length in LENGTHS {
-        let next = match open.last() {
-            Some((_, last)) => stretched(last, length),
-            None => Ok(SteadyState::find(&channel(length, width, -2.0, 10.0, count))?),
-        };
-        let Ok(next) = next else { break };
-        open.push((length, next));
-    }
     let header = "length | speed | film | last modes | growth rate";
     let mut speeds = Table::new("Straight swimmers, width 2, activity -2, A = 10", header);
+    let shortest = Once::new();
+    let shortest = || shortest.get(|| Ok(SteadyState::find(&channel(LENGTHS[0], width, -2.0, 10.0, count))?));
+    speeds.measure(format_args!("{:.2}", LENGTHS[0]), || cells(shortest()?, width))?;
+    if !all_wanted() {
+        return Ok(vec![speeds, stresslets(count)?]);
+    }
+    let mut open: Vec<(f64, SteadyState)> = vec![(LENGTHS[0], shortest()?.clone())];
+    for length in &LENGTHS[1..] {
+        let Some(Ok(next)) = open.last().map(|(_, last)| stretched(last, *length)) else { break };
+        open.push((*length, next));
+    }
     let points = tabulated(&mut speeds, &open, width)?;
     // Where the straight swimmers lose their stability those branch off that are not their own mirror images.
     let Some((length, start)) = open.iter().rev().find(|(length, _)| *length < TILTS_AT) else { bail!("no swimmer") };
@@ -96,11 +99,17 @@ fn tabulated(table: &mut Table, states: &[(f64, SteadyState)], width: f64) -> Re
             points.push((*length, speed));
         }
         let name = if length.is_finite() { format!("{length:.2}") } else { "any, no net flux".into() };
-        let growth = state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re);
-        let numbers = [format!("{speed:.8}"), format!("{:.4}", film(state, width)), format!("{:.0e}", state.tail())];
-        table.push(std::iter::once(name).chain(numbers).chain([format!("{growth:.5}")]));
+        if !table.has_row(&name) {
+            table.row(format_args!("{name} | {}", cells(state, width)?));
+        }
     }
     Ok(points)
+}
+
+fn cells(state: &SteadyState, width: f64) -> Result<String> {
+    let (speed, film, tail) = (state.velocity().x, film(state, width), state.tail());
+    let growth = state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re);
+    Ok(format!("{speed:.8} | {film:.4} | {tail:.0e} | {growth:.5}"))
 }
 
 /// Straight swimmers in a channel of width 3 at an activity of -4 over its length.
@@ -108,12 +117,12 @@ fn stresslets(count: usize) -> Result<Table> {
     let header = "A | length | stresslet | speed | growth rate | frequency";
     let mut table = Table::new("Width 3, activity -4", header);
     for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [8.0, 12.0, 18.0, 24.0, 36.0].map(|l| (a, l))) {
-        let state = SteadyState::find(&channel(length, 3.0, -4.0, strength, count))?;
-        let (seen, spectrum) = (state.measured()?, state.spectrum()?);
-        let leading = spectrum.leading().map(|mode| mode.value).unwrap_or_default();
-        let numbers = [format!("{:.3}", seen.stresslet), format!("{:.6}", seen.speed)];
-        let rates = [format!("{:.5}", leading.re), format!("{:.4}", leading.im)];
-        table.push([strength, length].map(|value| value.to_string()).into_iter().chain(numbers).chain(rates));
+        table.measure(format_args!("{strength} | {length}"), || {
+            let state = SteadyState::find(&channel(length, 3.0, -4.0, strength, count))?;
+            let (seen, spectrum) = (state.measured()?, state.spectrum()?);
+            let leading = spectrum.leading().map(|mode| mode.value).unwrap_or_default();
+            Ok(format!("{:.3} | {:.6} | {:.5} | {:.4}", seen.stresslet, seen.speed, leading.re, leading.im))
+        })?;
     }
     Ok(table)
 }
@@ -128,11 +137,13 @@ pub(super) fn contrast(count: usize) -> Result<Vec<Table>> {
         Table::new("Box 6, activity -2, A = 10, sum of the viscosities 200", &format!("inside/outside | {HEADER}"));
     let droplet = DropletSetup { viscosity: Some(100.0), ..DropletSetup::active(-2.0) };
     let setup = Setup { method: nodes(count), droplets: vec![droplet], ..Setup::default() };
-    let start = SteadyState::find(&setup)?;
-    for (from, to) in [(1.0, 0.02), (1.0, 50.0)] {
+    let start = Once::new();
+    let start = || start.get(|| Ok(SteadyState::find(&setup)?));
+    ratios.measure("1.0000", || described(start()?, start()?.spectrum()?.leading()))?;
+    for (from, to) in [(1.0, 0.02), (1.0, 50.0)].into_iter().filter(|_| all_wanted()) {
         let settings = Continuation { largest_step: 0.25, ..Continuation::new(parameter, from, to) };
-        let branch = settings.follow(&start, |_, _| true)?;
-        for point in &branch.points {
+        let branch = settings.follow(start()?, |_, _| true)?;
+        for point in branch.points.iter().filter(|point| point.value != from) {
             let cells = described(&point.state, point.spectrum.leading())?;
             ratios.row(format_args!("{:.4} | {cells}", point.value));
         }
@@ -145,11 +156,13 @@ pub(super) fn contrast(count: usize) -> Result<Vec<Table>> {
         Table::new("Strong activity in a box of 6", &format!("inside | outside | activity | A | {HEADER}"));
     for (inside, outside, activity) in [(1000.0, 500.0, -15.0), (1000.0, 100.0, -10.0)] {
         for strength in [13.5, 16.0, 20.0, 25.0, 30.0] {
-            let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::contractile(activity, strength) };
-            let setup = Setup { method: nodes(count), viscosity: outside, droplets: vec![droplet], ..Setup::default() };
-            let state = SteadyState::find(&setup)?;
-            let cells = described(&state, state.spectrum()?.leading())?;
-            strong.row(format_args!("{inside} | {outside} | {activity} | {strength} | {cells}"));
+            strong.measure(format_args!("{inside} | {outside} | {activity} | {strength}"), || {
+                let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::contractile(activity, strength) };
+                let droplets = vec![droplet];
+                let setup = Setup { method: nodes(count), viscosity: outside, droplets, ..Setup::default() };
+                let state = SteadyState::find(&setup)?;
+                described(&state, state.spectrum()?.leading())
+            })?;
         }
     }
     Ok(vec![ratios, strong])

@@ -7,12 +7,12 @@ use motile::active_interface::ActiveDroplet;
 use motile::base::{Drive, Region, TubeShape, Vec2};
 use motile::scene::Scene;
 use motile::setup::{DropletSetup, Particles, Setup};
-use motile_cli::run::say;
 use motile_steady_states::{Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 use motile_tests::validation::Table;
 
 use super::bifurcations::{activity, digits, polarisation};
 use super::nodes;
+use crate::tables::{Measure, Once};
 
 /// Pairs of nodes of a table whose digits should agree.
 const PAIR: [usize; 2] = [96, 128];
@@ -87,20 +87,27 @@ pub(super) fn space() -> Result<Vec<Table>> {
     ] {
         let [inside, outside] = viscosities;
         let names = format!("{inside}/{outside} | {activity} | {strength}");
-        let (mut turns, mut flattens) = ([[f64::NAN; 2]; 2], [[f64::NAN; 2]; 2]);
+        let states = [Once::new(), Once::new()];
+        let state = |k: usize| {
+            let setup = || droplet(Region::Space, viscosities, activity, strength, PAIR[k]);
+            states[k].get(|| Ok(SteadyState::find(&setup())?))
+        };
         for (k, count) in PAIR.into_iter().enumerate() {
-            let state = SteadyState::find(&droplet(Region::Space, viscosities, activity, strength, count))?;
-            let seen = state.measured()?;
-            let values = [seen.speed, seen.aspect_ratio, seen.concentration[0], seen.stresslet];
-            let values = values.map(|value| digits(value, 6)).join(" | ");
-            let (tail, grows) = (state.tail(), leading(&state)?);
-            table.row(format_args!("{names} | {count} | {values} | {tail:.0e} | {grows:.4}"));
-            (turns[k], flattens[k]) = (turning(&state, 1)?, turning(&state, 2)?);
+            table.measure(format_args!("{names} | {count}"), || {
+                let (state, seen) = (state(k)?, state(k)?.measured()?);
+                let values = [seen.speed, seen.aspect_ratio, seen.concentration[0], seen.stresslet];
+                let values = values.map(|value| digits(value, 6)).join(" | ");
+                Ok(format!("{values} | {:.0e} | {:.4}", state.tail(), leading(state)?))
+            })?;
         }
-        let of = |found: [[f64; 2]; 2]| [rate(found[0], 4), rate(found[1], 4), settled(found)].join(" | ");
-        let row = format!("{names} | {} | {} | {}", of(turns), of(flattens), regime(turns, flattens));
-        say(&row);
-        regimes.row(format_args!("{row}"));
+        regimes.measure(&names, || {
+            let (mut turns, mut flattens) = ([[f64::NAN; 2]; 2], [[f64::NAN; 2]; 2]);
+            for k in 0..PAIR.len() {
+                (turns[k], flattens[k]) = (turning(state(k)?, 1)?, turning(state(k)?, 2)?);
+            }
+            let of = |found: [[f64; 2]; 2]| [rate(found[0], 4), rate(found[1], 4), settled(found)].join(" | ");
+            Ok(format!("{} | {} | {}", of(turns), of(flattens), regime(turns, flattens)))
+        })?;
     }
     Ok(vec![table, regimes])
 }
@@ -110,19 +117,21 @@ pub(super) fn tubes() -> Result<Vec<Table>> {
     let header = "radius | nodes | speed | film | aspect ratio | stresslet | tail | m = 0 | m = 1";
     let mut table = Table::new("Swimmers in tubes without flux, viscosities 100, activity -2, A = 4", header);
     for (radius, count) in RADII.into_iter().flat_map(|radius| PAIR.map(|count| (radius, count))) {
-        let state = SteadyState::find(&droplet(Region::tube(radius), [100.0; 2], -2.0, 4.0, count))?;
-        let seen = state.measured()?;
-        let widest = state.profile().positions.iter().map(|x| x.y).fold(0.0, f64::max);
-        table.row(format_args!(
-            "{radius} | {count} | {} | {} | {} | {} | {:.0e} | {:.4} | {}",
-            digits(seen.speed, 6),
-            digits(radius - widest, 5),
-            digits(seen.aspect_ratio, 6),
-            digits(seen.stresslet, 6),
-            state.tail(),
-            leading(&state)?,
-            rate(turning(&state, 1)?, 5)
-        ));
+        table.measure(format_args!("{radius} | {count}"), || {
+            let state = SteadyState::find(&droplet(Region::tube(radius), [100.0; 2], -2.0, 4.0, count))?;
+            let seen = state.measured()?;
+            let widest = state.profile().positions.iter().map(|x| x.y).fold(0.0, f64::max);
+            Ok(format!(
+                "{} | {} | {} | {} | {:.0e} | {:.4} | {}",
+                digits(seen.speed, 6),
+                digits(radius - widest, 5),
+                digits(seen.aspect_ratio, 6),
+                digits(seen.stresslet, 6),
+                state.tail(),
+                leading(&state)?,
+                rate(turning(&state, 1)?, 5)
+            ))
+        })?;
     }
     Ok(vec![table, drives()?])
 }
@@ -134,22 +143,20 @@ fn drives() -> Result<Table> {
     );
     let mut table = Table::new(&title, "length | speed | over that without flux | excess times length");
     let setup = droplet(Region::tube(RADIUS), [100.0; 2], -2.0, 4.0, 96);
-    let closed = SteadyState::find(&setup)?;
-    let still = closed.measured()?.speed;
+    let closed = Once::new();
+    let closed = || closed.get(|| Ok(SteadyState::find(&setup)?));
     for length in LENGTHS {
-        let (shape, drive) = (TubeShape::Straight, Drive::ZeroGradient);
-        let region = Region::Tube { radius: RADIUS, shape, drive, length: Some(length) };
-        let open = SteadyState::near(&Setup { region, ..setup.clone() }, closed.profile(), closed.velocity(), true)?;
-        let speed = open.measured()?.speed;
-        let excess = speed / still - 1.0;
-        table.row(format_args!(
-            "{length} | {} | {} | {}",
-            digits(speed, 6),
-            digits(speed / still, 6),
-            digits(excess * length, 4)
-        ));
+        table.measure(length, || {
+            let (closed, still) = (closed()?, closed()?.measured()?.speed);
+            let (shape, drive) = (TubeShape::Straight, Drive::ZeroGradient);
+            let region = Region::Tube { radius: RADIUS, shape, drive, length: Some(length) };
+            let setup = Setup { region, ..setup.clone() };
+            let speed = SteadyState::near(&setup, closed.profile(), closed.velocity(), true)?.measured()?.speed;
+            let (ratio, excess) = (speed / still, speed / still - 1.0);
+            Ok(format!("{} | {} | {}", digits(speed, 6), digits(ratio, 6), digits(excess * length, 4)))
+        })?;
     }
-    table.row(format_args!("no flux | {} | 1 | ", digits(still, 6)));
+    table.measure("no flux", || Ok(format!("{} | 1 | ", digits(closed()?.measured()?.speed, 6))))?;
     Ok(table)
 }
 
@@ -186,14 +193,18 @@ pub(super) fn folds(count: usize) -> Result<Vec<Table>> {
         [([100.0; 2], 0.5), ([100.0; 2], 1.0), ([100.0; 2], 4.0), ([10.0, 100.0], 1.0), ([100.0, 10.0], 1.0)]
     {
         let [inside, outside] = viscosities;
-        let mut cells = vec![format!("{inside}/{outside}"), strength.to_string()];
-        let [threshold, fold, speed, jump] = fold(viscosities, strength, 10.0, count)?;
-        let values = [(threshold, 6), (fold, 6), (fold / threshold, 5), (speed, 4), (jump, 4)];
-        let cell = |(value, count): (f64, i32)| if value.is_finite() { digits(value, count) } else { "-".to_owned() };
-        cells.extend(values.map(cell));
-        table.push(cells);
+        table.measure(format_args!("{inside}/{outside} | {strength}"), || {
+            let [threshold, fold, speed, jump] = fold(viscosities, strength, 10.0, count)?;
+            let values = [(threshold, 6), (fold, 6), (fold / threshold, 5), (speed, 4), (jump, 4)];
+            Ok(values.map(cell).join(" | "))
+        })?;
     }
     Ok(vec![table, tensions(count)?])
+}
+
+/// A value in so many digits, or that there is none.
+fn cell((value, count): (f64, i32)) -> String {
+    if value.is_finite() { digits(value, count) } else { "-".to_owned() }
 }
 
 /// Activities and times of a run in which the activity is raised and lowered, the fold and the threshold between the
@@ -232,10 +243,10 @@ fn tensions(count: usize) -> Result<Table> {
     let header = "tension | threshold | fold | fold over threshold";
     let mut table = Table::new("Onset of swimming, viscosities 10/100, A = 1, over the tension", header);
     for tension in [10.0, 100.0, 1000.0] {
-        let [threshold, fold, ..] = fold([10.0, 100.0], 1.0, tension, count)?;
-        let cell = |value: f64, count| if value.is_finite() { digits(value, count) } else { "-".to_owned() };
-        let [below, turn, ratio] = [(threshold, 6), (fold, 6), (fold / threshold, 5)].map(|(value, n)| cell(value, n));
-        table.row(format_args!("{tension} | {below} | {turn} | {ratio}"));
+        table.measure(tension, || {
+            let [threshold, fold, ..] = fold([10.0, 100.0], 1.0, tension, count)?;
+            Ok([(threshold, 6), (fold, 6), (fold / threshold, 5)].map(cell).join(" | "))
+        })?;
     }
     Ok(table)
 }

@@ -8,6 +8,7 @@ use motile_steady_states::{Complex64, SteadyState, Symmetry};
 use motile_tests::validation::{Reference, Table};
 
 use super::{channel, nodes};
+use crate::tables::Measure;
 
 /// Nodes of the tables.
 const NODES: [usize; 4] = [72, 96, 128, 160];
@@ -39,13 +40,15 @@ pub(super) fn swimmers() -> Result<Vec<Table>> {
     for (name, setup, reference) in scenes()? {
         let stresslet = if reference.value("Sxx_f").is_ok() { "Sxx_f" } else { "Sxx" };
         for count in NODES {
-            let seen = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.measured()?;
-            let values = [seen.speed, seen.stresslet, seen.aspect_ratio, seen.concentration[0]];
-            let errors = values
-                .into_iter()
-                .zip(["speed", stresslet, "AR_mom", "cmax"])
-                .map(|(value, column)| Ok(format!("{:.0e}", (value / reference.value(column)? - 1.0).abs())));
-            table.row(format_args!("{name} | {count} | {}", errors.collect::<Result<Vec<_>>>()?.join(" | ")));
+            table.measure(format_args!("{name} | {count}"), || {
+                let seen = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.measured()?;
+                let values = [seen.speed, seen.stresslet, seen.aspect_ratio, seen.concentration[0]];
+                let errors = values
+                    .into_iter()
+                    .zip(["speed", stresslet, "AR_mom", "cmax"])
+                    .map(|(value, column)| Ok(format!("{:.0e}", (value / reference.value(column)? - 1.0).abs())));
+                Ok(errors.collect::<Result<Vec<_>>>()?.join(" | "))
+            })?;
         }
     }
     Ok(vec![table])
@@ -62,29 +65,25 @@ pub(super) fn lateral() -> Result<Vec<Table>> {
         if closed {
             setup.region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroFlux };
         }
-        let mut push = |how: String, swing: Complex64| -> Result<()> {
+        let cells = |swing: Complex64| -> Result<String> {
             let error = |value: f64, name: &str| -> Result<String> {
                 Ok(format!("{:.0e}", (value / reference.value(name)? - 1.0).abs()))
             };
-            table.row(format_args!(
-                "{activity} | {} | {how} | {:.7} | {} | {:.6} | {}",
-                if closed { "zero flux" } else { "zero gradient" },
-                swing.re,
-                error(swing.re, "growth")?,
-                swing.im,
-                error(swing.im, "freq")?
-            ));
-            Ok(())
+            let errors = [error(swing.re, "growth")?, error(swing.im, "freq")?];
+            Ok(format!("{:.7} | {} | {:.6} | {}", swing.re, errors[0], swing.im, errors[1]))
         };
+        let drive = if closed { "zero flux" } else { "zero gradient" };
         for count in NODES {
-            let spectrum = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.spectrum()?;
-            let swing = spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap_or(Complex64::ZERO);
-            push(count.to_string(), swing)?;
+            table.measure(format_args!("{activity} | {drive} | {count}"), || {
+                let spectrum = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.spectrum()?;
+                cells(spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap_or(Complex64::ZERO))
+            })?;
         }
         if activity < -3.0 {
             for count in [48, 72, 108] {
-                let run = fitted(&Setup { method: nodes(count), ..setup.clone() })?;
-                push(format!("a run of {count}/{}", 4 * count), run)?;
+                table.measure(format_args!("{activity} | {drive} | a run of {count}/{}", 4 * count), || {
+                    cells(fitted(&Setup { method: nodes(count), ..setup.clone() })?)
+                })?;
             }
         }
     }

@@ -12,6 +12,8 @@ use motile::setup::{
 };
 use motile_tests::validation::{Table, scene::open_channel};
 
+use crate::tables::Measure as _;
+
 /// Tolerance of the steps that the default is compared with.
 const FINE: f64 = 1e-6;
 /// Looks at a run.
@@ -133,18 +135,18 @@ pub(super) fn default_steps() -> Result<Table> {
     let columns = "scene | time | measured | value | error in % | of position | steps | retried | steps at 1e-6";
     let mut table = Table::new(title, columns);
     for (name, setup, until, measure) in scenes() {
-        let fine = Setup { step: StepSize::Adaptive { tolerance: FINE }, ..setup.clone() };
-        let runs = found(&setup, until, measure).and_then(|found_| Ok((found_, found(&fine, until, measure)?)));
-        let row = match runs {
-            Ok((Found { value, place, steps, retried }, fine)) => {
-                let error = 100.0 * (value / fine.value - 1.0).abs();
-                let apart = place.distance(fine.place);
-                format!("{value:.6} | {error:.1e} | {apart:.1e} | {steps} | {retried} | {}", fine.steps)
-            }
-            Err(error) => format!("ends: {error} |  |  |  |  | "),
-        };
-        eprintln!("{name}: {row}");
-        table.row(format_args!("{name} | {until} | {} | {row}", format!("{measure:?}").to_lowercase()));
+        table.measure(format_args!("{name} | {until} | {}", format!("{measure:?}").to_lowercase()), || {
+            let fine = Setup { step: StepSize::Adaptive { tolerance: FINE }, ..setup.clone() };
+            let runs = found(&setup, until, measure).and_then(|found_| Ok((found_, found(&fine, until, measure)?)));
+            Ok(match runs {
+                Ok((Found { value, place, steps, retried }, fine)) => {
+                    let error = 100.0 * (value / fine.value - 1.0).abs();
+                    let apart = place.distance(fine.place);
+                    format!("{value:.6} | {error:.1e} | {apart:.1e} | {steps} | {retried} | {}", fine.steps)
+                }
+                Err(error) => format!("ends: {error} |  |  |  |  | "),
+            })
+        })?;
     }
     Ok(table)
 }

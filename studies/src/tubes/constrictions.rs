@@ -10,14 +10,11 @@ use motile::setup::{AnyFlow, Built, DropletSetup, Setup};
 use motile_cli::run::{Decided, say};
 
 use motile_tests::validation::Table;
-use rayon::prelude::*;
 use toml::{Table as Toml, Value};
 
 use super::scene;
+use crate::tables::Measure;
 
-/// Sources that the table depends on besides those of every run.
-pub(super) const INPUTS: [&str; 2] =
-    ["studies/src/tubes/constrictions.rs", "studies/book/data/environment-constriction.toml"];
 /// End of the runs, and place on the axis where they start (R0).
 const TIME: f64 = 160.0;
 const START: f64 = -4.0;
@@ -142,16 +139,18 @@ pub(super) fn constrictions() -> Result<Table> {
         Place::Tube => boundary(|throat| in_tube(count, throat), beyond, ends),
         Place::Plane(drive) => boundary(|width| in_channel(drive, width), beyond, ends),
     };
-    let found: Vec<Boundary> = CASES.into_par_iter().map(work).collect::<Result<_>>()?;
-    for ((place, count, _), (ends, runs, failed)) in CASES.into_iter().zip(found) {
+    for (place, count, between) in CASES {
         let name = match place {
             Place::Tube => "tube, no flux",
             Place::Plane(Drive::ZeroFlux) => "plane, no flux",
             Place::Plane(_) => "plane, no pressure drop",
         };
         let of = |value: f64| if value.is_finite() { format!("{value:.4}") } else { "-".to_owned() };
-        let ([held, passed], error) = (ends.map(of), of((ends[1] - ends[0]) / (ends[0] + ends[1])));
-        table.row(format_args!("{name} | {count} | {held} | {passed} | {error} | {runs} | {failed}"));
+        table.measure(format_args!("{name} | {count}"), || {
+            let (ends, runs, failed) = work((place, count, between))?;
+            let ([held, passed], error) = (ends.map(of), of((ends[1] - ends[0]) / (ends[0] + ends[1])));
+            Ok(format!("{held} | {passed} | {error} | {runs} | {failed}"))
+        })?;
     }
     Ok(table)
 }

@@ -8,6 +8,7 @@ use motile_tests::validation::{StudyError, Table};
 use motile::active_interface::theory::{Stratum, StratumEnd};
 
 use super::Tables;
+use crate::tables::Measure;
 
 /// End of the long runs, and of those of a droplet.
 const LONG: f64 = 200.0;
@@ -51,16 +52,16 @@ fn growth() -> Result<Table, StudyError> {
         ("pair, opposite", "3, 1, 3", channel(4.0), &pair, &opposite, 1, between(StratumEnd::Opposite { thickness })),
     ];
     for (name, viscosities, region, interfaces, signs, waves, [below, above]) in geometries {
-        let flat = Flat { region, exterior: 1.0, interfaces, signs, waves };
-        let exact = flat.theory(below, above)?;
-        let found = [64, 128, 256].map(|cells| flat.growth(64, cells * waves));
-        let [coarse, middle, fine] = found;
-        let errors = [&coarse?, &middle?, &fine?].map(|found| (difference(*found, exact), found[1][1]));
-        let shape = (errors[0].1 / exact[1][1] - 1.0).abs();
-        let [coarse, middle, fine] = errors.map(|(error, _)| error);
-        table.row(format_args!(
-            "{name} | {viscosities} | {waves} | {coarse:.1e} | {middle:.1e} | {fine:.1e} | {shape:.0e}"
-        ));
+        table.measure(format_args!("{name} | {viscosities} | {waves}"), || {
+            let flat = Flat { region, exterior: 1.0, interfaces, signs, waves };
+            let exact = flat.theory(below, above)?;
+            let found = [64, 128, 256].map(|cells| flat.growth(64, cells * waves));
+            let [coarse, middle, fine] = found;
+            let errors = [&coarse?, &middle?, &fine?].map(|found| (difference(*found, exact), found[1][1]));
+            let shape = (errors[0].1 / exact[1][1] - 1.0).abs();
+            let [coarse, middle, fine] = errors.map(|(error, _)| error);
+            Ok(format!("{coarse:.1e} | {middle:.1e} | {fine:.1e} | {shape:.0e}"))
+        })?;
     }
     Ok(table)
 }
@@ -88,25 +89,27 @@ fn patterns() -> Result<Table, StudyError> {
         "activity | nodes | largest c/c0 | height of the longest wave | drift | flux | particles | mean height",
     );
     for (activity, nodes) in [(-0.5, 32), (-0.5, 48), (-1.0, 32), (-1.0, 48), (-2.0, 32), (-2.0, 48)] {
-        let Built { mut scene, interfaces, .. } = walls(activity, 0.05, 3.0, nodes).build()?;
-        let before = scene.observe(interfaces[1])?;
-        let phase = |modes: &motile::active_interface::observables::FourierModes| {
-            modes.sines[0].atan2(modes.cosines[0]) * PERIOD / std::f64::consts::TAU
-        };
-        scene.run(0.9 * LONG).go()?;
-        let earlier = phase(&scene.observe(interfaces[1])?.concentration_modes);
-        scene.run(LONG).go()?;
-        let seen = scene.observe(interfaces[1])?;
-        let moved = phase(&seen.concentration_modes) - earlier;
-        let drift = (moved - PERIOD * (moved / PERIOD).round()) / (0.1 * LONG);
-        let most = seen.concentration_range.map_or(f64::NAN, |[most, _]| most / 100.0);
-        table.row(format_args!(
-            "{activity} | {nodes} | {most:.4} | {:.5} | {drift:.1e} | {:.1e} | {:.0e} | {:.0e}",
-            seen.height_modes.amplitude(1),
-            seen.flux,
-            (seen.particle_number / before.particle_number - 1.0).abs(),
-            (seen.height - before.height).abs()
-        ));
+        table.measure(format_args!("{activity} | {nodes}"), || {
+            let Built { mut scene, interfaces, .. } = walls(activity, 0.05, 3.0, nodes).build()?;
+            let before = scene.observe(interfaces[1])?;
+            let phase = |modes: &motile::active_interface::observables::FourierModes| {
+                modes.sines[0].atan2(modes.cosines[0]) * PERIOD / std::f64::consts::TAU
+            };
+            scene.run(0.9 * LONG).go()?;
+            let earlier = phase(&scene.observe(interfaces[1])?.concentration_modes);
+            scene.run(LONG).go()?;
+            let seen = scene.observe(interfaces[1])?;
+            let moved = phase(&seen.concentration_modes) - earlier;
+            let drift = (moved - PERIOD * (moved / PERIOD).round()) / (0.1 * LONG);
+            let most = seen.concentration_range.map_or(f64::NAN, |[most, _]| most / 100.0);
+            Ok(format!(
+                "{most:.4} | {:.5} | {drift:.1e} | {:.1e} | {:.0e} | {:.0e}",
+                seen.height_modes.amplitude(1),
+                seen.flux,
+                (seen.particle_number / before.particle_number - 1.0).abs(),
+                (seen.height - before.height).abs()
+            ))
+        })?;
     }
     Ok(table)
 }
@@ -118,22 +121,21 @@ fn swimmers() -> Result<Table, StudyError> {
     );
     for (name, droplet) in [("activity -2", DropletSetup::active(-2.0)), ("passive", DropletSetup::passive(10.0))] {
         for activity in [0.0, -0.25, -0.5, -0.75, -1.0] {
-            let mut row = vec![name.to_owned(), activity.to_string()];
-            for nodes in [32, 48] {
+            let speed = |nodes: usize| -> Result<String, StudyError> {
                 let droplets = vec![DropletSetup { centre: [0.3, 0.0], ..droplet.clone() }];
                 let setup = Setup { droplets, ..walls(activity, 0.05, 3.0, nodes) };
                 let Built { mut scene, droplets, .. } = setup.build()?;
                 scene.run(0.5 * SWIM).go().ok();
                 let start = scene.observe(droplets[0])?.centroid;
-                row.push(match scene.run(SWIM).go() {
+                Ok(match scene.run(SWIM).go() {
                     Ok(()) => {
                         let end = scene.observe(droplets[0])?.centroid;
                         format!("{:.4}", (end.x - start.x) / (0.5 * SWIM))
                     }
                     Err(_) => format!("film gone at t = {:.1}", scene.time()),
-                });
-            }
-            table.push(row);
+                })
+            };
+            table.measure(format_args!("{name} | {activity}"), || Ok([speed(32)?, speed(48)?].join(" | ")))?;
         }
     }
     Ok(table)

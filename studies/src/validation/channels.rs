@@ -7,6 +7,7 @@ use motile_tests::validation::Table;
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::steady;
 
+use crate::tables::Measure;
 use crate::validation::{SPACINGS, Tables, list};
 
 /// A droplet of an activity in a channel, by default and by the method of Cowley with steps of 0.1 h, each with its
@@ -32,15 +33,16 @@ pub(crate) fn channel_swimmers() -> Tables {
     {
         for h in SPACINGS {
             for (name, setup) in presets(open_channel(12.0, width), 100.0, activity, h) {
-                let found = match steady(&setup, time) {
-                    Ok(e) => {
-                        let [flux, gap] = [e.flux, e.gap].map(|error| error.unwrap_or(f64::NAN));
-                        let errors = list([e.speed, e.aspect_ratio, e.stresslet, e.beta, flux, gap]);
-                        format!("{errors} | {:.1e} | {:.0e}", e.area_change, e.particle_change)
-                    }
-                    Err(error) => format!("ends: {error} |  | "),
-                };
-                table.row(format_args!("{width} | {activity} | {name} | {h} | {found}"));
+                table.measure(format_args!("{width} | {activity} | {name} | {h}"), || {
+                    Ok(match steady(&setup, time) {
+                        Ok(e) => {
+                            let [flux, gap] = [e.flux, e.gap].map(|error| error.unwrap_or(f64::NAN));
+                            let errors = list([e.speed, e.aspect_ratio, e.stresslet, e.beta, flux, gap]);
+                            format!("{errors} | {:.1e} | {:.0e}", e.area_change, e.particle_change)
+                        }
+                        Err(error) => format!("ends: {error} |  | "),
+                    })
+                })?;
             }
         }
     }

@@ -4,6 +4,7 @@ use motile::base::Region;
 use motile_tests::validation::contrast::{Droplet, Errors, Exact};
 use motile_tests::validation::{StudyError, Table};
 
+use crate::tables::{Measure, Once};
 use crate::validation::{SPACINGS, Tables, list};
 
 /// Nodes of layers, from coarse to fine.
@@ -20,14 +21,18 @@ pub(crate) fn shapes() -> Tables {
     );
     let region = Region::Box { lengths: [6.0; 2] };
     for ratio in RATIOS {
-        let exact = Exact::new(region, &[Droplet::ellipse(ratio)], 256)?;
-        let layers = NODES.iter().map(|&nodes| Ok(exact.errors(nodes)?[0])).collect::<Result<Vec<_>, StudyError>>()?;
-        let smeared = SPACINGS.iter().map(|&h| Ok(exact.smeared_errors(h)?[0]));
-        let smeared = smeared.collect::<Result<Vec<_>, StudyError>>()?;
-        for (way, errors) in [("layers", layers), ("arithmetic", smeared)] {
-            let of = |value: fn(&Errors) -> f64| list(errors.iter().map(value));
-            let [centroid, rms, largest] = [of(|e| e.speed), of(|e| e.rms), of(|e| e.maximum)];
-            table.row(format_args!("ellipse, 1 + 0.5 cos | {ratio} | {way} | {centroid} | {rms} | {largest}"));
+        let exact = Once::new();
+        let exact = || exact.get(|| Exact::new(region, &[Droplet::ellipse(ratio)], 256));
+        let layers = || NODES.iter().map(|&nodes| Ok(exact()?.errors(nodes)?[0])).collect::<Result<_, StudyError>>();
+        let smeared = || SPACINGS.iter().map(|&h| Ok(exact()?.smeared_errors(h)?[0])).collect();
+        let ways: [(&str, &dyn Fn() -> Result<Vec<Errors>, StudyError>); 2] =
+            [("layers", &layers), ("arithmetic", &smeared)];
+        for (way, errors) in ways {
+            table.measure(format_args!("ellipse, 1 + 0.5 cos | {ratio} | {way}"), || {
+                let errors = errors()?;
+                let of = |value: fn(&Errors) -> f64| list(errors.iter().map(value));
+                Ok([of(|e| e.speed), of(|e| e.rms), of(|e| e.maximum)].join(" | "))
+            })?;
         }
     }
     Ok(vec![table])

@@ -14,6 +14,7 @@ use motile_tests::validation::imposed::{
 use motile_tests::validation::{StudyError, Table};
 
 use super::Tables;
+use crate::tables::Measure;
 
 pub(super) fn imposed_flows() -> Tables {
     let all = [small, steady, transient, turning_points, rigid, emulsions, migration, swimmers];
@@ -37,20 +38,21 @@ fn small() -> Result<Table, StudyError> {
         "ratio | shear D/Ca - 1 | angle - 1 | stresslet - 1 | extension D/Ca - 2 | stresslet - 1",
     );
     for ratio in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0] {
-        let capillary = 2e-3 / (1.0 + ratio);
-        let k = PI * (1.0 + 2.0 * ratio) / (1.0 + ratio);
-        let [shear, extension] = [SHEAR, EXTENSION].map(|flow| steady_drop(flow, ratio, capillary, 32));
-        let (shear, extension) = (shear?, extension?);
-        let fall =
-            (0.25 * PI - shear.deformation.angle_of_moments.unwrap_or(f64::NAN)) / (0.5 * (1.0 + ratio) * capillary);
-        let errors = [
-            shear.deformation.by_moments / capillary - 1.0,
-            fall - 1.0,
-            shear.stresslet[0][1] / k - 1.0,
-            extension.deformation.by_moments / capillary - 2.0,
-            extension.stresslet[0][0] / (2.0 * k) - 1.0,
-        ];
-        table.push(std::iter::once(ratio.to_string()).chain(errors.map(|error| format!("{error:.1e}"))));
+        table.measure(ratio, || {
+            let capillary = 2e-3 / (1.0 + ratio);
+            let k = PI * (1.0 + 2.0 * ratio) / (1.0 + ratio);
+            let [shear, extension] = [SHEAR, EXTENSION].map(|flow| steady_drop(flow, ratio, capillary, 32));
+            let (shear, extension) = (shear?, extension?);
+            let angle = shear.deformation.angle_of_moments.unwrap_or(f64::NAN);
+            let errors = [
+                shear.deformation.by_moments / capillary - 1.0,
+                (0.25 * PI - angle) / (0.5 * (1.0 + ratio) * capillary) - 1.0,
+                shear.stresslet[0][1] / k - 1.0,
+                extension.deformation.by_moments / capillary - 2.0,
+                extension.stresslet[0][0] / (2.0 * k) - 1.0,
+            ];
+            Ok(errors.map(|error| format!("{error:.1e}")).join(" | "))
+        })?;
     }
     Ok(table)
 }
@@ -72,17 +74,19 @@ fn steady() -> Result<Table, StudyError> {
         "case | D | Newton, 64 nodes | 80 nodes | 96 nodes | run",
     );
     for (case, flow, ratio, capillary) in STEADY {
-        let mut row = vec![case.to_owned(), format!("{:.6}", reference(case, "D_mom")?)];
-        for nodes in [64, 80, 96] {
-            row.push(format!("{:.1e}", steady_drop(flow, ratio, capillary, nodes)?.largest_error(case).0));
-        }
-        let run = Setup {
-            droplets: vec![drop_of(ratio, capillary)],
-            step: StepSize::OfLimit(0.5),
-            ..fourth_order(flow, 96, 0.01)
-        };
-        row.push(largest(&seen_at(&run, &[30.0])?, &[case]));
-        table.push(row);
+        table.measure(format_args!("{case} | {:.6}", reference(case, "D_mom")?), || {
+            let mut cells = Vec::new();
+            for nodes in [64, 80, 96] {
+                cells.push(format!("{:.1e}", steady_drop(flow, ratio, capillary, nodes)?.largest_error(case).0));
+            }
+            let run = Setup {
+                droplets: vec![drop_of(ratio, capillary)],
+                step: StepSize::OfLimit(0.5),
+                ..fourth_order(flow, 96, 0.01)
+            };
+            cells.push(largest(&seen_at(&run, &[30.0])?, &[case]));
+            Ok(cells.join(" | "))
+        })?;
     }
     Ok(table)
 }
@@ -102,13 +106,11 @@ fn transient() -> Result<Table, StudyError> {
     let mut push = |name: &str, setup: &dyn Fn(f64) -> Setup, dt: f64, cases: &[(&str, f64)]| {
         let (names, times): (Vec<_>, Vec<_>) = cases.iter().copied().unzip();
         let nodes = if let Method::Integral(method) = setup(dt).method { method.nodes } else { 0 };
-        let mut row = vec![name.to_owned(), nodes.to_string(), dt.to_string()];
-        row.push(times.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "));
-        for dt in [dt, 0.5 * dt] {
-            row.push(largest(&seen_at(&setup(dt), &times)?, &names));
-        }
-        table.push(row);
-        Ok::<(), StudyError>(())
+        let at = times.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        table.measure(format_args!("{name} | {nodes} | {dt} | {at}"), || {
+            let error = |dt: f64| Ok::<_, StudyError>(largest(&seen_at(&setup(dt), &times)?, &names));
+            Ok([error(dt)?, error(0.5 * dt)?].join(" | "))
+        })
     };
     let drop = |dt: f64| Setup { droplets: vec![drop_of(1.0, 0.2)], ..fourth_order(SHEAR, 80, dt) };
     let strains = [
@@ -159,8 +161,9 @@ fn turning_points() -> Result<Table, StudyError> {
                 let (value, deformation, tip) = (special.value, seen.by_moments, seen.tip_curvature);
                 Ok(format!("{value:.6} | {deformation:.5} | {tip:.2} | {:.0e}", state.tail()))
             };
-            let found = fold().unwrap_or_else(|error| format!("{error} | - | - | -"));
-            table.row(format_args!("{ratio} | {nodes} | {found}"));
+            table.measure(format_args!("{ratio} | {nodes}"), || {
+                Ok(fold().unwrap_or_else(|error| format!("{error} | - | - | -")))
+            })?;
         }
     }
     Ok(table)
@@ -180,13 +183,15 @@ fn rigid() -> Result<Table, StudyError> {
             ("runge-kutta", true, 300.0),
             ("runge-kutta", true, 600.0),
         ] {
-            let make = if of_fourth_order { fourth_order } else { plane };
-            let setup = Setup { rigid_bodies: vec![ellipse(r, 0.0)], ..make(SHEAR, 96, period / steps) };
-            let Built { mut scene, rigid_bodies, .. } = setup.build()?;
-            scene.run(period).go()?;
-            // It is slowest at the end of a turn, where it turns by 1/(r^2 + 1) in a time.
-            let late = (scene.observe(rigid_bodies[0])?.angle + 2.0 * PI) * (r * r + 1.0);
-            table.row(format_args!("{r} | {name} | {steps} | {:.1e}", late.abs() / period));
+            table.measure(format_args!("{r} | {name} | {steps}"), || {
+                let make = if of_fourth_order { fourth_order } else { plane };
+                let setup = Setup { rigid_bodies: vec![ellipse(r, 0.0)], ..make(SHEAR, 96, period / steps) };
+                let Built { mut scene, rigid_bodies, .. } = setup.build()?;
+                scene.run(period).go()?;
+                // It is slowest at the end of a turn, where it turns by 1/(r^2 + 1) in a time.
+                let late = (scene.observe(rigid_bodies[0])?.angle + 2.0 * PI) * (r * r + 1.0);
+                Ok(format!("{:.1e}", late.abs() / period))
+            })?;
         }
     }
     Ok(table)
@@ -213,16 +218,16 @@ fn emulsions() -> Result<Table, StudyError> {
                 scene.run(1.0).go()?;
                 Ok((scene.system_mut().stress()?.effective_viscosity().unwrap_or(f64::NAN) - 1.0) / phi)
             };
-            // The error of the capillary number is of second order.
-            let capillary = 0.04 / (1.0 + ratio);
-            let [coarse, fine] = [capillary, 0.5 * capillary].map(viscosity);
-            let (coarse, fine) = (coarse?, fine?);
-            let found = fine + (fine - coarse) / 3.0;
-            let points = k / (1.0 + 2.0 * 0.149_105_662 * k * phi);
-            table.row(format_args!(
-                "{ratio} | {side} | {phi:.4} | {found:.5} | {k:.5} | {points:.5} | {:.3}",
-                (found - points) / (phi * phi)
-            ));
+            table.measure(format_args!("{ratio} | {side} | {phi:.4}"), || {
+                // The error of the capillary number is of second order.
+                let capillary = 0.04 / (1.0 + ratio);
+                let [coarse, fine] = [capillary, 0.5 * capillary].map(viscosity);
+                let (coarse, fine) = (coarse?, fine?);
+                let found = fine + (fine - coarse) / 3.0;
+                let points = k / (1.0 + 2.0 * 0.149_105_662 * k * phi);
+                let apart = (found - points) / (phi * phi);
+                Ok(format!("{found:.5} | {k:.5} | {points:.5} | {apart:.3}"))
+            })?;
         }
     }
     Ok(table)
@@ -267,18 +272,18 @@ fn migration() -> Result<Table, StudyError> {
     let region = Region::Channel { length: LENGTH, width: WIDTH, drive: Drive::Flux(flux) };
     let channel = |nodes: usize| Setup { region, ..plane(FlowSetup::default(), nodes, 0.01) };
     for ratio in [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0] {
-        let mut row = vec![ratio.to_string()];
         // Contrasts that are smeared over cells, and too few nodes, may end in an interface that crosses itself.
         let entry = |setup: &Setup| migrates(setup, ratio).map_or("ends".to_owned(), |speed| format!("{speed:.5}"));
-        row.extend([32, 48].map(|nodes| entry(&finer(plane(poiseuille(0.5 * WIDTH), nodes, 0.01)))));
-        row.extend([32, 48].map(|nodes| entry(&finer(channel(nodes)))));
-        for spacing in [0.2, 0.1] {
-            let corrected = ratio == 1.0;
-            let method = Method::Grid(GridMethod { corrected, ..GridMethod::of_spacing(spacing) });
-            let setup = Setup { method, step: StepSize::OfLimit(0.5), ..channel(32) };
-            row.push(entry(&setup));
-        }
-        table.push(row);
+        table.measure(ratio, || {
+            let mut row = Vec::from([32, 48].map(|nodes| entry(&finer(plane(poiseuille(0.5 * WIDTH), nodes, 0.01)))));
+            row.extend([32, 48].map(|nodes| entry(&finer(channel(nodes)))));
+            for spacing in [0.2, 0.1] {
+                let corrected = ratio == 1.0;
+                let method = Method::Grid(GridMethod { corrected, ..GridMethod::of_spacing(spacing) });
+                row.push(entry(&Setup { method, step: StepSize::OfLimit(0.5), ..channel(32) }));
+            }
+            Ok(row.join(" | "))
+        })?;
     }
     Ok(table)
 }
@@ -308,28 +313,26 @@ fn swimmers() -> Result<Table, StudyError> {
         let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
         let setup =
             Setup { region: Region::Box { lengths: [SIDE; 2] }, method, droplets: vec![droplet], ..Setup::default() };
-        let mut scene = setup.build()?.scene;
-        scene.run(ONSET).go()?;
-        let [[xx, xy], _] = scene.system_mut().stresslets()?[0];
-        let stresslet = xx.signum() * Vec2::new(xx, xy).length() / setup.viscosity;
-        scene.impose(ImposedFlow::shear(rate))?;
-        let turn = 4.0 * PI / rate;
-        scene.run(ONSET + turn).go()?;
-        let mut seen: Vec<f64> = Vec::new();
-        let mut look = |system: &mut System<AnyFlow>| {
-            let viscosity = system.stress()?.effective_viscosity().unwrap_or(f64::NAN);
-            seen.push(viscosity / setup.viscosity - 1.0);
-            Ok::<(), motile::scene::SceneError>(())
-        };
-        scene.run(ONSET + 2.0 * turn).observe(Every::Time(turn / 200.0), &mut look).go()?;
-        let bounds = seen.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
-        table.row(format_args!(
-            "{activity} | {rate} | {nodes} | {stresslet:.4} | {:.4} | {:.4} | {:.4} | {:.4}",
-            seen.iter().sum::<f64>() / seen.len() as f64,
-            bounds[0],
-            bounds[1],
-            1.5 * phi + stresslet.abs() / (rate * SIDE * SIDE)
-        ));
+        table.measure(format_args!("{activity} | {rate} | {nodes}"), || {
+            let mut scene = setup.build()?.scene;
+            scene.run(ONSET).go()?;
+            let [[xx, xy], _] = scene.system_mut().stresslets()?[0];
+            let stresslet = xx.signum() * Vec2::new(xx, xy).length() / setup.viscosity;
+            scene.impose(ImposedFlow::shear(rate))?;
+            let turn = 4.0 * PI / rate;
+            scene.run(ONSET + turn).go()?;
+            let mut seen: Vec<f64> = Vec::new();
+            let mut look = |system: &mut System<AnyFlow>| {
+                let viscosity = system.stress()?.effective_viscosity().unwrap_or(f64::NAN);
+                seen.push(viscosity / setup.viscosity - 1.0);
+                Ok::<(), motile::scene::SceneError>(())
+            };
+            scene.run(ONSET + 2.0 * turn).observe(Every::Time(turn / 200.0), &mut look).go()?;
+            let bounds = seen.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
+            let mean = seen.iter().sum::<f64>() / seen.len() as f64;
+            let by_stresslet = 1.5 * phi + stresslet.abs() / (rate * SIDE * SIDE);
+            Ok(format!("{stresslet:.4} | {mean:.4} | {:.4} | {:.4} | {by_stresslet:.4}", bounds[0], bounds[1]))
+        })?;
     }
     Ok(table)
 }

@@ -1,5 +1,6 @@
 //! The speed of swimmers by settings from coarse to fine, which `motile::recommend` chooses from.
 
+use crate::tables::{Measure, Once};
 use motile::SceneKind;
 use motile::base::Region;
 use motile::scene::StepSize;
@@ -105,7 +106,11 @@ pub(crate) fn recommended() -> Tables {
                 let first = (WINDOW[0] / EVERY) as usize;
                 Ok::<_, motile_tests::validation::StudyError>(speeds[first..].to_vec())
             };
-            let exact = late(&Setup { method: without_grid(96, 512).method, step: EXACT, ..scene.clone() })?;
+            let found = Once::new();
+            let exact = || {
+                let method = without_grid(96, 512).method;
+                found.get(|| late(&Setup { method, step: EXACT, ..scene.clone() }))
+            };
             let mean = |speeds: &[f64]| speeds.iter().sum::<f64>() / speeds.len() as f64;
             for (settings, method, step) in settings(kind) {
                 let mut setup = Setup { method, step, ..scene.clone() };
@@ -119,15 +124,17 @@ pub(crate) fn recommended() -> Tables {
                         own.flux = preset.flux;
                     }
                 }
-                let (of_mean, largest) = match late(&setup) {
-                    Ok(found) => {
-                        let errors = found.iter().zip(&exact).map(|(found, exact)| (found / exact - 1.0).abs());
-                        (per_cent(mean(&found) / mean(&exact) - 1.0), per_cent(errors.fold(0.0, f64::max)))
-                    }
-                    Err(error) => (format!("ends: {error}"), String::new()),
-                };
-                eprintln!("{kind:?} {settings}; {name}: {of_mean} {largest}");
-                table.row(format_args!("{kind:?} | {settings} | {name} | {of_mean} | {largest}"));
+                table.measure(format_args!("{kind:?} | {settings} | {name}"), || {
+                    let (exact, found) = (exact()?, late(&setup));
+                    Ok(match found {
+                        Ok(found) => {
+                            let errors = found.iter().zip(exact).map(|(found, exact)| (found / exact - 1.0).abs());
+                            let (mean, most) = (mean(&found) / mean(exact) - 1.0, errors.fold(0.0, f64::max));
+                            [mean, most].map(per_cent).join(" | ")
+                        }
+                        Err(error) => format!("ends: {error} | "),
+                    })
+                })?;
             }
         }
     }

@@ -10,6 +10,7 @@ use motile_tests::validation::scene::open_channel;
 use motile_tests::validation::swimmers::speeds;
 
 use super::Tables;
+use crate::tables::Measure;
 use crate::work_precision::cost::processor_time;
 
 /// A droplet between neo-Hookean walls of Young's modulus E in a channel as wide as its radius.
@@ -91,7 +92,7 @@ impl Case {
 }
 
 pub(super) fn soft_walls() -> Tables {
-    Ok(vec![resolutions(), parts(), skins()])
+    Ok(vec![resolutions()?, parts()?, skins()?])
 }
 
 /// Texts of the runs of a case at these resolutions: speeds, the difference of the first two in per cent, seconds.
@@ -109,7 +110,7 @@ fn texts(case: Case, resolutions: &[[f64; 2]]) -> [String; 3] {
     [each(&|[speed, _]| format!("{speed:.5}")), difference(&runs), each(&|[_, seconds]| format!("{seconds:.1}"))]
 }
 
-fn resolutions() -> Table {
+fn resolutions() -> anyhow::Result<Table> {
     let mut table = Table::new(
         &format!(
             "Soft walls in a channel of width R0: speeds at t = 5 with spacings h and of the mesh of {RESOLUTIONS:?}; \
@@ -121,15 +122,16 @@ fn resolutions() -> Table {
     for (young, activity) in cases {
         for (name, spread) in [("points", false), ("triangles", true)] {
             let case = Case { young, activity, spread, ..USUAL };
-            let named = [format!("{young:.0e}"), activity.to_string(), name.to_owned()];
-            table.push(named.into_iter().chain(texts(case, &RESOLUTIONS)));
+            table.measure(format_args!("{young:.0e} | {activity} | {name}"), || {
+                Ok(texts(case, &RESOLUTIONS).join(" | "))
+            })?;
         }
     }
-    table
+    Ok(table)
 }
 
 /// One thing changed at a time.
-fn parts() -> Table {
+fn parts() -> anyhow::Result<Table> {
     let usual = Case { activity: -3.0, ..USUAL };
     let mut table = Table::new(
         "E = 1e3, activity -3, forces on triangles, h = 0.1 and a mesh of 0.2: one thing changed at a time; speed, \
@@ -153,14 +155,16 @@ fn parts() -> Table {
         ("forces on points, h = 0.025, mesh of 0.05", Case { spread: false, spacings: [0.025, 0.05], ..usual }),
     ];
     for (name, case) in cases {
-        let [speed, _, seconds] = texts(case, &[case.spacings]);
-        table.row(format_args!("{name} | {speed} | {seconds}"));
+        table.measure(name, || {
+            let [speed, _, seconds] = texts(case, &[case.spacings]);
+            Ok(format!("{speed} | {seconds}"))
+        })?;
     }
-    table
+    Ok(table)
 }
 
 /// To a time when walls without a surface_elasticity have creased.
-fn skins() -> Table {
+fn skins() -> anyhow::Result<Table> {
     let mut table = Table::new(
         &format!(
             "E = 1e3, forces on triangles, and a surface of stretching modulus 300 and bending modulus 1, at t = 30, \
@@ -172,8 +176,8 @@ fn skins() -> Table {
     for activity in [-3.0, -4.0] {
         for (name, finer) in [("as the mesh", false), ("finer", true)] {
             let case = Case { activity, finer, surface_elasticity: true, time: 30.0, ..USUAL };
-            table.push([activity.to_string(), name.to_owned()].into_iter().chain(texts(case, &SKINNED)));
+            table.measure(format_args!("{activity} | {name}"), || Ok(texts(case, &SKINNED).join(" | ")))?;
         }
     }
-    table
+    Ok(table)
 }

@@ -8,6 +8,7 @@ use motile::setup::{DropletSetup, IntegralMethod, Method, Setup};
 use motile_tests::validation::Table;
 
 use super::Tables;
+use crate::tables::Measure;
 
 /// Without a repulsion and with one of a strength and range.
 pub(super) fn two_droplets() -> Tables {
@@ -38,14 +39,15 @@ pub(super) fn two_droplets() -> Tables {
             least_gap: Some(0.0),
             ..Setup::default()
         };
-        let mut scene = setup.build()?.scene;
-        let end = match scene.run(time).go() {
-            Ok(()) => format!("t = {time}"),
-            Err(_) => format!("film gone at t = {:.1}", scene.time()),
-        };
-        let gap = scene.system().minimum_gap().unwrap_or(f64::NAN);
-        let pair = pair.map_or_else(String::new, |[strength, range]| format!("{strength}, {range}"));
-        table.row(format_args!("head-on | {pair} | {nodes} nodes | {end} | {gap:.3}"));
+        let pair = pair.map_or_else(|| "none".to_owned(), |[strength, range]| format!("{strength}, {range}"));
+        table.measure(format_args!("head-on | {pair} | {nodes} nodes"), || {
+            let mut scene = setup.build()?.scene;
+            let end = match scene.run(time).go() {
+                Ok(()) => format!("t = {time}"),
+                Err(_) => format!("film gone at t = {:.1}", scene.time()),
+            };
+            Ok(format!("{end} | {:.3}", scene.system().minimum_gap().unwrap_or(f64::NAN)))
+        })?;
     }
     Ok(vec![table])
 }

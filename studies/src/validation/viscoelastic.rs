@@ -8,6 +8,7 @@ use motile_tests::validation::{StudyError, Table, order};
 
 use super::Tables;
 use crate::book::statistics::mean;
+use crate::tables::Measure;
 
 /// Layers of which the others differ in one thing.
 const LAYERS: Layers = Layers { springs: false, layered: false, moduli: [20.0, 60.0], time: 0.5, thickness: 0.6 };
@@ -48,10 +49,11 @@ fn spacings() -> Result<Table, StudyError> {
     for (layered, surface) in [(false, "grid"), (true, "layers")] {
         for (springs, material) in [(false, "neo-Hookean"), (true, "springs")] {
             for (name, motion) in MOTIONS {
-                let layers = Layers { springs, layered, ..LAYERS };
-                let errors = spacings.iter().map(|&h| layers.compare(motion, h, 200));
-                let [errors, order] = with_order(&spacings, &errors.collect::<Result<Vec<f64>, _>>()?);
-                table.row(format_args!("{name} | {material} | {surface} | {errors} | {order}"));
+                table.measure(format_args!("{name} | {material} | {surface}"), || {
+                    let layers = Layers { springs, layered, ..LAYERS };
+                    let errors = spacings.iter().map(|&h| layers.compare(motion, h, 200));
+                    Ok(with_order(&spacings, &errors.collect::<Result<Vec<f64>, _>>()?).join(" | "))
+                })?;
             }
         }
     }
@@ -67,10 +69,11 @@ fn steps() -> Result<Table, StudyError> {
     );
     let sizes: Vec<f64> = counts.map(|count| 1.0 / count as f64).to_vec();
     for (name, motion) in MOTIONS {
-        let layers = Layers { layered: true, ..LAYERS };
-        let errors = counts.iter().map(|&count| layers.compare(motion, 0.1, count));
-        let [errors, order] = with_order(&sizes, &errors.collect::<Result<Vec<f64>, _>>()?);
-        table.row(format_args!("{name} | {errors} | {order}"));
+        table.measure(name, || {
+            let layers = Layers { layered: true, ..LAYERS };
+            let errors = counts.iter().map(|&count| layers.compare(motion, 0.1, count));
+            Ok(with_order(&sizes, &errors.collect::<Result<Vec<f64>, _>>()?).join(" | "))
+        })?;
     }
     Ok(table)
 }
@@ -98,17 +101,19 @@ fn parameters() -> Result<Table, StudyError> {
     }));
     for (layers, rate) in cases {
         let [rest, relaxing] = layers.moduli;
-        let errors = [Motion::Relaxation, Motion::Sum, Motion::StartUp, Motion::Creep]
-            .map(|motion| {
-                layers.compare(motion, 0.1, 400).map_or_else(|e| e.to_string(), |error| format!("{error:.1e}"))
-            })
-            .join(" | ");
-        let oscillation = match layers.time < 1.0 {
-            true => format!("{rate:.2} | {:.1e}", layers.compare(Motion::Oscillation(rate), 0.1, 100)?),
-            false => " | ".to_owned(),
-        };
         let Layers { time, thickness, .. } = layers;
-        table.row(format_args!("{time:.3e} | {rest:.2} | {relaxing:.2} | {thickness:.1} | {errors} | {oscillation}"));
+        table.measure(format_args!("{time:.3e} | {rest:.2} | {relaxing:.2} | {thickness:.1}"), || {
+            let errors = [Motion::Relaxation, Motion::Sum, Motion::StartUp, Motion::Creep]
+                .map(|motion| {
+                    layers.compare(motion, 0.1, 400).map_or_else(|e| e.to_string(), |error| format!("{error:.1e}"))
+                })
+                .join(" | ");
+            let oscillation = match layers.time < 1.0 {
+                true => format!("{rate:.2} | {:.1e}", layers.compare(Motion::Oscillation(rate), 0.1, 100)?),
+                false => " | ".to_owned(),
+            };
+            Ok(format!("{errors} | {oscillation}"))
+        })?;
     }
     Ok(table)
 }
@@ -121,16 +126,18 @@ fn twitching() -> Result<Table, StudyError> {
     );
     for activity in [Some(-4.0), None] {
         for tension in [0.0, 5.0] {
-            let count = if tension == 0.0 { 1 } else { SEEDS };
-            let runs = (0..count).map(|seed| run(activity, tension, seed)).collect::<Result<Vec<_>, _>>()?;
-            let statistics = |k: usize| {
-                let (mean, deviation) = mean(runs.iter().map(|run| run[k]));
-                let error = deviation / (count as f64).sqrt();
-                if count > 1 { format!("{mean:.6} | {error:.6}") } else { format!("{mean:.6} | ") }
-            };
             let name = activity.map_or("passive".to_owned(), |activity: f64| activity.to_string());
             let walls = if tension == 0.0 { "elastic" } else { "twitching" };
-            table.row(format_args!("{name} | {walls} | {} | {}", statistics(0), statistics(1)));
+            table.measure(format_args!("{name} | {walls}"), || {
+                let count = if tension == 0.0 { 1 } else { SEEDS };
+                let runs = (0..count).map(|seed| run(activity, tension, seed)).collect::<Result<Vec<_>, _>>()?;
+                let statistics = |k: usize| {
+                    let (mean, deviation) = mean(runs.iter().map(|run| run[k]));
+                    let error = deviation / (count as f64).sqrt();
+                    if count > 1 { format!("{mean:.6} | {error:.6}") } else { format!("{mean:.6} | ") }
+                };
+                Ok(format!("{} | {}", statistics(0), statistics(1)))
+            })?;
         }
     }
     Ok(table)

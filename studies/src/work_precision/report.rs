@@ -1,10 +1,13 @@
 //! The tables.
 
 use motile_tests::validation::Table;
-use motile_timing::median;
 
+use motile_cli::run::Summary;
+
+use crate::tables::took;
 use crate::work_precision::cost::UNIT;
 use crate::work_precision::front::{Point, cheapest, expense, front};
+use crate::work_precision::settings::Settings;
 use crate::work_precision::studies::Study;
 
 /// Errors that the tables are made for.
@@ -15,22 +18,37 @@ const FAMILIES: [&str; 3] = ["boundary integrals", "grid, corrected", "thesis"];
 /// The points on the front of each scene and the presets; the cheapest settings for given errors, and what Cowley's
 /// scheme costs in comparison.
 pub(crate) fn tables(points: &[Point]) -> Vec<Table> {
-    let mut pairs: Vec<f64> = points.iter().map(|point| point.summary.number("pair_us")).collect();
-    let title = format!(
-        "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one \
-         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us, one thread",
-        median(&mut pairs)
-    );
-    let mut table = Table::new(
-        &title,
-        "scene | front | preset | settings | method | error in % | pairs per time | seconds per time | steps \
-        per time",
-    );
+    let mut table = empty();
     for study in Study::all() {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
         section(&mut table, study, &own);
     }
     vec![table, summary(points)]
+}
+
+/// The first table without its rows.
+pub(crate) fn empty() -> Table {
+    let title = format!(
+        "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one \
+         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, one thread"
+    );
+    let columns = "scene | settings | method | error in % | pairs per time | seconds per time | steps per time | \
+        front | preset";
+    Table::new(&title, columns)
+}
+
+/// First cells of a row.
+pub(crate) fn name(study: Study, settings: &Settings) -> String {
+    format!("{} | {} | {}", study.title(), settings.label(), settings.family())
+}
+
+/// The other cells of a row.
+pub(crate) fn cells(point: &Summary, front: &str, preset: &str) -> String {
+    let (error, [pairs, seconds, steps]) = (
+        per_cent(point.number("error")),
+        ["pairs_per_time", "seconds_per_time", "steps_per_time"].map(|name| point.number(name)),
+    );
+    format!("{error} | {pairs:.1} | {seconds:.2e} | {steps:.1} | {front} | {preset}")
 }
 
 fn per_cent(value: f64) -> String {
@@ -51,18 +69,10 @@ fn section(table: &mut Table, study: Study, points: &[Point]) {
         points.iter().filter(|point| on_front(point) || point.settings.is_preset().is_some()).collect();
     shown.sort_by(|a, b| a.pairs().total_cmp(&b.pairs()));
     for point in shown {
-        table.row(format_args!(
-            "{} | {} | {} | {} | {} | {} | {:.1} | {:.2e} | {:.1}",
-            study.title(),
-            if on_front(point) { "yes" } else { "no" },
-            point.settings.is_preset().unwrap_or_default(),
-            point.settings.label(),
-            point.settings.family(),
-            per_cent(point.summary.number("error")),
-            point.pairs(),
-            point.summary.number("seconds_per_time"),
-            point.summary.number("steps_per_time")
-        ));
+        let (name, front) = (name(study, &point.settings), if on_front(point) { "yes" } else { "no" });
+        let preset = point.settings.is_preset().unwrap_or_default();
+        table.row(format_args!("{name} | {}", cells(&point.summary, front, preset)));
+        took(table, &name, point.summary.number("seconds"));
     }
 }
 
