@@ -25,7 +25,9 @@ pub struct Work {
 
 /// A solver of the incompressible Stokes equations with a force density f (force per volume):
 ///
-/// `eta lap(v) - grad p + f = 0`, `div v = 0`.
+/// `eta lap(v) - alpha v - grad p + f = 0`, `div v = 0`,
+///
+/// with a friction alpha that is zero unless a solver has one ([`StokesSolver::friction`]).
 ///
 /// A solver is made once for a grid, owns its working memory, and allocates nothing per call.
 #[doc(alias("Stokes equations", "Stokes flow", "creeping flow", "low Reynolds number"))]
@@ -35,6 +37,11 @@ pub trait StokesSolver: std::fmt::Debug + Send {
 
     /// Returns the dynamic viscosity eta (stress times time).
     fn viscosity(&self) -> f64;
+
+    /// Returns the friction alpha of the fluid with its substrate (stress times time per area), 0 by default.
+    fn friction(&self) -> f64 {
+        0.0
+    }
 
     /// Returns the velocities of the walls of a channel; at rest in a periodic box.
     fn walls(&self) -> &WallMotion {
@@ -104,6 +111,7 @@ impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
         by &self:
         fn grid() -> &Grid;
         fn viscosity() -> f64;
+        fn friction() -> f64;
         fn walls() -> &WallMotion;
         fn drive() -> Drive;
         fn work() -> Work;

@@ -88,7 +88,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Returns the errors of `solver`.
     pub fn new(mut solver: S) -> Result<Self, StokesError> {
         let grid = *solver.grid();
-        let eta = solver.viscosity();
+        let (eta, friction) = (solver.viscosity(), solver.friction());
         let field = || StaggeredField::zeros(grid);
         let (mut centres, mut nodes) = (CentreField::zeros(grid), NodeField::zeros(grid));
         centres.values_mut().fill(eta);
@@ -98,7 +98,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         solver.set_memory(&[])?;
         Ok(Self {
             solver,
-            force: ViscousForce::new(centres, nodes),
+            force: ViscousForce::new(centres, nodes, friction),
             uniform: true,
             tolerance: TOLERANCE,
             most: MOST_ITERATIONS,
@@ -275,6 +275,10 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
 
     fn viscosity(&self) -> f64 {
         self.solver.viscosity()
+    }
+
+    fn friction(&self) -> f64 {
+        self.solver.friction()
     }
 
     fn walls(&self) -> &WallMotion {

@@ -8,12 +8,12 @@ use crate::transform::second_difference;
 /// that nothing changes. Skipping it saves half of the work in the middle of a wide channel.
 const NEGLIGIBLE: f64 = 1e-20;
 
-/// Tables and sweeps for the Dirichlet problems `T w = g`, `T psi = w` on rows 1..N of nodes, for each wave number m of
-/// x, where
+/// Tables and sweeps for the Dirichlet problems `(T - s) w = g`, `T psi = w` on rows 1..N of nodes, for each wave number
+/// m of x, where
 ///
 /// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
 ///
-/// and the no-slip condition gives the wall values `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`
+/// s is the friction times h^2 over the viscosity, and the no-slip condition gives the wall values `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`
 /// (lengths in cells).
 ///
 /// The first problem is eliminated upwards and substituted downwards; in the same downward sweep the second one is
@@ -25,12 +25,14 @@ pub(crate) struct ChannelModes {
     width: usize,
     /// Reciprocal pivots of T from the bottom; those from the top are the same in reverse order.
     pivots: Vec<f64>,
+    /// Those of T - s, where s is not zero.
+    screened: Option<Vec<f64>>,
     /// Solution of T E = 0 with E = 1 at the bottom and 0 at the top.
     harmonic: Vec<f64>,
-    /// Solution of T P = E with P = 0 at both walls.
+    /// Solution of T P = E' with P = 0 at both walls, where (T - s) E' = 0 with the values of E at the walls.
     influence: Vec<f64>,
     /// Number of wave numbers that a wall `d` rows away reaches: beyond, `pivots` equal `limits`, `harmonic` and
-    /// `influence` are zero.
+    /// `influence` are zero. All of them with friction.
     reach: Vec<usize>,
     /// Reciprocal pivots of T far from the walls.
     limits: Vec<f64>,
@@ -44,13 +46,14 @@ pub(crate) struct ChannelModes {
 }
 
 impl ChannelModes {
-    pub(crate) fn new(nx: usize, ny: usize) -> Self {
+    pub(crate) fn new(nx: usize, ny: usize, screening: f64) -> Self {
         let width = nx / 2 + 1;
         let n = ny as f64;
         let mut modes = Self {
             ny,
             width,
             pivots: vec![0.0; width * (ny - 1)],
+            screened: (screening > 0.0).then(|| vec![0.0; width * (ny - 1)]),
             harmonic: vec![0.0; width * (ny - 1)],
             influence: vec![0.0; width * (ny - 1)],
             reach: vec![0; ny],
@@ -66,19 +69,26 @@ impl ChannelModes {
         for m in 1..width {
             let k2 = second_difference(m, nx);
             // Solutions of T psi = 0 are sinh(j decay) and cosh(j decay).
-            let decay = 2.0 * (0.5 * k2.sqrt()).asinh();
+            let decay = |k2: f64| 2.0 * (0.5 * k2.sqrt()).asinh();
+            let (decay, screened) = (decay(k2), decay(k2 + screening));
             modes.limits[m] = -(-decay).exp();
             let at = |j: usize| (j - 1) * width + m;
-            for j in 1..ny {
-                let y = j as f64;
-                modes.pivots[at(j)] =
-                    modes.limits[m] * (-2.0 * y * decay).exp_m1() / (-2.0 * (y + 1.0) * decay).exp_m1();
+            let pivot = |decay: f64, y: f64| {
+                -(-decay).exp() * (-2.0 * y * decay).exp_m1() / (-2.0 * (y + 1.0) * decay).exp_m1()
+            };
+            let harmonic = |decay: f64, y: f64| {
                 let harmonic = (-y * decay).exp() * (-2.0 * (n - y) * decay).exp_m1() / (-2.0 * n * decay).exp_m1();
-                modes.harmonic[at(j)] = if harmonic < NEGLIGIBLE { 0.0 } else { harmonic };
-            }
+                if harmonic < NEGLIGIBLE { 0.0 } else { harmonic }
+            };
             let mut below = 0.0;
             for j in 1..ny {
-                below = (modes.harmonic[at(j)] - below) * modes.pivots[at(j)];
+                let y = j as f64;
+                modes.pivots[at(j)] = pivot(decay, y);
+                modes.harmonic[at(j)] = harmonic(decay, y);
+                if let Some(pivots) = &mut modes.screened {
+                    pivots[at(j)] = pivot(screened, y);
+                }
+                below = (harmonic(screened, y) - below) * modes.pivots[at(j)];
                 modes.influence[at(j)] = below;
             }
             for j in (1..ny - 1).rev() {
@@ -89,7 +99,11 @@ impl ChannelModes {
                     modes.influence[at(j)] = 0.0;
                 }
                 let at = at(j);
-                if modes.influence[at] != 0.0 || modes.harmonic[at] != 0.0 || modes.pivots[at] != modes.limits[m] {
+                if screening > 0.0
+                    || modes.influence[at] != 0.0
+                    || modes.harmonic[at] != 0.0
+                    || modes.pivots[at] != modes.limits[m]
+                {
                     modes.reach[j] = m + 1;
                 }
             }
@@ -100,6 +114,11 @@ impl ChannelModes {
         modes
     }
 
+    /// Reciprocal pivots of the first problem.
+    fn first(&self) -> &[f64] {
+        self.screened.as_ref().unwrap_or(&self.pivots)
+    }
+
     fn row<'a>(&self, table: &'a [f64], j: usize) -> &'a [f64] {
         &table[(j - 1) * self.width..j * self.width]
     }
@@ -108,14 +127,14 @@ impl ChannelModes {
     pub(crate) fn eliminate(&self, j: usize, below: &[Complex64], row: &mut [Complex64]) {
         let near = self.reach[j];
         if below.is_empty() {
-            for (value, pivot) in row.iter_mut().zip(self.row(&self.pivots, j)) {
+            for (value, pivot) in row.iter_mut().zip(self.row(self.first(), j)) {
                 *value *= *pivot;
             }
             return;
         }
         let (row_near, row_far) = row.split_at_mut(near);
         let (below_near, below_far) = below.split_at(near);
-        for ((value, pivot), below) in row_near.iter_mut().zip(self.row(&self.pivots, j)).zip(below_near) {
+        for ((value, pivot), below) in row_near.iter_mut().zip(self.row(self.first(), j)).zip(below_near) {
             *value = (*value - below) * *pivot;
         }
         for ((value, pivot), below) in row_far.iter_mut().zip(&self.limits[near..]).zip(below_far) {
@@ -137,7 +156,7 @@ impl ChannelModes {
             let (lower, upper) = spectrum.split_at_mut(j * width);
             let row = &mut lower[(j - 1) * width..];
             let sweep = Sweep {
-                pivots: &self.row(&self.pivots, j)[..near],
+                pivots: &self.row(self.first(), j)[..near],
                 pivots_down: &self.row(&self.pivots, ny - j)[..near],
                 harmonic: &self.row(&self.harmonic, ny - j)[..near],
                 limits: &self.limits[near..],

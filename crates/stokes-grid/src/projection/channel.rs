@@ -79,7 +79,7 @@ impl ChannelProjection {
             rows,
             across: Across::new(n)?,
             responses: (1..width).map(|m| WallResponse::new(second_difference(m, nx), n)).collect(),
-            mean: MeanFlow::new(&grid, viscosity),
+            mean: MeanFlow::new(&grid, viscosity, 0.0),
             mean_u: vec![0.0; n],
             parts: [0, 1].map(|_| Part { u: vec![0.0; n], v: vec![0.0; n - 1] }),
             u: spectrum(width * n),

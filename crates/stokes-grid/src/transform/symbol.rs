@@ -20,10 +20,13 @@ impl Symbol {
         Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
     }
 
-    /// Creates a symbol of the inverse of h^4 times the square of the five-point Laplacian, times `factor`; for
-    /// constants it is zero.
-    pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64) -> Self {
-        Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
+    /// Creates a symbol of the inverse of `L (L - screening)`, times `factor`, where L is h^2 times the five-point
+    /// Laplacian; for constants it is zero.
+    pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64, screening: f64) -> Self {
+        Self::of_size(nx, ny, |m, n| {
+            let k2 = laplacian(m, n, nx, ny);
+            if m == 0 && n == 0 { 0.0 } else { factor / (k2 * (k2 + screening)) }
+        })
     }
 
     /// Returns a symbol with the factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by

@@ -3,9 +3,9 @@
 use crate::stencil::{self, left, right};
 use crate::{CentreField, NodeField, StaggeredField, WallMotion};
 
-/// Operator `div(2 eta D)` (force per volume) of a velocity without divergence, D its strain rate: normal stresses at
-/// the centres, shear stresses at the nodes, each with the viscosity there. It is symmetric and negative, and `eta lap`
-/// where eta is uniform.
+/// Operator `div(2 eta D) - alpha v` (force per volume) of a velocity v without divergence, D its strain rate and alpha a
+/// uniform friction: normal stresses at the centres, shear stresses at the nodes, each with the viscosity there. It is
+/// symmetric and negative, and `eta lap - alpha` where eta is uniform.
 #[derive(Debug, Clone)]
 pub(crate) struct ViscousForce {
     centres: CentreField,
@@ -13,13 +13,14 @@ pub(crate) struct ViscousForce {
     xx: CentreField,
     yy: CentreField,
     xy: NodeField,
+    friction: f64,
 }
 
 impl ViscousForce {
-    pub(crate) fn new(centres: CentreField, nodes: NodeField) -> Self {
+    pub(crate) fn new(centres: CentreField, nodes: NodeField, friction: f64) -> Self {
         let grid = *centres.grid();
         let (xx, yy, xy) = (CentreField::zeros(grid), CentreField::zeros(grid), NodeField::zeros(grid));
-        Self { centres, nodes, xx, yy, xy }
+        Self { centres, nodes, xx, yy, xy, friction }
     }
 
     pub(crate) fn viscosity(&self) -> (&CentreField, &NodeField) {
@@ -30,8 +31,8 @@ impl ViscousForce {
         (self.centres.values_mut(), self.nodes.values_mut())
     }
 
-    /// Writes `out = base + factor * div(2 eta D(velocity))` for the wall velocities `walls`; zero on the rows that lie
-    /// on walls.
+    /// Writes `out = base + factor * (div(2 eta D(velocity)) - alpha velocity)` for the wall velocities `walls`; zero on
+    /// the rows that lie on walls.
     pub(crate) fn add(
         &mut self,
         velocity: &StaggeredField,
@@ -81,6 +82,10 @@ impl ViscousForce {
                     force + base.map_or(0.0, |base| base.y()[k])
                 };
             }
+        }
+        // On walls there is no velocity along y.
+        if self.friction > 0.0 {
+            out.combine(1.0, -factor * self.friction, velocity);
         }
     }
 }

@@ -11,6 +11,8 @@ mod convergence;
 #[cfg(test)]
 mod dense;
 #[cfg(test)]
+mod friction;
+#[cfg(test)]
 mod kinematics;
 #[cfg(test)]
 mod periodic;
