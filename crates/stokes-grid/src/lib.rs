@@ -32,6 +32,10 @@
 //! [`SolveReport::mean_pressure_gradient`] has the uniform part of
 //! grad p, and [`StokesSolver::pressure`] gives the periodic part of p, with mean zero.
 //!
+//! **Friction with a substrate.** A thin layer of fluid between two plates, or on a substrate, also loses momentum to
+//! them. [`PeriodicStokes::set_friction`] and [`ChannelStokes::set_friction`] add this friction, `-alpha v`, to the
+//! equations (Brinkman's equation). It needs no further transforms.
+//!
 //! # Example
 //!
 //! This example applies a force whose flow is known in a periodic box, and prints the order of the error:
