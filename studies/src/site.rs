@@ -96,6 +96,11 @@ fn formula_as_mathml(formula: &str) -> Result<String> {
     let mut out = String::new();
     let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
     push_mathml(&mut out, events.into_iter().map(Ok::<_, std::io::Error>), config)?;
+    // A space in upright text (`\ `) would be shown as the name of its character.
+    ensure!(
+        !out.contains("&amp;nbsp;"),
+        "formula {formula}: write words as `\\text{{...}}`, and `\\quad` between them"
+    );
     // An empty line would end the block.
     Ok(out.replace('\n', " "))
 }
@@ -108,7 +113,7 @@ fn within(page: &str, path: &Path) -> String {
         let target = &rest[middle + 2..];
         let Some(end) = target.find(')') else { break };
         let (place, after) = (&target[..end], &target[end + 1..]);
-        let outside = !place.contains("://") && below(path, place).is_none();
+        let outside = !place.contains("://") && (below(path, place).is_none() || lists(path, place));
         match rest[..middle].rfind('[').filter(|_| outside) {
             Some(start) if place.split('#').next().is_some_and(|file| file.ends_with("../README.md")) => {
                 out += &rest[..start];
@@ -141,6 +146,14 @@ fn below(path: &Path, link: &str) -> Option<PathBuf> {
         }
     }
     Some(found)
+}
+
+/// A link that leads to no page and no file of the site: to the list of pages, which the site has as its menu, or to a
+/// folder, which a Git host lists.
+fn lists(path: &Path, link: &str) -> bool {
+    let file = link.split('#').next().unwrap_or(link);
+    let folder = || below(path, file).is_some_and(|found| root().join("docs").join(found).is_dir());
+    file.ends_with(SUMMARY) || (!file.is_empty() && folder())
 }
 
 /// Checks that every page is in SUMMARY.md, that tutorials, explanations and evidence have a picture, that links lead
@@ -233,6 +246,8 @@ mod tests {
         let page = typeset("a\n\n```math\n\\frac{1}{2} \\eta\n```\n\nb\n").expect("a formula");
         assert!(page.contains("<mfrac>") && page.contains("η") && !page.contains("```"), "{page}");
         assert!(typeset("```math\n\\frac{1\n```\n").is_err());
+        assert!(typeset("```math\n\\mathrm{a\\ b}\n```\n").is_err());
+        assert!(typeset("```math\n\\text{a b} \\quad c\n```\n").is_ok());
     }
 
     #[test]
@@ -251,6 +266,8 @@ mod tests {
         let front = |page: &str| within(&from_docs(page), Path::new(FRONT));
         assert_eq!(front("[a](docs/a.md#b) [c](CHANGELOG.md) [d](#e)"), "[a](a.md#b) c [d](#e)");
         assert_eq!(front("[a](docs/book/README.md) [c](https://x)"), "[a](book/index.md) [c](https://x)");
+        // The list of pages and folders are for a Git host.
+        assert_eq!(front("[a](docs/SUMMARY.md) [b](docs/tables)"), "a b");
     }
 
     #[test]

@@ -38,7 +38,7 @@ fn circle(radius: f64, count: usize, waves: impl Fn(f64) -> f64) -> Vec<Vec2> {
 }
 
 /// In the plane a mode k of a circle of radius R grows at the rate
-/// `-k/(2 (eta_in + eta_out) R) (gamma + B (k^2 - 3/2)/R^2 + B kappa0^2/2)`: the energy `B/2 INT (kappa - kappa0)^2 ds`
+/// `-k/(2 (eta_in + eta_ext) R) (gamma + B (k^2 - 3/2)/R^2 + B kappa0^2/2)`: the energy `B/2 INT (kappa - kappa0)^2 ds`
 /// makes the normal force density `B (kappa_ss + kappa (kappa^2 - kappa0^2)/2)`.
 #[test]
 fn modes_relax_at_the_rate_of_the_closed_form() {

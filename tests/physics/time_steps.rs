@@ -371,7 +371,7 @@ fn wrinkled(viscosity_inside: f64, part: f64) -> f64 {
     distance(&scene) / start
 }
 
-/// A wave of wave number q relaxes at `gamma q/(2 (eta_in + eta_out))`, the mean of both viscosities counted once.
+/// A wave of wave number q relaxes at `gamma q/(2 (eta_in + eta_ext))`, the mean of both viscosities counted once.
 #[test]
 fn the_tension_is_stable_up_to_its_limit_at_any_viscosity_inside() {
     for inside in [0.02, 1.0, 10.0] {

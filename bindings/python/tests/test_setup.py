@@ -244,6 +244,22 @@ def test_remedies() -> None:
         motile.droplet(None, particles={"concentration": 1})
 
 
+def test_droplets_that_would_collapse_are_refused() -> None:
+    with pytest.raises(motile.Error, match="the particles would collapse to a point") as raised:
+        motile.Setup(droplets=[motile.droplet(-12)]).build()
+    assert (raised.value.key, raised.value.value) == ("droplets[0].particles.activity", "-12")
+    assert raised.value.remedy.endswith("Use an activity weaker than -10, or a larger excluded volume")
+    with pytest.raises(motile.Error, match="collapse"):
+        motile.Setup().replace({"droplets.0.particles.activity": -12}).build()
+    crowd = motile.Setup(droplets=[], suspension=[{"count": 2, "activity": -12}], region=motile.box(12, 12))
+    with pytest.raises(motile.Error, match="collapse") as raised:
+        crowd.build()
+    assert raised.value.key == "suspension.activity"
+    # A larger excluded volume or a larger viscosity keeps them apart, at least for long.
+    motile.Setup(droplets=[motile.droplet(-12, particles={"excluded_volume": {"step": 30}})]).build()
+    motile.Setup(droplets=[motile.droplet(-12)], viscosity=1000).build()
+
+
 def test_a_setup_does_not_change() -> None:
     base = motile.Setup()
     with pytest.raises(AttributeError, match=r"replace\(viscosity="):

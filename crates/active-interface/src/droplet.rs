@@ -70,36 +70,36 @@ impl ActiveDroplet {
         Self { interface: change(self.interface), ..self }
     }
 
-    /// See [`ActiveInterface::with_name`]; "droplet" otherwise.
+    /// Sets the name in messages ("droplet" by default), as [`ActiveInterface::with_name`] does.
     #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
         self.map(|interface| interface.with_name(name))
     }
 
-    /// See [`ActiveInterface::set_tension`].
+    /// Sets the tension law, as [`ActiveInterface::set_tension`] does.
     pub fn set_tension(&mut self, law: impl Tension + 'static) {
         self.interface.set_tension(law);
     }
 
-    /// See [`ActiveInterface::with_motion`].
+    /// Sets how markers move, as [`ActiveInterface::with_motion`] does.
     #[must_use]
     pub fn with_motion(self, motion: Motion) -> Self {
         self.map(|interface| interface.with_motion(motion))
     }
 
-    /// See [`ActiveInterface::with_flux`].
+    /// Sets the scheme for the flux of particles, as [`ActiveInterface::with_flux`] does.
     #[must_use]
     pub fn with_flux(self, flux: Flux) -> Self {
         self.map(|interface| interface.with_flux(flux))
     }
 
-    /// See [`ActiveInterface::with_area_constraint`].
+    /// Switches the constraint of the area, as [`ActiveInterface::with_area_constraint`] does.
     #[must_use]
     pub fn with_area_constraint(self, on: bool) -> Self {
         self.map(|interface| interface.with_area_constraint(on))
     }
 
-    /// See [`ActiveInterface::with_bounds`].
+    /// Bounds the changes of area and number of particles, as [`ActiveInterface::with_bounds`] does.
     ///
     /// # Errors
     /// Returns an error for a bound that is negative or not a number.
@@ -107,7 +107,7 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_bounds(area, particles)?, ..self })
     }
 
-    /// See [`ActiveInterface::axisymmetric`].
+    /// Makes the droplet axisymmetric, as [`ActiveInterface::axisymmetric`] does.
     ///
     /// # Errors
     /// Returns the errors of [`ActiveInterface::axisymmetric`].
@@ -115,13 +115,13 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.axisymmetric()?, ..self })
     }
 
-    /// See [`ActiveInterface::with_stabiliser`].
+    /// Switches the stabiliser, as [`ActiveInterface::with_stabiliser`] does.
     #[must_use]
     pub fn with_stabiliser(self, on: bool) -> Self {
         self.map(|interface| interface.with_stabiliser(on))
     }
 
-    /// See [`ActiveInterface::with_viscosity_inside`].
+    /// Sets the viscosity inside, as [`ActiveInterface::with_viscosity_inside`] does.
     ///
     /// # Errors
     /// Returns an error for a viscosity that is not positive and finite.
@@ -129,7 +129,7 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_viscosity_inside(viscosity)?, ..self })
     }
 
-    /// See [`ActiveInterface::with_bending`].
+    /// Adds bending stiffness, as [`ActiveInterface::with_bending`] does.
     ///
     /// # Errors
     /// Returns an error for a modulus that is negative or not finite, a reference curvature that is not finite.
@@ -137,7 +137,7 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_bending(modulus, reference_curvature)?, ..self })
     }
 
-    /// See [`ActiveInterface::with_open_number`].
+    /// Lets particles come and go, as [`ActiveInterface::with_open_number`] does.
     #[must_use]
     pub fn with_open_number(self) -> Self {
         self.map(ActiveInterface::with_open_number)

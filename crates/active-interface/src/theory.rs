@@ -66,7 +66,7 @@ impl LinearTheory {
         Ok(Self(droplet))
     }
 
-    /// Parameters of the droplet.
+    /// Returns the parameters of the droplet.
     #[must_use]
     pub fn droplet(&self) -> &RoundDroplet {
         &self.0
@@ -76,7 +76,7 @@ impl LinearTheory {
         self.0.viscosity_inside + self.0.viscosity_outside
     }
 
-    /// Returns the growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)) for
+    /// Returns the growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_ext)) for
     /// k >= 2, and 0 for k = 1, which moves the circle, and k = 0, which changes its area.
     ///
     /// In a periodic box, the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4187
@@ -90,7 +90,7 @@ impl LinearTheory {
     }
 
     /// Returns the growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0
-    /// (eta_in + eta_out)) + D k / R0^2).
+    /// (eta_in + eta_ext)) + D k / R0^2).
     #[must_use]
     pub fn concentration_growth_rate(&self, k: u32) -> f64 {
         let droplet = &self.0;
@@ -101,7 +101,7 @@ impl LinearTheory {
 
     /// Returns the threshold of the activity (force times length), which is negative. If the activity is stronger, the
     /// uniform state is unstable and the droplet swims. If it is weaker, the droplet stays at rest. Eq. (2.20):
-    /// -2 D (eta_in + eta_out) / (R0 c0).
+    /// -2 D (eta_in + eta_ext) / (R0 c0).
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
         let droplet = &self.0;
@@ -109,7 +109,7 @@ impl LinearTheory {
     }
 
     /// Returns the velocity (length per time) of a round droplet with the concentration c0 + c1 cos(theta), along
-    /// theta = pi, where there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_out)).
+    /// theta = pi, where there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_ext)).
     ///
     /// # Errors
     /// Returns an error for an amplitude that is not finite.

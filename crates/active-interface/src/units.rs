@@ -29,7 +29,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// SI unit of the quantity, as it is written.
+    /// Returns the SI unit of the quantity, as it is written.
     #[must_use]
     pub fn unit(self) -> &'static str {
         self.dimension().0
@@ -72,7 +72,7 @@ pub struct Units {
 }
 
 impl Units {
-    /// Units of length (m), viscosity (Pa s) and tension (N/m).
+    /// Creates units of length (m), viscosity (Pa s) and tension (N/m).
     ///
     /// # Errors
     /// Returns an error for values that are not positive.

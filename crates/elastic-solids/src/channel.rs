@@ -135,7 +135,7 @@ impl Channel {
         &self.upper
     }
 
-    /// Outlines of the islands.
+    /// Returns the outlines of the islands.
     #[must_use]
     pub fn islands(&self) -> &[Outline] {
         &self.islands

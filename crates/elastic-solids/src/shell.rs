@@ -184,7 +184,7 @@ impl Body for Shell {
     }
 
     /// Stable step of the shortest wave that moves, of wave number q. On a flat membrane between the two fluids it
-    /// relaxes at the rate `q (E_s + |T| + B q^2)/(2 (eta_in + eta_out))`, T the largest tension, both moduli at the
+    /// relaxes at the rate `q (E_s + |T| + B q^2)/(2 (eta_in + eta_ext))`, T the largest tension, both moduli at the
     /// largest stretch.
     fn step_limits(&self, view: &FluidView, limits: &mut dyn FnMut(StepLimit)) {
         let count = self.positions.len();

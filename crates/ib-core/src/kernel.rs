@@ -31,7 +31,7 @@ pub enum Role {
 /// (Cowley (2.35)).
 #[doc(alias("delta function", "regularised delta function", "Dirac delta"))]
 pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
-    /// Name on command lines and in files.
+    /// Returns the name on command lines and in files.
     fn name(&self) -> &'static str;
 
     /// Returns the grid points reached in one direction, at most [`MAX_SUPPORT`].
@@ -50,7 +50,7 @@ pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
     /// Returns the one-dimensional function itself at distance `r` (in units of h); even.
     fn value(&self, role: Role, r: f64) -> f64;
 
-    /// Fourier transform `integral of phi(r) cos(theta r) dr` at wave number `theta` (in units of 1/h).
+    /// Returns the Fourier transform `integral of phi(r) cos(theta r) dr` at wave number `theta` (in units of 1/h).
     fn transform(&self, role: Role, theta: f64) -> f64 {
         cosine_transform(|r| self.value(role, r), 0.5 * self.support(role) as f64, theta)
     }

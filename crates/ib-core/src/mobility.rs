@@ -16,7 +16,7 @@ const INTERVALS: usize = 40;
 /// Wave numbers across the interface beyond which the kernels' transforms no longer matter.
 const CUT: f64 = 50.0;
 
-/// Deficits of the discrete mobility of a flat interface, per kernel (derivation: docs/explanation/grid.md).
+/// Deficits of the discrete mobility of a flat interface, per kernel (docs/explanation/grid.md).
 ///
 /// A force of wave number q along a flat interface moves it, in Stokes flow without boundaries, at `F / (4 eta q)`,
 /// tangentially and normally alike. Spreading, the discrete Laplacian and interpolation reduce that to

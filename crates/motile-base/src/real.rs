@@ -15,7 +15,7 @@ transform! {
 }
 
 impl RealTransform {
-    /// N/2 + 1, the complex numbers of a spectrum.
+    /// Returns N/2 + 1, the number of complex values of a spectrum.
     #[must_use]
     pub fn spectrum_len(&self) -> usize {
         self.len() / 2 + 1

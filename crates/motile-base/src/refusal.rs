@@ -26,7 +26,7 @@ crate::debug_as_explanation!(Refusal);
 
 /// Errors that a [`Refusal`] is one of.
 pub trait Refuse: From<Refusal> {
-    /// Error that says what is wrong, the offending value, and what to do.
+    /// Creates an error that says what is wrong, the offending value, and what to do.
     #[must_use]
     fn refused(what: impl Into<String>, value: impl Into<String>, remedy: impl Into<String>) -> Self {
         Refusal { what: what.into(), value: value.into(), remedy: remedy.into() }.into()

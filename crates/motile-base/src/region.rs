@@ -183,8 +183,8 @@ impl Region {
         Self::Tube { radius, shape: TubeShape::Straight, drive: Drive::ZeroFlux, length: None }
     }
 
-    /// Half of the length (length) of a tube between its closed ends; `None` for straight ones, which have none, and
-    /// for other regions.
+    /// Returns half of the length (length) of a tube between its closed ends; `None` for straight tubes, which have no
+    /// ends, and for other regions.
     #[must_use]
     pub fn half_length(&self) -> Option<f64> {
         match *self {

@@ -29,7 +29,7 @@ impl PeriodicSeries {
         Ok(Self { transform, coefficients: zeros.clone(), values: zeros })
     }
 
-    /// N, the number of samples.
+    /// Returns N, the number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.coefficients.len()
@@ -144,7 +144,7 @@ impl PeriodicSeries {
         Ok(if self.is_empty() { [f64::NAN; 2] } else { [extreme(1.0), extreme(-1.0)] })
     }
 
-    /// The values at the places of the samples, as vectors of the plane.
+    /// Writes the values at the places of the samples, as vectors of the plane.
     ///
     /// # Errors
     /// Returns an error for another number of vectors than N; they are then left as they were.

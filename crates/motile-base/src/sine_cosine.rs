@@ -42,7 +42,7 @@ impl CosineTransform {
         Ok(Self { cells: CellTransform::new(len)? })
     }
 
-    /// N, the numbers it transforms.
+    /// Returns N, how many numbers it transforms.
     #[must_use]
     pub fn len(&self) -> usize {
         self.cells.len()
@@ -107,7 +107,7 @@ impl SineTransform {
         Ok(Self { cells: CellTransform::new(len)? })
     }
 
-    /// N, the numbers it transforms.
+    /// Returns N, how many numbers it transforms.
     #[must_use]
     pub fn len(&self) -> usize {
         self.cells.len()
@@ -178,7 +178,7 @@ impl NodeSineTransform {
         Ok(Self { plan, odd: vec![0.0; continued], spectrum })
     }
 
-    /// M, the numbers it transforms.
+    /// Returns M, how many numbers it transforms.
     #[must_use]
     pub fn len(&self) -> usize {
         self.odd.len() / 2 - 1

@@ -31,7 +31,7 @@ macro_rules! transform {
                 Ok(Self { forward, inverse, scratch: vec![num_complex::Complex64::ZERO; scratch] })
             }
 
-            /// N, the numbers it transforms.
+            /// Returns N, how many numbers it transforms.
             #[must_use]
             pub fn len(&self) -> usize {
                 self.forward.len()

@@ -38,14 +38,14 @@ impl Vec2 {
     /// Both components not a number.
     pub const NAN: Self = Self::splat(f64::NAN);
 
-    /// From the components.
+    /// Creates a vector from its components.
     #[inline]
     #[must_use]
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
-    /// Both components `value`.
+    /// Creates a vector whose two components are `value`.
     #[inline]
     #[must_use]
     pub const fn splat(value: f64) -> Self {
@@ -95,7 +95,7 @@ impl Vec2 {
         self.x * other.y - self.y * other.x
     }
 
-    /// This vector turned by a quarter, counter-clockwise.
+    /// Returns this vector turned by a quarter, counter-clockwise.
     #[inline]
     #[must_use]
     pub const fn perp(self) -> Self {
@@ -189,7 +189,7 @@ impl Vec2 {
         Self::new(self.x.round(), self.y.round())
     }
 
-    /// Neither component is infinite or not a number.
+    /// Returns `true` if neither component is infinite or not a number.
     #[inline]
     #[must_use]
     pub fn is_finite(self) -> bool {

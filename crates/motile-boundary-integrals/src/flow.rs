@@ -179,7 +179,7 @@ fn rounded_up(value: f64) -> String {
 }
 
 impl Hydrodynamics for BoundaryIntegral {
-    /// Returns a wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`. The
+    /// Returns a wave of wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_ext))`. The
     /// stiffness is `q/4` (1/length) with the largest q that the nodes carry on the shortest interface of the last
     /// evaluation; before the first one with the reference perimeter.
     fn fluid_view(&self) -> FluidView {

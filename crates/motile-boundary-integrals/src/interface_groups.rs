@@ -25,7 +25,7 @@ impl InterfaceGroups {
     }
 
     /// Returns the fastest relaxation of the interfaces ([`motile_scene::FluidView::interface_stiffness`], 1/length): a
-    /// wave number q decays at the rate `gamma q/(2 (eta_in + eta_out))`, and q is at most what the nodes of the
+    /// wave number q decays at the rate `gamma q/(2 (eta_in + eta_ext))`, and q is at most what the nodes of the
     /// shortest interface carry.
     pub(crate) fn stiffness(&self) -> f64 {
         self.stiffness

@@ -89,6 +89,9 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
     report.put("steps", (end / longest).ceil(), &format!("to t = {end}, if all were as long as the first ones"));
     report.put("seconds", seconds * end / longest, "for them on this machine, without pictures");
     say(report.table().trim_end());
+    for hint in setup.hints() {
+        say(format_args!("note: {hint}"));
+    }
     for (_, warning) in warnings.worst() {
         say(format_args!("warning: {warning}"));
     }

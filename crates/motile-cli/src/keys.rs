@@ -9,13 +9,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
-use motile::setup::{ExcludedVolume, Particles, Setup};
+use motile::setup::Setup;
 use toml::{Table, Value};
 
 /// Key that no part of a scene has.
 const NO_KEY: &str = "no-such-key";
-/// Peclet number (no dimension) above which droplets swim also in narrow regions; in unbounded fluid they do above 2.
-const FAR_ABOVE_THRESHOLD: f64 = 10.0;
 /// Most keys that a message suggests.
 const SUGGESTED: usize = 3;
 
@@ -349,34 +347,6 @@ pub(crate) fn in_words(problem: &str) -> String {
         ("invalid value: ", ""),
     ];
     words.iter().fold(problem.to_owned(), |text, (name, words)| text.replace(name, words))
-}
-
-/// Refuses droplets whose particles would collapse to a point early in a run.
-///
-/// # Errors
-/// Returns an error if the activity of a droplet is at least as strong as its excluded volume, so that nothing stops
-/// particles that attract each other, and far stronger than the threshold of swimming.
-pub fn refuse_collapse(setup: &Setup) -> Result<()> {
-    let placed = setup.placed()?;
-    for (number, droplet) in placed.droplets.iter().enumerate() {
-        let Some(numbers) = placed.numbers(droplet)? else { continue };
-        let collapses =
-            numbers.excluded_volume.is_some_and(|ratio| ratio <= 1.0) && numbers.peclet > FAR_ABOVE_THRESHOLD;
-        let Some(Particles { activity, excluded_volume: ExcludedVolume::Step(strength), .. }) = droplet.particles
-        else {
-            continue;
-        };
-        if !collapses {
-            continue;
-        }
-        let key =
-            if number < setup.droplets.len() { format!("droplets[{number}].particles") } else { "suspension".into() };
-        bail!(
-            "{key}.activity = {activity}: the excluded volume is only {strength}, so the particles would collapse to a \
-             point. Use an activity weaker than -{strength}, or a larger excluded volume"
-        );
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
 use motile_cli::command_line::positive;
-use motile_cli::keys::{SceneFlags, refuse_collapse};
-use motile_cli::run::{OutputFlags, SceneRun, View};
+use motile_cli::keys::SceneFlags;
+use motile_cli::run::{OutputFlags, SceneRun, View, say};
 use motile_cli::steady::{SteadyFlags, steady};
 use motile_cli::sweep::{SweepFlags, sweep};
 
@@ -64,7 +64,6 @@ fn main() -> ExitCode {
         Task::Steady(flags) => steady(flags),
         Task::Check(flags) => {
             let setup = flags.scene.setup()?;
-            refuse_collapse(&setup)?;
             check::check(&setup, flags.time)
         }
         Task::New(flags) => new::write(flags),
@@ -75,7 +74,9 @@ fn run(RunFlags { scene, time, output }: &RunFlags) -> Result<()> {
     let name = scene.name();
     output.check(&name, Some(&scene.file))?;
     let setup = scene.setup()?;
-    refuse_collapse(&setup)?;
+    if !output.quiet {
+        setup.hints().iter().for_each(|hint| say(format_args!("note: {hint}")));
+    }
     let mut run = SceneRun::new(setup.build()?, &setup, *time, output, &name, &View::of(&setup))?;
     run.go(None)?;
     // The results, also of a run that broke off.

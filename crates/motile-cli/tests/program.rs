@@ -229,6 +229,18 @@ fn resumed_runs_are_those_without_a_break() {
     assert!(told.contains("droplets[0].particles.activity is -3.0 in it and -2.0 here"), "{told}");
 }
 
+/// Particles with a positive activity are legal, but the droplet does not swim.
+#[test]
+fn a_positive_activity_is_noted() {
+    let directory = Directory::new("positive");
+    let scene = directory.file("scene.toml", "[[droplets]]\nparticles.activity = 2.0\n");
+    let note = "note: droplets[0].particles.activity = 2: particles with a positive activity push each other apart, so";
+    let checked = succeeds(&["check", &scene]);
+    assert!(checked.contains(note), "{checked}");
+    let contractile = succeeds(&["check", &scene, "--set", "droplets.0.particles.activity=-2"]);
+    assert!(!contractile.contains("note:"), "{contractile}");
+}
+
 #[test]
 fn wrong_input_is_refused_in_one_sentence() {
     let directory = Directory::new("wrong");

@@ -112,7 +112,7 @@ impl DiscMesh {
         &self.triangles
     }
 
-    /// Positions (length) or velocities (length per time) of inner nodes from the same of the markers: fills the
+    /// Computes positions (length) or velocities (length per time) of inner nodes from the markers. It fills the
     /// entries after the first M of a list for all nodes. Lists of another length are left as they are.
     pub fn place(&mut self, nodes: &mut [Vec2]) {
         let Some((markers, mut inner)) = nodes.split_at_mut_checked(self.markers) else { return };

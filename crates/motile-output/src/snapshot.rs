@@ -137,7 +137,7 @@ impl Snapshot {
         })
     }
 
-    /// Pressures at the sample points (force per length).
+    /// Returns the pressures at the sample points (force per length).
     #[must_use]
     pub fn pressure(&self) -> Vec<f64> {
         self.flow.iter().map(|sample| sample.pressure).collect()

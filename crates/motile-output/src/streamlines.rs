@@ -24,7 +24,7 @@ const LONGEST: f64 = 400.0;
 /// Velocity over the largest one below which a line ends: its direction depends on errors of the samples.
 const STAGNANT: f64 = 1e-4;
 
-/// Streamlines of a velocity field that are about `spacing` (length) apart, each a list of points (length) in the
+/// Computes streamlines of a velocity field about `spacing` (length) apart, each a list of points (length) in the
 /// direction of the flow. The first passes through `anchor` and determines the others, so that lines move along with an
 /// anchor that moves with the flow. In periodic directions lines continue beyond the borders, unwrapped.
 ///

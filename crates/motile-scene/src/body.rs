@@ -79,7 +79,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// velocities of the fluid at the markers (length per time).
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]);
 
-    /// Called before the first evaluation of a step.
+    /// Prepares a step; runs before its first evaluation.
     ///
     /// # Errors
     /// Returns an error for a state from which no step can start.
@@ -94,7 +94,7 @@ pub trait Body: Any + fmt::Debug + Send {
     /// Replaces `state` by the solution y of `y - factor L(state) y = state`.
     fn solve_implicit(&mut self, _factor: f64, _state: &mut [f64]) {}
 
-    /// Called after the last evaluation of a step, when the new state has been read: filters, constraints,
+    /// Completes a step after its last evaluation, when the new state has been read: filters, constraints,
     /// redistribution of markers, checks.
     ///
     /// # Errors
@@ -103,7 +103,7 @@ pub trait Body: Any + fmt::Debug + Send {
         Ok(())
     }
 
-    /// Called when the step that [`Body::end_step`] has ended is accepted. Use it for what you count over a run,
+    /// Records a step that [`Body::end_step`] has ended and that is accepted. Use it for what you count over a run,
     /// because rejected steps do not come here.
     fn keep_step(&mut self) {}
 

@@ -289,7 +289,7 @@ impl<H: Hydrodynamics> Scene<H> {
         &self.report
     }
 
-    /// Stages and estimates of the integrator since the start.
+    /// Returns the stages and estimates of the integrator since the start.
     #[must_use]
     pub fn integrator_work(&self) -> IntegratorWork {
         self.integrator.work()

@@ -31,7 +31,7 @@ impl SteadyState {
         Ok(Eigenmode { value: Complex64::new(value.re, value.im.abs()), ..mode.clone() })
     }
 
-    /// Steady state at a nearby value of a parameter, by Newton's method from this one.
+    /// Finds the steady state at a nearby value of a parameter, using Newton's method from this one.
     ///
     /// # Errors
     /// Returns an error for a description without this parameter; no convergence; a state that the nodes do not

@@ -50,12 +50,12 @@ const SLOW: f64 = 1e-2;
 const MOST_STEPS: usize = 80;
 
 impl SteadyState {
-    /// Steady state that a description leads to, a swimmer or a drop in an imposed flow. It takes implicit steps in
-    /// time from the start that the description gives, on few nodes, then Newton's method at the nodes asked for. A
-    /// start that is its own mirror image at the x axis leads to a state that is, too. A start that swims does not lead
-    /// to a droplet at rest that is unstable: this is tried again with shorter steps. If this fails, it is done at half
-    /// the activity, and the activity then raised in steps. If particles diffuse inside, it starts from the state with
-    /// a well-mixed inside, and if that is not near, from the description.
+    /// Finds the steady state that a description leads to, a swimmer or a drop in an imposed flow. It takes implicit
+    /// steps in time from the start that the description gives, on few nodes, then Newton's method at the nodes asked
+    /// for. A start that is its own mirror image at the x axis leads to a state that is, too. A start that swims does
+    /// not lead to a droplet at rest that is unstable: this is tried again with shorter steps. If this fails, it is
+    /// done at half the activity, and the activity then raised in steps. If particles diffuse inside, it starts from
+    /// the state with a well-mixed inside, and if that is not near, from the description.
     ///
     /// # Errors
     /// Returns an error for a description of anything but one round droplet (with rigid discs inside, if any) by the

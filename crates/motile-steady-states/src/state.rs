@@ -328,7 +328,7 @@ impl SteadyState {
     }
 
     /// Returns the moments along the axis and along a direction across it of the forces of a body of revolution about
-    /// its centre, with `2 (eta_out - eta_in) INT u n dS`, from which the stresslet is two thirds of their difference.
+    /// its centre, with `2 (eta_ext - eta_in) INT u n dS`, from which the stresslet is two thirds of their difference.
     fn axial_dipoles(&self, system: &System, centre: Vec2, tangents: &[Vec2]) -> [f64; 2] {
         let (model, rings) = (&system.model, Rings::new(tangents.len()));
         let contrast = model.viscosities[1] - model.viscosities[0];

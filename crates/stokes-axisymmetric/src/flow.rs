@@ -80,7 +80,7 @@ impl Sides {
 /// With the meridian X(t), t from 0 to pi, the force g per t and azimuth, the velocity on an interface solves
 ///
 /// ```text
-/// (eta_in + eta_out)/2 u - (eta_out - eta_in)/(8 pi) INT T(u) n r |X_t| dt = 1/(8 pi) INT G g dt
+/// (eta_in + eta_ext)/2 u - (eta_ext - eta_in)/(8 pi) INT T(u) n r |X_t| dt = 1/(8 pi) INT G g dt
 /// ```
 ///
 /// (Pozrikidis, Boundary Integral and Singularity Methods, 1992, section 2.4) with Stokeslet and stress integrated over
@@ -247,7 +247,7 @@ impl AxisymmetricFlow {
     /// of another viscosity, with the flow U of Poiseuille of the flux 1, by
     ///
     /// ```text
-    /// INT f_x U dS + (eta_out - eta_in) INT (u_x n_r + u_r n_x) dU/dr + 8 x/(pi R^4) u.n dS
+    /// INT f_x U dS + (eta_ext - eta_in) INT (u_x n_r + u_r n_x) dU/dr + 8 x/(pi R^4) u.n dS
     /// ```
     ///
     /// # Errors
@@ -288,7 +288,7 @@ impl AxisymmetricFlow {
         self.viscosity
     }
 
-    /// Resolution.
+    /// Returns the resolution.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings

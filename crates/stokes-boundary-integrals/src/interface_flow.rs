@@ -57,10 +57,10 @@ pub struct WarmStart {
 /// Singularity Methods, 1992)
 ///
 /// ```text
-/// (eta_in + eta_out)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_out)/(4 pi) INT v(y) T(x, y) n ds
+/// (eta_in + eta_ext)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_ext)/(4 pi) INT v(y) T(x, y) n ds
 /// ```
 ///
-/// with the Green's function G of the region and its stress T. Here n points outward, and eta_out is the viscosity of
+/// with the Green's function G of the region and its stress T. Here n points outward, and eta_ext is the viscosity of
 /// the fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is
 /// integrated by the rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of
 /// the parameter. Errors fall faster than any power of the number of nodes. If viscosities differ, the equation is
@@ -68,7 +68,7 @@ pub struct WarmStart {
 /// is resolved by the nodes, whatever the kernel.
 ///
 /// A rigid body is the limit of eta_in to infinity, in which `v = U + Om x (x - x_c) + w/eta_in` with a density w. The
-/// first two terms are the rigid motion P w/eta_out, P the mean rigid motion of a density:
+/// first two terms are the rigid motion P w/eta_ext, P the mean rigid motion of a density:
 ///
 /// ```text
 /// P w(x) + w(x)/2 = 1/(4 pi) INT G(x, y) F(y) ds - 1/(4 pi) INT w(y) T(x, y) n ds

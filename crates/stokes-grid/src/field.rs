@@ -110,19 +110,19 @@ impl StaggeredField {
         &self.grid
     }
 
-    /// x components, row after row.
+    /// Returns the x components, row after row.
     #[must_use]
     pub fn x(&self) -> &[f64] {
         &self.x
     }
 
-    /// y components, row after row.
+    /// Returns the y components, row after row.
     #[must_use]
     pub fn y(&self) -> &[f64] {
         &self.y
     }
 
-    /// Both components for writing, each row after row.
+    /// Returns both components for writing, each row after row.
     pub fn components_mut(&mut self) -> (&mut [f64], &mut [f64]) {
         (&mut self.x, &mut self.y)
     }

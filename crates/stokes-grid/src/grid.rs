@@ -112,7 +112,7 @@ impl Grid {
         self.origin
     }
 
-    /// Extents `[nx h, ny h]` (length).
+    /// Returns the extents `[nx h, ny h]` (length).
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
         [self.nx as f64 * self.h, self.ny as f64 * self.h]

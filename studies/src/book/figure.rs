@@ -58,6 +58,9 @@ pub(super) struct Figure {
     #[serde(skip)]
     pub(super) number: String,
     pub(super) title: String,
+    /// What colours and panels of its picture mean, in a sentence.
+    #[serde(default)]
+    pub(super) legend: String,
     /// The statement and what was found, each in a few words, for tables; marks in the finding stand for numbers.
     #[serde(default)]
     pub(super) claim: String,

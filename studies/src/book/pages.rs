@@ -100,17 +100,19 @@ impl Entry {
         drawn.into_iter().chain(self.figure.picture.as_ref().map(|picture| format!("../{picture}"))).collect()
     }
 
-    /// The picture and its caption, with the axes.
+    /// The picture and its caption, with the axes, across first, and the meaning of colours and panels.
     fn shown(&self) -> String {
         let mut text = format!("<a id=\"{}\"></a>\n", self.anchor());
         for picture in self.pictures() {
             let _ = write!(text, "![{}]({picture})\n\n", self.name());
         }
-        let axes = self.figure.axes();
+        let axes = self.figure.axes().replace(" (across)", "").replace(" (up)", "");
         let axes = if axes.is_empty() { axes } else { format!(" Axes: {axes}.") };
+        let legend = &self.figure.legend;
+        let legend = if legend.is_empty() { String::new() } else { format!(" {legend}") };
         let (first, rest) = self.kind().split_at(1);
         let verdict = first.to_uppercase() + rest;
-        text + &wrapped(&format!("**{}.** {}.{axes} *{verdict}.*", self.name(), self.figure.title))
+        text + &wrapped(&format!("**{}.** {}.{axes}{legend} *{verdict}.*", self.name(), self.figure.title))
     }
 }
 
@@ -142,6 +144,8 @@ pub(super) fn all() -> Result<Vec<(String, String)>> {
         let mark = format!("{{{{figure {}}}}}", entry.number);
         let shown = entry.is_question() || texts.iter().any(|(_, text)| text.contains(&mark));
         ensure!(shown, "figure {} is in no text of {}/chapters", entry.number, directory().display());
+        let told = entry.is_question() || !entry.figure.legend.is_empty();
+        ensure!(told, "figure {} has no `legend`, which says what colours and panels mean", entry.number);
     }
     let mut pages = Vec::new();
     for (name, text) in &texts {

@@ -1,5 +1,6 @@
 //! Single droplets: strong activity, contrasts of viscosity, coarse and odd grids, narrow places.
 
+use motile::active_interface::ContractileTension;
 use motile::base::Drive;
 use motile::base::Region;
 use motile::scene::Body;
@@ -62,7 +63,12 @@ pub(crate) fn trials() -> Vec<Trial> {
             run_by(way, &base, extent.pick(5.0, 60.0), look)
         }),
         Recipe::new(1, "activity -5, A = 3: no plateau", ALL, |way, _, look| {
-            run_by(way, &Setup { droplets: one(-5.0, 3.0), ..coarse() }, 200.0, look)
+            // A description with this law is refused, so the droplet gets the law afterwards.
+            let base = Setup { droplets: one(-2.0, 3.0), ..coarse() };
+            let Built { mut scene, droplets, .. } = by(way, &base).build()?;
+            let law = ContractileTension::thesis(10.0, -5.0, 3.0, 100.0)?;
+            scene.body_mut(droplets[0])?.set_tension(law);
+            run_way(way, scene, 200.0, look)
         })
         .ending_in(&[Ending::Collapsed]),
         Recipe::new(2, "viscosity ratio 1000", ALL, |way, extent, look| {

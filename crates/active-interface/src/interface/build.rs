@@ -268,8 +268,8 @@ impl ActiveInterface {
         self.state.shape.axisymmetric
     }
 
-    /// Sizes of the segments, over which particle numbers are concentrations: their lengths (length), of a body of
-    /// revolution half of the areas of their rings (length squared).
+    /// Returns the sizes of the elements; a particle number over its size is a concentration. They are lengths
+    /// (length), or half of the areas of rings (length squared) if the interface is axisymmetric.
     #[must_use]
     pub fn element_sizes(&self) -> &[f64] {
         self.state.shape.geometry.cells().sizes

@@ -17,9 +17,9 @@ use crate::concentration::{Flux, element_peclet};
 pub(crate) const PECLET_LIMIT: f64 = 0.35;
 
 /// Nodes of a swimmer's shape below which its speed is off by more than 1 %. At activities of -2, -3 and -4, with 600
-/// cells, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0 and -0.6 with 24.
+/// elements, the speed is off by -1.8, -1.6 and -0.5 % with 16 nodes, and by -0.1, 0 and -0.6 with 24.
 const LEAST_NODES: usize = 24;
-/// Error of the speed of swimmers with the upwind flux, in %: 2.9 to 6.6 with 192 cells at activities of -2 to -4.
+/// Error of the speed of swimmers with the upwind flux, in %: 2.9 to 6.6 with 192 elements at activities of -2 to -4.
 const UPWIND_ERROR: f64 = 3.5;
 
 /// Returns the grid spacing h (length) that the motion of an interface sees. It is `None` if the flow resolves the
@@ -106,7 +106,7 @@ impl ActiveInterface {
             let (count, shortest) = (lengths.len() as f64, lengths.iter().copied().fold(f64::INFINITY, f64::min));
             let modes = view.shape_modes.map_or(count, |modes| (modes as f64).min(count));
             let wave = PI * modes / (count * shortest);
-            // It decays at the rate wave stiffness/(2 (eta_in + eta_out)).
+            // It decays at the rate wave stiffness/(2 (eta_in + eta_ext)).
             let dt = 8.0 * viscosity / (wave * elasticity.stiffness(wave));
             limits(StepLimit::decay(dt, "the elasticity of the interface"));
         }

@@ -36,7 +36,7 @@ impl SquirmerFit {
         Self { b1: if self.b1.abs() > rest { self.b1 } else { 0.0 }, ..self }
     }
 
-    /// beta = B2 / |B1| (no dimension): positive for pullers, negative for pushers; `None` where B1 is zero.
+    /// Returns beta = B2/|B1| (no dimension): positive for pullers, negative for pushers; `None` if B1 is zero.
     #[must_use]
     pub fn beta(&self) -> Option<f64> {
         (self.b1 != 0.0).then(|| self.b2 / self.b1.abs())

@@ -34,13 +34,13 @@ impl Sphere {
 
     /// Returns the rates of change (1/time) of the amplitudes a of the radius (length) and b of the concentration
     /// (particles per area) of a spherical harmonic of degree l, as `[[aa, ab], [ba, bb]]`, `da/dt = aa a + ab b`. They
-    /// hold for all orders m. With `S = eta_in + eta_out`, G the tension, g its slope by the concentration, `N = (2 l^2
-    /// S - 2 eta_in + eta_out)(2 l (l + 2) S + 3 eta_in)` and `P = (l + 2) eta_out + (l - 1) eta_in`
+    /// hold for all orders m. With `S = eta_in + eta_ext`, G the tension, g its slope by the concentration, `N = (2 l^2
+    /// S - 2 eta_in + eta_ext)(2 l (l + 2) S + 3 eta_in)` and `P = (l + 2) eta_ext + (l - 1) eta_in`
     ///
     /// ```text
     /// aa = -G (l-1) l (l+1) (l+2) (2l+1) S/(R0 N)          ab = -g l (l+1) P/N
     /// ba = c0 G (l-1) l (l+1) (l+2) P/(R0^2 N)
-    /// bb = c0 g l (l+1) ((2l^3+3l^2+4) eta_out + (2l^3+3l^2-5) eta_in)/(R0 N) - D l (l+1)/R0^2
+    /// bb = c0 g l (l+1) ((2l^3+3l^2+4) eta_ext + (2l^3+3l^2-5) eta_in)/(R0 N) - D l (l+1)/R0^2
     /// ```
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl Sphere {
     }
 
     /// Returns the activity (force times length) below which the droplet at rest is unstable to l = 1: `-D (3 eta_in +
-    /// 2 eta_out)/(R0 c0)`.
+    /// 2 eta_ext)/(R0 c0)`.
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
         let RoundDroplet { radius, viscosity_inside, viscosity_outside, concentration, diffusivity, .. } = self.0;
@@ -77,7 +77,7 @@ impl Sphere {
     /// droplet stays a sphere and linear in the concentration:
     ///
     /// ```text
-    /// 1 - (3 q - 1)/(15 (1 - q)) (b1/c0)^2,         q = (3 eta_in + 2 eta_out)/(5 (eta_in + eta_out))
+    /// 1 - (3 q - 1)/(15 (1 - q)) (b1/c0)^2,         q = (3 eta_in + 2 eta_ext)/(5 (eta_in + eta_ext))
     /// ```
     ///
     /// q is the ratio of the velocities along the surface that tensions of l = 2 and l = 1 cause. It is between 0.4 and
@@ -105,7 +105,7 @@ impl Sphere {
 
 /// Returns the velocity (length per time) along theta = pi of a spherical droplet with the tension `gamma0 + g
 /// cos(theta)`, g in force per length, in fluid of another viscosity (stress times time, inside first): `2 g/(3 (2
-/// eta_out + 3 eta_in))` (Young, Goldstein and Block, The motion of bubbles in a vertical temperature gradient, 1959).
+/// eta_ext + 3 eta_in))` (Young, Goldstein and Block, The motion of bubbles in a vertical temperature gradient, 1959).
 ///
 /// # Errors
 /// Returns an error for viscosities that are not positive and finite, a tension that is not finite.
@@ -117,7 +117,7 @@ pub fn marangoni_speed(difference: f64, [inside, outside]: [f64; 2]) -> Result<f
 }
 
 /// Returns the velocity (length per time) of a spherical droplet of clean interface under a force, such as its weight
-/// (Hadamard and Rybczynski, 1911): `F (eta_in + eta_out)/(2 pi R0 eta_out (2 eta_out + 3 eta_in))`.
+/// (Hadamard and Rybczynski, 1911): `F (eta_in + eta_ext)/(2 pi R0 eta_ext (2 eta_ext + 3 eta_in))`.
 ///
 /// # Errors
 /// Returns an error for a radius or viscosities (stress times time, inside first) that are not positive and finite, a

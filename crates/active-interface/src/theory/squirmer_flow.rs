@@ -82,7 +82,7 @@ impl SquirmerFlow {
         }
     }
 
-    /// beta = B2/|B1| (no dimension); `None` for B1 = 0.
+    /// Returns beta = B2/|B1| (no dimension); `None` if B1 is zero.
     #[must_use]
     pub fn beta(&self) -> Option<f64> {
         SquirmerFit { b1: self.b1, b2: self.b2 }.beta()

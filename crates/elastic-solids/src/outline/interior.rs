@@ -37,7 +37,7 @@ impl Interior {
         Ok(Self { outlines, period })
     }
 
-    /// Outlines of the solid.
+    /// Returns the outlines of the solid.
     #[must_use]
     pub fn outlines(&self) -> &[Outline] {
         &self.outlines

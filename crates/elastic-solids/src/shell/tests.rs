@@ -74,7 +74,7 @@ fn what_is_no_shell_is_refused() {
     assert!(shell.deformed(&circle[1..]).is_err());
 }
 
-/// Short waves on a circle relax as those on a flat membrane, `q (E_s + B q^2)/(2 (eta_in + eta_out))`: along it by
+/// Short waves on a circle relax as those on a flat membrane, `q (E_s + B q^2)/(2 (eta_in + eta_ext))`: along it by
 /// stretching, across it by bending.
 #[test]
 fn step_limits_are_those_of_the_shortest_wave() {

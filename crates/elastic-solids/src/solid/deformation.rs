@@ -38,7 +38,7 @@ pub struct Deformation {
 }
 
 impl Deformation {
-    /// Measurements on a solid in its present state.
+    /// Measures a solid in its present state.
     #[must_use]
     pub fn of(solid: &Solid) -> Self {
         let mesh = &solid.mesh;

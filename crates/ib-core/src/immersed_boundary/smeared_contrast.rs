@@ -17,7 +17,7 @@ const UNCORRECTED_ERROR: f64 = 3.1;
 /// The immersed boundary method with the viscosity as a smooth field on the grid (Cowley section 2.2.4): the outward
 /// normals of the interfaces, spread like forces, are minus the gradient of an indicator that is one inside,
 ///
-/// `lap H = -div(sum n ds delta_h)` (2.42), (2.43), `eta = eta_out + (eta_in - eta_out) H` (2.44),
+/// `lap H = -div(sum n ds delta_h)` (2.42), (2.43), `eta = eta_ext + (eta_in - eta_ext) H` (2.44),
 ///
 /// and a solver for viscosity that varies does the rest. Nodes take the arithmetic mean of the four centres around
 /// them.

@@ -1,6 +1,6 @@
 //! Droplets that hang together.
 
-/// Sizes of the clusters of `count` droplets that are joined by pairs of their numbers, the largest first; a droplet
+/// Returns the sizes of the clusters of `count` droplets that pairs of their numbers join, the largest first. A droplet
 /// without a partner is a cluster of one. Pairs with numbers of no droplet join nothing.
 ///
 /// ```

@@ -18,8 +18,8 @@ pub fn mean_square_displacement(states: &[Vec<Vec2>]) -> Vec<f64> {
     over_lags(states, |from, to| (to - from).length_squared())
 }
 
-/// Means of the products `n(t) n(t + lag)` of directions (no dimension) over 0, 1, ... intervals, as by
-/// [`mean_square_displacement`].
+/// Returns the means of the products `n(t) n(t + lag)` of directions (no dimension) over 0, 1, ... intervals, as
+/// [`mean_square_displacement`] does.
 #[must_use]
 pub fn heading_correlation(states: &[Vec<Vec2>]) -> Vec<f64> {
     over_lags(states, Vec2::dot)

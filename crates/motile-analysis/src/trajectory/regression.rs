@@ -15,7 +15,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Significance: `true` if the value differs from zero by more than `errors` standard errors.
+    /// Returns `true` if the value differs from zero by more than `errors` standard errors.
     #[must_use]
     pub fn differs_from_zero(&self, errors: f64) -> bool {
         self.value.abs() > errors * self.error

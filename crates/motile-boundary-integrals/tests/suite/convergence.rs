@@ -43,7 +43,7 @@ fn errors_fall_faster_than_any_power_of_the_nodes() {
 
 #[test]
 fn a_circle_is_exact_with_few_nodes() {
-    // Tension 1 + cos t on a unit circle: a translation by half of 1/(2 (eta_in + eta_out)) and the matching flow.
+    // Tension 1 + cos t on a unit circle: a translation by half of 1/(2 (eta_in + eta_ext)) and the matching flow.
     let circle = Ellipse { viscosity: Some(4.0), ..Ellipse::circle(0.0, 0.0, |t| 1.0 + t.cos()) };
     let mut reference = markers(&[circle], COUNT);
     solve(Region::Plane, &mut reference, 96);

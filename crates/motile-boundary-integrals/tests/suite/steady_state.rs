@@ -98,7 +98,7 @@ fn iterations_do_not_grow_with_the_nodes_and_little_with_the_ratio() {
 
 #[test]
 fn stiffness_is_the_rate_of_the_finest_wave() {
-    // Wave number 32 of 64 nodes on a unit circle relaxes at the rate 32/(2 (eta_in + eta_out)) tension, the stiffness
+    // Wave number 32 of 64 nodes on a unit circle relaxes at the rate 32/(2 (eta_in + eta_ext)) tension, the stiffness
     // over the mean of both viscosities.
     let mut solver = BoundaryIntegral::new(Region::Plane, 2.0, Settings::default()).expect("a valid scene");
     assert!((solver.fluid_view().interface_stiffness - 8.0).abs() < 1e-12);

@@ -1,5 +1,7 @@
 use std::collections::BTreeSet;
 
+use motile::setup::ExcludedVolume;
+
 use super::*;
 
 fn scene(text: &str) -> Value {

@@ -162,7 +162,7 @@ impl Job {
         matches!(self.outcome, Err(SceneError::Stopped { .. }))
     }
 
-    /// Outcome of the run, without any files.
+    /// Returns the outcome of the run, without any files.
     ///
     /// # Errors
     /// Returns an error for the failure of the run.

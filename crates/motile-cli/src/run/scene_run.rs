@@ -229,7 +229,7 @@ impl SceneRun {
         }
     }
 
-    /// Outcome of the run, without summary and pictures.
+    /// Returns the outcome of the run, without summary and pictures.
     ///
     /// # Errors
     /// Returns an error for the failure of the run.

@@ -35,8 +35,8 @@ pub struct Steadiness {
 }
 
 impl Steadiness {
-    /// Steadiness from points (time, speed) in the order of time, with the diffusion constant D of the particles
-    /// (length squared per time) and the radius R0 of the droplet (length).
+    /// Judges steadiness from points (time, speed) in the order of time. It takes the diffusion constant D of the
+    /// particles (length squared per time) and the radius R0 of the droplet (length).
     #[must_use]
     pub fn of(points: &[(f64, f64)], diffusion: f64, radius: f64) -> Self {
         let nothing = Self { since: None, at_rest: false, final_speed: f64::NAN, deviation: f64::NAN };

@@ -9,7 +9,6 @@ use motile::setup::Setup;
 use serde_json::Value;
 
 use super::run_pool::made_again;
-use crate::keys::refuse_collapse;
 use crate::run::{CheckpointFlags, OutputFlags, SceneRun, Summary, Taken, View, explained, make_directory};
 
 /// Entry of a summary with the [`Trial::fingerprint`] of its run.
@@ -159,7 +158,6 @@ impl Trial {
     }
 
     fn recorded(&self) -> Result<Summary> {
-        refuse_collapse(&self.setup)?;
         self.keep_scene()?;
         let (checkpoint, resume) = (Some(self.checkpoint()), self.useful_checkpoint());
         let checkpoints = CheckpointFlags { checkpoint, resume, ..CheckpointFlags::default() };

@@ -76,7 +76,7 @@ struct Drop {
 }
 
 impl SuspensionPicture {
-    /// Droplets in the present state; the flow at their markers is computed if it is not known yet.
+    /// Records droplets in the present state; the flow at their markers is computed if it is not known yet.
     ///
     /// # Errors
     /// Returns [`OutputError::Scene`] for a flow that cannot be computed; [`OutputError::Empty`] for a scene without

@@ -6,7 +6,7 @@ use super::SuspensionCsv;
 use crate::OutputError;
 use crate::plot::{AxisScale, Figure, Plot, Series};
 
-/// Plots of a run of a suspension: orders of the headings, contacts and the largest cluster over time; mean square
+/// Draws a run of a suspension: orders of the headings, contacts and the largest cluster over time; mean square
 /// displacement and correlation of headings over the time between two states from the time `from` on
 /// ([`SuspensionCsv::diffusion`]); correlations of `pairs` over their distance.
 ///

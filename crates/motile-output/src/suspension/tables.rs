@@ -171,8 +171,8 @@ impl SuspensionCsv {
         lags.map(|(lag, (square, correlation))| [lag as f64 * interval, square, correlation]).collect()
     }
 
-    /// Correlations of pairs in a region, averaged over the states from the time `from` on, in bins of a width up to a
-    /// distance (length).
+    /// Computes the correlations of pairs in a region, averaged over the states after the time `from`, in bins of a
+    /// width up to a distance (length).
     #[must_use]
     pub fn pairs(&self, region: &Region, from: f64, bin: f64, reach: f64) -> PairCorrelations {
         let mut averages = PairAverages::new(region, bin, reach);

@@ -58,13 +58,13 @@ impl Repulsion {
         Self::new(pressure / (2.0 * film), 2.0 * film)
     }
 
-    /// Its strength (force per length squared).
+    /// Returns the strength (force per length squared).
     #[must_use]
     pub fn strength(&self) -> f64 {
         self.strength
     }
 
-    /// Its range (length).
+    /// Returns the range (length).
     #[must_use]
     pub fn range(&self) -> f64 {
         self.range

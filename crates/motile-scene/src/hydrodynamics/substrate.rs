@@ -17,7 +17,7 @@ pub struct Substrate {
 }
 
 impl Substrate {
-    /// From the friction coefficient zeta of a marker (force over velocity).
+    /// Creates a substrate from the friction coefficient zeta of a marker (force over velocity).
     ///
     /// # Errors
     /// Returns an error for a coefficient that is not positive and finite.

@@ -123,7 +123,7 @@ impl RungeKuttaChebyshev {
         self.measured
     }
 
-    /// How much faster the fastest decay is taken to be than the bodies' limits say.
+    /// Returns how much faster than the bodies' limits the fastest decay is taken to be.
     #[must_use]
     pub fn correction(&self) -> f64 {
         (MARGIN * self.measured).clamp(CORRECTION[0], CORRECTION[1])

@@ -9,7 +9,7 @@ use crate::{FlowError, Hydrodynamics, Markers, SceneError, System};
 /// Mean stress of a periodic box and the part of its bodies in it (Batchelor, J. Fluid Mech. 41, 545 (1970)),
 ///
 /// ```text
-/// Sigma = -p + 2 eta e + S/V,   S = dev sym sum over bodies [ -INT F x ds + (eta_in - eta_out) INT (v n + n v) ds ]
+/// Sigma = -p + 2 eta e + S/V,   S = dev sym sum over bodies [ -INT F x ds + (eta_in - eta_ext) INT (v n + n v) ds ]
 /// ```
 ///
 /// with the strain rate e of the imposed flow, the area V of the box, and F the forces of the bodies on the fluid. A

@@ -33,8 +33,8 @@ use crate::{Hydrodynamics, Scene, SceneError, StepSize, System, integrator::Dyna
 /// # }
 /// ```
 pub trait Observer<H> {
-    /// Called at the start of a run, when due, and at its end. It may evaluate and sample the flow; it cannot change
-    /// the bodies.
+    /// Records the system; runs at the start of a run, when due, and at its end. It may evaluate and sample the flow;
+    /// it cannot change the bodies.
     ///
     /// # Errors
     /// Returns whatever goes wrong; the run ends with [`SceneError::Observer`].

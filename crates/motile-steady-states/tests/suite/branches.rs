@@ -18,7 +18,7 @@ fn follow(start: &SteadyState, from: f64, to: f64) -> Branch {
 fn a_droplet_in_the_plane_polarises_at_the_threshold_of_linear_theory() {
     let state = SteadyState::uniform(&setup(Region::Plane, -0.3, 32)).unwrap();
     let branch = follow(&state, -0.3, -0.6);
-    // The slope of the tension at c0 has to be 2 D (eta_in + eta_out)/(R0 c0) = 0.4, Cowley (2.20).
+    // The slope of the tension at c0 has to be 2 D (eta_in + eta_ext)/(R0 c0) = 0.4, Cowley (2.20).
     let slope = |activity: f64| {
         let law = DropletSetup::contractile(activity, 10.0).particles.unwrap().law(10.0).unwrap();
         motile::active_interface::Tension::slope(&law, 100.0)

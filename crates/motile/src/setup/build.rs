@@ -58,26 +58,29 @@ impl Setup {
     ///
     /// # Errors
     /// Returns the errors of [`Setup::check`]; before anything is meshed, bodies that do not fit into the region or
-    /// overlap one another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]); shapes that cannot be
-    /// meshed.
+    /// overlap one another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]), and droplets whose
+    /// particles would collapse to a point ([`SetupError::Value`]); shapes that cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
         let built = if self.suspension.is_empty() {
-            self.assembled()?
+            self.assembled(self.droplets.len())?
         } else {
             let placed = self.placed()?;
             placed.check()?;
-            placed.assembled()?
+            placed.assembled(self.droplets.len())?
         };
         Ok(Built { scene: built.scene.described_by(self.entries()), ..built })
     }
 
-    /// Returns the scene of a description that has been checked and has no suspensions.
-    fn assembled(&self) -> Result<Built, SetupError> {
+    /// Returns the scene of a description that has been checked and has no suspensions. Droplets after the first
+    /// `listed` come from suspensions.
+    fn assembled(&self, listed: usize) -> Result<Built, SetupError> {
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
         let plans = self.bodies().enumerate().map(|(k, (_, body))| body.plan(self).map_err(keyed(k)));
         let (plans, flow) = (plans.collect::<Result<Vec<_>, _>>()?, self.flow()?);
         self.check_places(&plans, &flow)?;
+        // After the places: what does not fit says which quantities seem to have other units.
+        self.check_collapse(listed)?;
         self.check_filled(&plans)?;
         let mut scene = Scene::new(flow).with_step_size(self.step).advanced_by(self.integrator);
         if let Some(repulsion) = self.repulsion {

@@ -61,7 +61,7 @@ pub enum Axis {
 const WHOLE: f64 = 1e-6;
 
 impl Grading {
-    /// That factor everywhere (no dimension, positive).
+    /// Creates a grading with one factor everywhere (no dimension, positive).
     #[must_use]
     pub fn uniform(factor: f64) -> Self {
         Self::Along { axis: Axis::X, factors: vec![[0.0, factor]] }

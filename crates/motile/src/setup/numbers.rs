@@ -2,11 +2,13 @@
 
 use active_interface::{InterfaceError, polygon_moments};
 
-use super::{DropletSetup, DropletShape, ExcludedVolume, Setup};
+use super::{DropletSetup, DropletShape, ExcludedVolume, Particles, Setup, checked::Checked};
 use crate::SetupError;
 
 /// Markers of the polygon whose area approximates the area of a shape through points.
 const CORNERS: usize = 1000;
+/// Peclet number (no dimension) above which droplets swim also in narrow regions; in unbounded fluid they do above 2.
+const FAR_ABOVE_THRESHOLD: f64 = 10.0;
 
 /// Dimensionless numbers that govern a droplet with active particles (none has a dimension), R being the radius of the
 /// circle of its area. With the confinement (lengths of the region over R), they are all that a scene of one droplet
@@ -36,8 +38,8 @@ pub struct Numbers {
 }
 
 impl Setup {
-    /// Dimensionless numbers of a droplet of the scene; `None` for one without activity. The exterior fluid is the
-    /// scene's, also for a droplet inside another one.
+    /// Returns the dimensionless numbers of a droplet of the scene; `None` if it has no activity. The exterior fluid is
+    /// the fluid of the scene, also for a droplet inside another one.
     ///
     /// # Errors
     /// Returns an error for points that do not describe a closed curve.
@@ -55,6 +57,59 @@ impl Setup {
             bare_tension: droplet.tension / (strength * particles.concentration),
             viscosity_ratio: inside / self.viscosity,
         }))
+    }
+
+    /// Refuses droplets whose particles would collapse to a point early in a run. Their activity is at least as strong as
+    /// the excluded volume, so that nothing stops particles that attract each other, and far above the threshold of
+    /// swimming. Droplets after the first `listed` come from suspensions.
+    pub(super) fn check_collapse(&self, listed: usize) -> Result<(), SetupError> {
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            let Some(numbers) = self.numbers(droplet)? else { continue };
+            let unbound = numbers.excluded_volume.is_some_and(|ratio| ratio <= 1.0);
+            let Some(Particles { activity, excluded_volume: ExcludedVolume::Step(strength), .. }) = droplet.particles
+            else {
+                continue;
+            };
+            let [place, key] = if number < listed {
+                [format!("droplets[{number}]"), "particles.activity".to_owned()]
+            } else {
+                ["suspension".to_owned(), "activity".to_owned()]
+            };
+            let remedy = format!(
+                "the excluded volume is only {strength}, so the particles would collapse to a point. Use an activity \
+                 weaker than -{strength}, or a larger excluded volume"
+            );
+            Checked { place: &place }.refuse_if(
+                unbound && numbers.peclet > FAR_ABOVE_THRESHOLD,
+                &key,
+                activity,
+                remedy,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Returns a sentence for each kind of value that is legal but rarely meant: an activity that is positive, so that
+    /// the droplet does not swim (of the first such droplet).
+    ///
+    /// ```
+    /// use motile::prelude::*;
+    ///
+    /// let setup = Setup { droplets: vec![DropletSetup::active(2.0)], ..Setup::default() };
+    /// assert!(setup.hints()[0].starts_with("droplets[0].particles.activity = 2: "));
+    /// assert!(Setup::default().hints().is_empty());
+    /// ```
+    #[must_use]
+    pub fn hints(&self) -> Vec<String> {
+        let active = self.droplets.iter().enumerate().map(|(number, droplet)| (number, droplet.activity()));
+        let positive = active.filter(|(_, activity)| *activity > 0.0).take(1);
+        let hint = |(number, activity)| {
+            format!(
+                "droplets[{number}].particles.activity = {activity}: particles with a positive activity push each \
+                 other apart, so the droplet does not swim by itself. Use a negative activity for a swimmer"
+            )
+        };
+        positive.map(hint).collect()
     }
 }
 

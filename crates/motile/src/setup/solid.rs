@@ -516,7 +516,7 @@ impl Material {
 }
 
 impl ActiveSpringsSetup {
-    /// Their law.
+    /// Returns the law of the springs.
     ///
     /// # Errors
     /// Returns an error for numbers out of their range.

@@ -1467,3 +1467,34 @@ fn warnings_have_the_number_of_their_droplet() {
     let bodies: Vec<&str> = few.map(|warning| warning.body.as_str()).collect();
     assert_eq!(bodies, ["droplet (body 0)", "droplet (body 1)"]);
 }
+
+/// Nothing stops the particles of these droplets: they are refused before a run, from Rust as from scene files.
+#[test]
+fn droplets_that_would_collapse_are_refused() {
+    let of = |droplet: DropletSetup| Setup { droplets: vec![droplet], ..Setup::default() };
+    assert_eq!(
+        refused(&of(DropletSetup::active(-12.0))),
+        "droplets[0].particles.activity = -12: the excluded volume is only 10, so the particles would collapse to a \
+         point. Use an activity weaker than -10, or a larger excluded volume"
+    );
+    assert!(of(DropletSetup::contractile(-12.0, 13.0)).build().is_ok());
+    assert!(of(DropletSetup::active(-9.9)).build().is_ok());
+    // Ten times as viscous, they swim only a little above the threshold, and runs of some length succeed.
+    assert!(Setup { viscosity: 1000.0, ..of(DropletSetup::active(-12.0)) }.build().is_ok());
+    // Droplets of a suspension are known when they are placed.
+    let region = Region::Box { lengths: [12.0, 12.0] };
+    let activity = Some(Distribution::Value(-12.0));
+    let suspension = vec![SuspensionSetup { count: Some(2), activity, ..SuspensionSetup::default() }];
+    let error = refused(&Setup { region, droplets: Vec::new(), suspension, ..Setup::default() });
+    assert!(error.starts_with("suspension.activity = -12: the excluded volume is only 10"), "{error}");
+}
+
+#[test]
+fn positive_activities_get_a_hint() {
+    let droplets = vec![DropletSetup::active(-2.0), DropletSetup { centre: [3.0, 0.0], ..DropletSetup::active(2.0) }];
+    let setup = Setup { region: Region::Box { lengths: [12.0, 6.0] }, droplets, ..Setup::default() };
+    assert!(setup.check().is_ok());
+    let hints = setup.hints();
+    assert_eq!(hints.len(), 1);
+    assert!(hints[0].starts_with("droplets[1].particles.activity = 2: "), "{hints:?}");
+}

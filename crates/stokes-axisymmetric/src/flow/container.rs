@@ -224,8 +224,8 @@ impl AxisymmetricFlow {
         Ok(())
     }
 
-    /// Half length of the straight tube and distance of its nodes (length), which depend on where the surfaces have
-    /// been; `None` without one, or before there were surfaces.
+    /// Returns half the length of the straight tube and the distance of its nodes (length), which depend on where the
+    /// surfaces have been. Returns `None` without a tube, or before there were surfaces.
     #[must_use]
     pub fn tube_resolution(&self) -> Option<[f64; 2]> {
         self.tube.as_ref().filter(|tube| tube.half_length > 0.0).map(|tube| [tube.half_length, tube.spacing])

@@ -310,7 +310,7 @@ fn analyse(grid: &Grid, cosine: bool, values: &[f64], out: &mut [f64]) {
 }
 
 impl Disturbances {
-    /// Parameters of the nodes, from 0 at the pole of the largest x to pi at the other one.
+    /// Returns the parameters of the nodes, from 0 at the pole of the largest x to pi at the other one.
     #[must_use]
     pub fn parameters(&self) -> &[f64] {
         &self.grid.parameters
@@ -346,8 +346,8 @@ impl Disturbances {
         Ok(())
     }
 
-    /// Velocities of the order 0 for displacements (length) and forces (force) at the points that the interface was
-    /// given by, closed curves with forces on halves of rings as in [`AxisymmetricFlow::load`].
+    /// Computes velocities of order 0 for displacements (length) and forces (force) at the points that the interface
+    /// was given by, closed curves with forces on halves of rings as in [`AxisymmetricFlow::load`].
     ///
     /// # Errors
     /// Returns an error for lists of another length than the number of points.

@@ -74,8 +74,8 @@ fn double_layer_of_a_translation_is_its_jump() {
 }
 
 /// Hadamard and Rybczynski: a drop with the load f = e_x/(4 pi) per area, a force of one, moves at
-/// `(eta_in + eta_out)/(2 pi eta_out (2 eta_out + 3 eta_in))`, here divided by the normal load alone; Marangoni: the
-/// tension gamma0 + g cos moves it at `-2 g/(3 (2 eta_out + 3 eta_in))`.
+/// `(eta_in + eta_ext)/(2 pi eta_ext (2 eta_ext + 3 eta_in))`, here divided by the normal load alone; Marangoni: the
+/// tension gamma0 + g cos moves it at `-2 g/(3 (2 eta_ext + 3 eta_in))`.
 #[test]
 fn drops_settle_and_swim_at_their_exact_speeds() {
     let count = 64;

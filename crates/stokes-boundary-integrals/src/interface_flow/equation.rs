@@ -100,7 +100,7 @@ impl Equation {
     }
 
     /// Returns the part of its largest value that a product is to be right to for each part of the tolerance of
-    /// velocities, where the exterior fluid has that viscosity. A rigid motion is multiplied by eta_out alone, one of
+    /// velocities, where the exterior fluid has that viscosity. A rigid motion is multiplied by eta_ext alone, one of
     /// several interfaces together by the exterior viscosity, so an error in it counts that much more.
     fn sensitivity(&self, viscosity: f64) -> f64 {
         let least = |sides: &Sides| sides.outside.min(viscosity) * sides.mobility();
@@ -228,11 +228,11 @@ pub(super) struct Operator<'a> {
 
 impl Operator<'_> {
     /// Multiplies the mean rigid motion of each interface by a function of the factor that undoes what the interface
-    /// alone does to it, `(eta_in + eta_out)/(2 eta_out)`.
+    /// alone does to it, `(eta_in + eta_ext)/(2 eta_ext)`.
     ///
     /// As a preconditioner this is the inverse of each interface's own block, up to its deformation. The double layer
-    /// of a circle on itself is zero apart from rigid motions, which the block multiplies by `2 eta_out/(eta_in +
-    /// eta_out)`, and from uniform growth, for which there is [`growth`].
+    /// of a circle on itself is zero apart from rigid motions, which the block multiplies by `2 eta_ext/(eta_in +
+    /// eta_ext)`, and from uniform growth, for which there is [`growth`].
     fn scale_motions(&self, curves: &[Curve], values: &mut [f64], factor: impl Fn(f64) -> f64) {
         let len = values.len() / self.sides.len().max(1);
         for ((sides, curve), values) in self.sides.iter().zip(curves).zip(values.chunks_exact_mut(len.max(1))) {

@@ -11,7 +11,7 @@ use super::{equation::Operator, *};
 
 const NODES: usize = 96;
 
-/// Largest error of `A E = eta_out E` at the first of two interfaces and of `A E = 0` at the second, for the rigid
+/// Largest error of `A E = eta_ext E` at the first of two interfaces and of `A E = 0` at the second, for the rigid
 /// motions E of the first, relative to the mean viscosity; and that of the flux of a uniform expansion.
 fn errors(region: Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] {
     let settings = Settings { nodes: NODES, tolerance: 1e-15, ..Settings::default() };

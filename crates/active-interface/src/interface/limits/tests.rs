@@ -45,7 +45,7 @@ fn the_bounds_of_a_passive_droplet_by_hand() {
     assert_eq!(spacing(&droplet).1, 0.05);
 }
 
-/// An elastic interface decays fastest in its shortest wave q, at the rate `q (E + B q^2)/(2 (eta_in + eta_out))`.
+/// An elastic interface decays fastest in its shortest wave q, at the rate `q (E + B q^2)/(2 (eta_in + eta_ext))`.
 #[test]
 fn the_bound_of_an_elastic_interface_by_hand() {
     let markers: Vec<Vec2> = (0..32).map(|k| Vec2::new(0.125 * f64::from(k), 0.0)).collect();
