@@ -9,7 +9,8 @@ use motile::setup::WallSetup;
 
 /// Runs until the droplet has passed a throat of that width or the time is over; returns its last place.
 fn place(throat: f64) -> Result<f64, Box<dyn std::error::Error>> {
-    let shape = ChannelShape::Constriction { width: 3.0, throat, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
+    let shape =
+        ChannelShape::Constriction { width: 3.0, throat, throat_length: 2.0, ramp: 1.0, exit_ramp: None, centre: 0.0 };
     let mut walls = WallSetup::channel(&shape, 0.05);
     walls.iter_mut().for_each(|wall| wall.rounding = 0.2);
     let setup = Setup {

@@ -160,7 +160,9 @@ fn numbers() -> Result<Vec<String>> {
     let mut numbers: Vec<String> = named.filter_map(stem).filter(|name| name.contains('.')).collect();
     numbers.sort_by_key(|number| {
         let (chapter, place) = number.split_once('.').unwrap_or((number, ""));
-        (chapter.to_owned(), place.parse::<u32>().unwrap_or(0))
+        // A section such as 3.1.1 comes before the figures of its chapter.
+        let place: Vec<u32> = place.split('.').filter_map(|part| part.parse().ok()).collect();
+        (chapter.to_owned(), if place.len() == 1 { place[0] } else { 0 }, place)
     });
     Ok(numbers)
 }

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --features rayon -p studies -- instructions`, with `RAYON_NUM_THREADS=1`, compares each with
 //! `studies/instructions.csv` and fails where one has become more than 5 % more, or fewer: then `--write` renews the
-//! table. Counts depend on the compiler and on the processor's instruction set; the table names the compiler that it
+//! table. A test does the same. Counts depend on the compiler and on the processor's instruction set; the table names the compiler that it
 //! was made with.
 
 use std::{env, fs, hint::black_box, process::Command};
@@ -23,6 +23,14 @@ use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, S
 const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.csv");
 /// Largest relative difference from the table.
 const TOLERANCE: f64 = 0.05;
+/// Variable with the number of the work to do, for the program under valgrind.
+const WORK: &str = "STUDIES_WORK";
+/// Arguments of the program under valgrind: this command, or the test that counts.
+const CHILD: &[&str] = if cfg!(test) {
+    &["--ignored", "--exact", "--test-threads=1", "instructions::tests::counts_are_those_of_the_table"]
+} else {
+    &["instructions"]
+};
 /// Time step of scenes: steps alike.
 const DT: f64 = 1e-4;
 
@@ -147,9 +155,6 @@ pub(crate) struct Flags {
     /// Write the table instead of comparing with it
     #[arg(long)]
     write: bool,
-    /// Do the work with this number, under valgrind
-    #[arg(long, hide = true)]
-    work: Option<usize>,
 }
 
 /// Instructions of the work with this number, by valgrind.
@@ -161,7 +166,8 @@ fn instructions(number: usize) -> Result<u64> {
             "--toggle-collect=studies::instructions::counted*",
         ])
         .arg(env::current_exe()?)
-        .args(["instructions", "--work", &number.to_string()])
+        .args(CHILD)
+        .env(WORK, number.to_string())
         .output()
         .context("valgrind counts the instructions: install it")?;
     let said = String::from_utf8_lossy(&run.stderr);
@@ -170,8 +176,8 @@ fn instructions(number: usize) -> Result<u64> {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    if let Some(number) = flags.work {
-        return WORKS.get(number).context("there is no such work")?.1();
+    if let Ok(number) = env::var(WORK) {
+        return WORKS.get(number.parse::<usize>()?).context("there is no such work")?.1();
     }
     let compiler = Command::new("rustc").arg("--version").output()?.stdout;
     let mut table = format!("# {}work;instructions\n", String::from_utf8_lossy(&compiler));
@@ -198,3 +204,6 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     );
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

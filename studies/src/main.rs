@@ -6,6 +6,7 @@
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod animations;
+mod birth_death;
 mod book;
 mod exchange;
 mod gel;
@@ -50,6 +51,8 @@ enum Study {
     Figures(book::FiguresFlags),
     TimeSteps(time_steps::Flags),
     Tubes(tubes::Flags),
+    /// Compares closed forms of birth-death and branching processes with simulations
+    BirthDeath(tables::Keep),
     /// Lets passive droplets swim by a gel alone
     Gel(tables::Keep),
     /// Compares warnings of runs with their errors
@@ -85,6 +88,7 @@ fn run(flags: &Flags) -> anyhow::Result<()> {
         Study::Figures(flags) => book::figures(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),
         Study::Tubes(flags) => tubes::run(flags),
+        Study::BirthDeath(keep) => birth_death::run(*keep),
         Study::Gel(keep) => gel::run(*keep),
         Study::Warnings(keep) => warnings::run(*keep),
         Study::Instructions(flags) => instructions::run(flags),

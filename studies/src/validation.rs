@@ -7,6 +7,7 @@
 mod active_walls;
 mod channels;
 mod contrast;
+mod coupled;
 mod curved_walls;
 mod elastic_walls;
 mod fast_sums;
@@ -14,6 +15,7 @@ mod imposed_flows;
 mod recommended;
 mod soft_walls;
 mod solids;
+mod stresslet;
 mod two_droplets;
 mod viscoelastic;
 
@@ -43,15 +45,18 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn() -> Tables;
 
 /// All studies.
-const STUDIES: [(&str, Run); 15] = [
+const STUDIES: [(&str, Run); 18] = [
     ("fixed-shapes", fixed),
     ("growth", grow),
     ("steady", swim),
     ("recommended", recommended::recommended),
     ("channel-swimmers", channels::channel_swimmers),
+    ("stresslet", stresslet::stresslet),
     ("contrast-shapes", contrast::shapes),
     ("active-walls", active_walls::active_walls),
     ("imposed-flows", imposed_flows::imposed_flows),
+    ("coupled", coupled::coupled),
+    ("surfactant", coupled::surfactant),
     ("two-droplets", two_droplets::two_droplets),
     ("curved-walls", curved_walls::curved_walls),
     ("elastic-walls", elastic_walls::elastic_walls),

@@ -49,7 +49,7 @@ fn integrals() -> Setup {
 
 /// A narrow place, half a period of 12 away from a droplet.
 const CONSTRICTION: ChannelShape =
-    ChannelShape::Constriction { width: 2.4, throat: 1.2, throat_length: 4.0, ramp: 1.0, centre: 6.0 };
+    ChannelShape::Constriction { width: 2.4, throat: 1.2, throat_length: 4.0, ramp: 1.0, exit_ramp: None, centre: 6.0 };
 
 #[test]
 fn by_integrals() {
@@ -91,7 +91,14 @@ fn between_elastic_walls() {
     let setup = Setup { region: channel(12.0, 5.0), method, solids: walls, ..integrals() };
     stays_symmetric("layers", &setup, 10);
     // A droplet that starts squeezed.
-    let narrow = ChannelShape::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 6.0 };
+    let narrow = ChannelShape::Constriction {
+        width: 2.0,
+        throat: 1.0,
+        throat_length: 4.0,
+        ramp: 1.0,
+        exit_ramp: None,
+        centre: 6.0,
+    };
     let squeezed = Setup { solids: SolidSetup::walls(&narrow, &material), mirror_symmetric: true, ..setup.clone() };
     stays_symmetric("squeezed", &squeezed, 10);
     let springs = SolidSetup::walls(&CONSTRICTION, &Material::Springs { shear: 200.0 });

@@ -243,10 +243,17 @@ fn makers() -> Vec<Maker> {
         maker("SinusoidalChannel", &[6.0, 2.0, 0.3, 0.1], "++--", |v| {
             ChannelShape::Sinusoidal { width: v[1], amplitude: v[2], phase: v[3], waves: 2 }.channel(v[0]).is_ok()
         }),
-        maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
-            ChannelShape::Constriction { width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
-                .channel(v[0])
-                .is_ok()
+        maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 2.0, 0.0], "++++++-", |v| {
+            ChannelShape::Constriction {
+                width: v[1],
+                throat: v[2],
+                throat_length: v[3],
+                ramp: v[4],
+                exit_ramp: Some(v[5]),
+                centre: v[6],
+            }
+            .channel(v[0])
+            .is_ok()
         }),
         maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "++++0-", |v| {
             ChannelShape::Valve { width: v[1], gap: v[2], base: v[3], rounding: v[4], centre: v[5] }
@@ -346,13 +353,14 @@ fn makers() -> Vec<Maker> {
             solid_builds(|s| s.grading = Grading::Along { axis: Axis::X, factors: factors.clone() })
         }),
         maker("Setup solid.outline, straight", &[3.0], "+", |v| walls_build(ChannelShape::Straight { width: v[0] })),
-        maker("Setup solid.outline, constriction", &[3.0, 2.0, 2.0, 1.0, 0.5], "++++-", |v| {
+        maker("Setup solid.outline, constriction", &[3.0, 2.0, 2.0, 1.0, 0.5, 0.5], "+++++-", |v| {
             walls_build(ChannelShape::Constriction {
                 width: v[0],
                 throat: v[1],
                 throat_length: v[2],
                 ramp: v[3],
-                centre: v[4],
+                exit_ramp: Some(v[4]),
+                centre: v[5],
             })
         }),
         maker("Setup solid.outline, valve", &[3.0, 2.0, 2.0, 0.1, 0.5], "+++0-", |v| {

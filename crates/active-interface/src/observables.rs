@@ -32,7 +32,7 @@ use polar::PolarMarkers;
 use squirmer::raw_squirmer;
 
 pub use active_region::{ActiveRegion, active_curvature, active_region};
-pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
+pub use channel_flow::{BranchFlow, GapFlow, branch_flows, gap_flow, net_flux, pressure_drop};
 pub use curvature::stress_curvature;
 pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};

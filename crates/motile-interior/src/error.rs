@@ -45,6 +45,12 @@ impl InteriorError {
         Self::refused(what, "this droplet has none", "Build it with a list of particle numbers")
     }
 
+    /// Returns the error for an interface that does not enclose a layer next to a wall.
+    pub(crate) fn not_below_wall() -> Self {
+        let what = "a gel in a layer needs an interface along x that does not reach the wall on its inside";
+        Self::refused(what, "", "Move the interface away from the wall, or exchange its sides")
+    }
+
     /// Returns the error for mesh of too many nodes.
     pub(crate) fn too_fine(nodes: f64, most: usize) -> Self {
         let value = format!("it would have some {nodes:.1e} nodes, more than {most}");

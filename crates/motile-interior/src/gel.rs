@@ -40,6 +40,7 @@ mod defect;
 mod director;
 mod elements;
 mod in_box;
+mod in_layer;
 mod material;
 mod stabiliser;
 
@@ -47,6 +48,7 @@ pub use conditions::{Anchoring, DirectorStart};
 pub use defect::Defect;
 pub use director::GelObservables;
 pub use in_box::GelInBox;
+pub use in_layer::GelInLayer;
 pub use material::GelMaterial;
 
 use std::f64::consts::PI;

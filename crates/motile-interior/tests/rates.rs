@@ -10,7 +10,14 @@ use motile_interior::{Anchoring, DirectorStart, GelInBox, GelInDroplet, GelMater
 use motile_scene::{Body, Hydrodynamics, Scene, integrator::Dynamics as _};
 use stokes_grid::{Grid, PeriodicStokes};
 
-const GEL: GelMaterial = GelMaterial { frank: 1.0, rotational_viscosity: 2.0, alignment: -0.6, activity: -8.0 };
+const GEL: GelMaterial = GelMaterial {
+    frank: 1.0,
+    bend: None,
+    spontaneous_splay: 0.0,
+    rotational_viscosity: 2.0,
+    alignment: -0.6,
+    activity: -8.0,
+};
 const VISCOSITY: f64 = 1.5;
 /// Zeros of J_0.
 const ZEROS: [f64; 2] = [2.404_825_557_695_773, 5.520_078_110_286_311];
@@ -50,11 +57,16 @@ fn waves_on_a_uniform_director_grow_as_they_should() {
         let (cos, q) = ((2.0 * between).cos(), wave.length());
         let coupling = 1.0 - GEL.alignment * cos;
         let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
-        let exact = -GEL.frank * q * q * diffusion + GEL.activity * cos * coupling / (2.0 * VISCOSITY);
-        let errors = [32, 64].map(|cells| (wave_rate(GEL, cells, angle, wave).unwrap() - exact).abs());
-        let bound = 2e-3 * q * q * (1.0 + exact.abs());
-        assert!(errors[0] < 4.0 * bound && errors[1] < bound, "{errors:?} of {exact}");
-        assert!((errors[0] / errors[1]).log2() > 1.5, "{errors:?}");
+        // A wave along the director bends it, a wave across splays it; spontaneous splay does nothing without boundary.
+        for (bend, spontaneous_splay) in [(None, 0.0), (Some(3.0), -2.0)] {
+            let gel = GelMaterial { bend, spontaneous_splay, ..GEL };
+            let frank = 0.5 * (gel.frank * (1.0 - cos) + gel.bend() * (1.0 + cos));
+            let exact = -frank * q * q * diffusion + gel.activity * cos * coupling / (2.0 * VISCOSITY);
+            let errors = [32, 64].map(|cells| (wave_rate(gel, cells, angle, wave).unwrap() - exact).abs());
+            let bound = 2e-3 * q * q * (1.0 + exact.abs());
+            assert!(errors[0] < 4.0 * bound && errors[1] < bound, "{errors:?} of {exact}");
+            assert!((errors[0] / errors[1]).log2() > 1.5, "{errors:?}");
+        }
     }
 }
 

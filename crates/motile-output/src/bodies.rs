@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use motile::elastic_solids::{RigidBody, Shell, Solid};
-use motile::interior::{GelInBox, GelInDroplet};
+use motile::interior::{GelInBox, GelInDroplet, GelInLayer};
 use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, OutputError};
@@ -76,6 +76,7 @@ impl BodiesCsv {
             || system.bodies::<Solid>().next().is_some()
             || system.bodies::<GelInBox>().next().is_some()
             || system.bodies::<GelInDroplet>().next().is_some()
+            || system.bodies::<GelInLayer>().next().is_some()
     }
 
     /// Returns the names and values of the row of each body in the present state, the time and the body's number first.
@@ -161,6 +162,9 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
     let gels = all::<GelInBox, H>(system).into_iter().map(|handle| Ok((handle.index(), system.observe(handle)?)));
     let mut gels = gels.collect::<Result<Vec<_>, OutputError>>()?;
     for handle in all::<GelInDroplet, H>(system) {
+        gels.push((handle.index(), system.observe(handle)?));
+    }
+    for handle in all::<GelInLayer, H>(system) {
         gels.push((handle.index(), system.observe(handle)?));
     }
     for (index, seen) in gels {

@@ -2,7 +2,7 @@
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface, polygon_moments};
 use motile::base::FlowSample;
-use motile::interior::{Defect, GelInDroplet, ParticlesInDroplet};
+use motile::interior::{Defect, GelInDroplet, GelInLayer, ParticlesInDroplet};
 use motile::scene::{Hydrodynamics, System};
 
 use crate::{
@@ -117,8 +117,12 @@ impl Snapshot {
             let (nodes, directors) = (gel.nodes().to_vec(), gel.directors().to_vec());
             GelField { nodes, directors, defects: gel.defects() }
         };
+        let layer = |(_, gel): (_, &GelInLayer)| {
+            let (nodes, directors) = (gel.nodes().to_vec(), gel.directors().to_vec());
+            GelField { nodes, directors, defects: gel.defects() }
+        };
         Ok(Self {
-            gels: system.bodies().map(gel).collect(),
+            gels: system.bodies().map(gel).chain(system.bodies().map(layer)).collect(),
             inside: system.bodies().map(|(_, body)| InteriorField::of(body)).collect(),
             time: system.time(),
             raster: raster.in_state_of(system),

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::elastic_solids::{Deformation, Mat2, Solid, width_between};
-use motile::interior::{GelInDroplet, ParticlesInDroplet};
+use motile::interior::{GelInDroplet, GelInLayer, ParticlesInDroplet};
 use motile::scene::{
     Body, Handle, Hydrodynamics, System,
     gap::{Boundary, SolidGap},
@@ -82,7 +82,8 @@ pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
 pub(crate) fn others<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
-        let known = any.is::<Solid>() || any.is::<GelInDroplet>() || any.is::<ParticlesInDroplet>();
+        let known =
+            any.is::<Solid>() || any.is::<GelInDroplet>() || any.is::<GelInLayer>() || any.is::<ParticlesInDroplet>();
         !known && !body.kind().is_curve() && body.marker_count() > 0
     })
 }

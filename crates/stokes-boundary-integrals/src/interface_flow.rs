@@ -378,7 +378,11 @@ impl InterfaceFlow {
     pub fn solve(&mut self) -> Result<Solution, LayerError> {
         if self.is_empty() {
             self.velocities.clear();
-            return Ok(Solution::default());
+            if self.walls.is_some() {
+                self.single_layer()?;
+                self.respond();
+            }
+            return Ok(Solution { pressure_gradient: self.pressure_gradient(), ..Solution::default() });
         }
         let nodes = self.settings.nodes;
         self.single_layer()?;
@@ -402,12 +406,16 @@ impl InterfaceFlow {
         }
         let Outcome { iterations, residual } = self.solve_equation()?;
         self.settle_walls();
+        Ok(Solution { iterations, residual, pressure_gradient: self.pressure_gradient() })
+    }
+
+    /// Returns the mean pressure gradient of the present velocities (stress per length).
+    fn pressure_gradient(&self) -> f64 {
         let density = Density { values: &self.velocities, contrasts: &self.equation.contrasts };
-        let pressure_gradient = match &self.walls {
+        match &self.walls {
             Some(walls) => walls.gradient,
             None => self.layers.pressure_gradient(density, self.viscosity),
-        };
-        Ok(Solution { iterations, residual, pressure_gradient })
+        }
     }
 
     /// Solves for the velocities on the interfaces (length per time) in the flow of other forces too. `flow` is

@@ -61,6 +61,9 @@ pub(super) struct Figure {
     /// What colours and panels of its picture mean, in a sentence.
     #[serde(default)]
     pub(super) legend: String,
+    /// What the thesis calls the place of the statement, where its number is not that, such as "Section B.1".
+    #[serde(default)]
+    pub(super) place: Option<String>,
     /// The statement and what was found, each in a few words, for tables; marks in the finding stand for numbers.
     #[serde(default)]
     pub(super) claim: String,

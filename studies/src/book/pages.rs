@@ -49,6 +49,8 @@ struct Entry {
     kept: Option<Kept>,
     judged: Vec<Judged>,
     verdict: String,
+    /// The page that shows it.
+    page: String,
 }
 
 impl Entry {
@@ -61,7 +63,8 @@ impl Entry {
         let checks = figure.found(&definitions()?, kept.as_ref().map_or(&[], |kept| &kept.checks))?;
         let judged = figure.judged(&checks);
         let verdict = verdict(&figure, Some(&judged));
-        Ok(Self { number: number.to_owned(), figure, kept, judged, verdict })
+        let page = page_of(number)?;
+        Ok(Self { number: number.to_owned(), figure, kept, judged, verdict, page })
     }
 
     fn chapter(&self) -> &str {
@@ -79,6 +82,9 @@ impl Entry {
 
     /// What a page calls it.
     fn name(&self) -> String {
+        if let Some(place) = &self.figure.place {
+            return place.clone();
+        }
         match self.number.matches('.').count() {
             1 if self.is_question() => self.number.clone(),
             1 => format!("Figure {}", self.number),
@@ -114,6 +120,17 @@ impl Entry {
         let verdict = first.to_uppercase() + rest;
         text + &wrapped(&format!("**{}.** {}.{axes}{legend} *{verdict}.*", self.name(), self.figure.title))
     }
+}
+
+/// The name of the page whose text has the mark of a figure, or of the page of its chapter.
+fn page_of(number: &str) -> Result<String> {
+    let mark = format!("{{{{figure {number}}}}}");
+    for path in tables::files("studies/book/chapters", "md")? {
+        if fs::read_to_string(&path)?.contains(&mark) {
+            return Ok(path.file_name().context("a name")?.to_string_lossy().into_owned());
+        }
+    }
+    Ok(format!("chapter-{}.md", chapter_of(number)))
 }
 
 /// Writes all pages.

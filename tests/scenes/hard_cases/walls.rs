@@ -35,7 +35,14 @@ fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Se
 
 /// A strong swimmer before a throat of a quarter of its radius, between soft walls.
 fn throat() -> Result<Setup, CaseError> {
-    let shape = ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
+    let shape = ChannelShape::Constriction {
+        width: 2.0,
+        throat: 0.25,
+        throat_length: 1.0,
+        ramp: 1.0,
+        exit_ramp: None,
+        centre: 0.0,
+    };
     let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
     setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
     Ok(setup)

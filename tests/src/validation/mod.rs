@@ -12,6 +12,7 @@
 //! ```
 
 pub mod contrast;
+pub mod coupled;
 pub mod curved_walls;
 pub mod exchange;
 pub mod fast_sums;
@@ -24,8 +25,10 @@ pub mod interfaces;
 mod order;
 mod reference;
 pub mod relaxation;
+pub mod round_swimmer;
 pub mod scene;
 pub mod solids;
+pub mod surfactant;
 pub mod swimmers;
 mod table;
 pub mod viscoelastic;

@@ -120,9 +120,9 @@ impl ActiveInterface {
             // the limit 8 h eta / (pi c |gamma'|). The stabiliser adds q h times that rate to the implicit part and
             // takes it off the explicit one; with a = dt c |gamma'| q / (4 eta) a step multiplies a wave by
             // `1 - a (1 + a (q h - 1/2)) / (1 + a q h/2)^2`, which exceeds 1 where a (1/2 - q h) > 1 and never falls
-            // below -1: waves of q = 1/(4 h) grow first, above 64 h eta / (c |gamma'|). On a grid waves of the markers
-            // are also taken for those of the grid, which this leaves out: head-on droplets held apart ended in a
-            // curve that crosses itself at half of that bound, and do not at half of an eighth of it.
+            // below -1: waves of q = 1/(4 h) grow first, above 64 h eta / (c |gamma'|). A second interface much closer
+            // than h doubles the mobility, which leaves a quarter of that: on a grid, where droplets come so close,
+            // half of this quarter is kept to (docs/explanation/time-stepping.md).
             let slope = |c: f64| c * self.law.tension.slope(c).abs();
             let coupling = self.derived.concentrations.iter().map(|&c| slope(c)).fold(0.0_f64, f64::max);
             let unit = finest_response(view) * viscosity / coupling;

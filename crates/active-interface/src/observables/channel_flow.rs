@@ -1,5 +1,11 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
+mod branches;
+
+pub use branches::{BranchFlow, branch_flows};
+
+use std::ops::{AddAssign, Mul};
+
 use motile_base::{FlowSample, SolveReport, Vec2, finite, internal::gauss_legendre, positive};
 use motile_scene::{BodyError, FlowError, FluidView, Handle, Hydrodynamics, SceneError, System};
 
@@ -211,12 +217,22 @@ impl Line {
         system: &mut System<H>,
         x: f64,
     ) -> Result<[f64; N], SceneError> {
+        self.integrals_of(system, x, |sample| sample.velocity.x)
+    }
+
+    /// Returns the integrals of some value of the flow over the N sections, at `x`.
+    fn integrals_of<const N: usize, H: Hydrodynamics, T: Copy + Default + AddAssign + Mul<f64, Output = T>>(
+        &self,
+        system: &mut System<H>,
+        x: f64,
+        value: impl Fn(&FlowSample) -> T,
+    ) -> Result<[T; N], SceneError> {
         let positions: Vec<Vec2> = self.points.iter().map(|&(y, _, _)| Vec2::new(x, y)).collect();
         let mut samples = vec![FlowSample::default(); positions.len()];
         system.sample(&positions, &mut samples)?;
-        let mut integrals = [0.0; N];
+        let mut integrals = [T::default(); N];
         for (&(_, weight, section), sample) in self.points.iter().zip(&samples) {
-            integrals[section] += weight * sample.velocity.x;
+            integrals[section] += value(sample) * weight;
         }
         Ok(integrals)
     }

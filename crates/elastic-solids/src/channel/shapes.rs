@@ -19,6 +19,7 @@ pub enum ChannelShape {
     },
     /// A channel with a narrow passage, joined by cosine ramps (Cowley figure 4.18): half the width is w/2 outside, t/2
     /// in the passage, and between them `t/2 + (w - t)/4 (1 - cos(pi s/r))` at the distance s from the passage's end.
+    /// Set `exit_ramp` if the ramp at larger x has another length (Cowley 5.2.2.5.2, the angles of approach and exit).
     Constriction {
         /// Width w of the main channel (length).
         width: f64,
@@ -26,8 +27,11 @@ pub enum ChannelShape {
         throat: f64,
         /// Length of the passage (length).
         throat_length: f64,
-        /// Length r of each ramp (length).
+        /// Length r of each ramp (length), or of the ramp at smaller x if `exit_ramp` is given.
         ramp: f64,
+        /// Length of the ramp at larger x (length); as the other in a file that gives none.
+        #[serde(default)]
+        exit_ramp: Option<f64>,
         /// Middle of the passage in x (length); 0 in a file that gives none.
         #[serde(default)]
         centre: f64,
@@ -97,7 +101,8 @@ const MOST_WAVES: f64 = 200.0;
 impl ChannelShape {
     /// Constriction of Cowley figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1
     /// over a length of 4, ramps of 1.
-    pub const THESIS: Self = Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 };
+    pub const THESIS: Self =
+        Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, exit_ramp: None, centre: 0.0 };
 
     /// Returns the name of the shape, as it stands in a file.
     #[must_use]
@@ -145,15 +150,19 @@ impl ChannelShape {
         let start = -0.5 * period;
         match *self {
             Self::Straight { width } => Channel::symmetric(Outline::flat(start, period, -0.5 * width)?),
-            Self::Constriction { width, throat, throat_length, ramp, centre } => {
+            Self::Constriction { width, throat, throat_length, ramp, exit_ramp, centre } => {
                 positive("the width of the throat", throat)?;
                 positive("the length of the throat", throat_length)?;
                 positive("the length of a ramp", ramp)?;
+                let exit_ramp = positive("the length of the exit ramp", exit_ramp.unwrap_or(ramp))?;
                 finite("the centre of the throat", centre)?;
-                fits("the length of the throat and its ramps", throat_length + 2.0 * ramp, period)?;
+                fits("the length of the throat and its ramps", throat_length + ramp + exit_ramp, period)?;
+                // The middle of passage and ramps is in the middle of the period, so each ramp lies in one piece in it.
+                let middle = centre + 0.5 * (exit_ramp - ramp);
                 let half_width = move |x: f64| {
-                    let distance = from_nearest(x - centre, period).abs() - 0.5 * throat_length;
-                    0.5 * throat + 0.5 * (width - throat) * cosine_step(distance / ramp)
+                    let place = from_nearest(x - middle, period) + middle - centre;
+                    let here = if place < 0.0 { ramp } else { exit_ramp };
+                    0.5 * throat + 0.5 * (width - throat) * cosine_step((place.abs() - 0.5 * throat_length) / here)
                 };
                 Channel::symmetric(Outline::profile(start, period, move |x| -half_width(x))?)
             }

@@ -65,7 +65,8 @@ fn walls_are_even() {
 #[test]
 fn walls_of_other_parameters_are_even() {
     let (period, width) = (PERIOD, WIDTH);
-    let narrow = ChannelShape::Constriction { width, throat: 0.7, throat_length: 2.0, ramp: 2.0, centre: 0.0 };
+    let narrow =
+        ChannelShape::Constriction { width, throat: 0.7, throat_length: 2.0, ramp: 2.0, exit_ramp: None, centre: 0.0 };
     let teeth = ChannelShape::Ratchet { width, throat: 1.0, teeth: 4, rise: 0.8, sharp: false };
     let sharp = ChannelShape::Ratchet { width, throat: 1.3, teeth: 3, rise: 0.7, sharp: true };
     let waves = ChannelShape::Sinusoidal { width, amplitude: 0.2, waves: 4, phase: 1.0 };

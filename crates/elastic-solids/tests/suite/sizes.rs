@@ -36,8 +36,15 @@ fn channels_of_any_lengths() {
             bounded(&name, || ChannelShape::Straight { width }.channel(period));
             bounded(&name, || ChannelShape::Sinusoidal { width, amplitude: 0.3, waves: 2, phase: 0.1 }.channel(period));
             bounded(&name, || {
-                ChannelShape::Constriction { width, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 }
-                    .channel(period)
+                ChannelShape::Constriction {
+                    width,
+                    throat: 1.0,
+                    throat_length: 4.0,
+                    ramp: 1.0,
+                    exit_ramp: None,
+                    centre: 0.0,
+                }
+                .channel(period)
             });
             bounded(&name, || {
                 ChannelShape::Valve { width, gap: 0.2, base: 1.0, rounding: 0.0, centre: 0.0 }.channel(period)

@@ -26,7 +26,7 @@ const GRID_BLUR: f64 = 1.0 / 3.0;
 pub struct GelObservables {
     /// Topological defects of the director.
     pub defects: Vec<Defect>,
-    /// Frank energy `K/2 INT |grad p|^2` (force times length).
+    /// Frank energy `INT K1/2 (div p)^2 + K3/2 (curl p)^2 + k div p` (force times length).
     pub director_energy: f64,
     /// Mean director (no dimension): of length 1 if the director is uniform, 0 for asters and vortices.
     pub polarisation: [f64; 2],
@@ -34,9 +34,15 @@ pub struct GelObservables {
 
 /// Director at the nodes of a triangulation, given by its angles, so that |p| = 1 there; between nodes it is linear.
 ///
-/// With the discrete energy `E = SUM_T K/2 A_T |grad p|^2_T` of angles a and positions x, and the rate W_i at which the
-/// fluid turns the director at node i, linear in the nodes' velocities v, the forces on the fluid and the director's
-/// motion are
+/// With the discrete energy
+///
+/// ```text
+/// E = SUM_T A_T (K1/2 |grad p|^2 + (K3 - K1)/2 (curl p)^2 + k div p)
+/// ```
+///
+/// of angles a and positions x, where |grad p|^2 = (div p)^2 + (curl p)^2 for |p| = 1. The rate W_i at which the fluid
+/// turns the director at node i is linear in the nodes' velocities v. The forces on the fluid and the director's motion
+/// are
 ///
 /// ```text
 /// F_i     = -dE/dx_i - SUM_j dE/da_j dW_j/dv_i + active part,   h_i = -(dE/da_i)/M_i
@@ -139,7 +145,7 @@ impl Director {
         if let Some((from_tangent, count)) = self.anchoring {
             for node in 0..count {
                 let [before, after] = neighbours(node, count);
-                self.angles[node] = (nodes[after] - nodes[before]).to_angle() + from_tangent;
+                self.angles[node] = self.elements.between(nodes[before], nodes[after]).to_angle() + from_tangent;
                 self.directors[node] = Vec2::from_angle(self.angles[node]);
             }
         }
@@ -148,10 +154,11 @@ impl Director {
     /// Returns the Frank energy (force times length).
     pub(super) fn energy(&self) -> f64 {
         let of = |(triangle, area): (usize, &f64)| {
-            let [x, y] = self.elements.gradient(triangle, &self.directors);
-            area * (x.length_squared() + y.length_squared())
+            let slopes @ [x, y] = self.elements.gradient(triangle, &self.directors);
+            let [_, _, more] = more_than_one_constant(&self.material, slopes);
+            area * (0.5 * self.material.frank * (x.length_squared() + y.length_squared()) + more.x)
         };
-        0.5 * self.material.frank * self.elements.areas.iter().enumerate().map(of).sum::<f64>()
+        self.elements.areas.iter().enumerate().map(of).sum()
     }
 
     /// Returns the mean director, weighted by area (no dimension).
@@ -190,8 +197,19 @@ impl Director {
         for (active, p) in active.iter_mut().zip(&*directors) {
             *active = [Vec2::new(p.x * p.x - 0.5, p.x * p.y), Vec2::ZERO];
         }
+        let simple = material.bend() == material.frank && material.spontaneous_splay == 0.0;
         for (number, (triangle, slopes)) in elements.triangles.iter().zip(&elements.gradients).enumerate() {
             let [x, y] = elements.gradient(number, directors);
+            if !simple {
+                let (area, [push_x, push_y, energy]) =
+                    (elements.areas[number], more_than_one_constant(material, [x, y]));
+                let stress_x = Vec2::new(push_x.dot(x) - energy.x, push_x.dot(y));
+                let stress_y = Vec2::new(push_y.dot(x), push_y.dot(y) - energy.x);
+                for (&node, slope) in triangle.iter().zip(slopes) {
+                    forces[node] += area * (slope.x * stress_x + slope.y * stress_y);
+                    couples[node] -= area * directors[node].perp_dot(slope.x * push_x + slope.y * push_y);
+                }
+            }
             let weight = material.frank * elements.areas[number];
             let half = 0.5 * (x.length_squared() + y.length_squared());
             let mixed = x.dot(y);
@@ -209,7 +227,7 @@ impl Director {
         // Couples on an anchored boundary turn its normals, all others the fluid.
         for (node, couple) in couples[..anchored].iter().enumerate() {
             let [before, after] = neighbours(node, anchored);
-            let chord = nodes[after] - nodes[before];
+            let chord = elements.between(nodes[before], nodes[after]);
             let push = couple / chord.length_squared() * chord.perp();
             forces[after] += push;
             forces[before] -= push;
@@ -279,7 +297,7 @@ impl Director {
         let area: f64 = elements.masses.iter().sum();
         let diffusion = material.largest_diffusivity(viscosity) * WAVES * WAVES / area;
         let active = 0.5 * material.activity.abs() * (1.0 + material.alignment.abs()) / viscosity;
-        let dt = (2.0 / (diffusion + active)).max(bare);
+        let dt = (2.0 / (diffusion + active + self.rate_of_splay(viscosity))).max(bare);
         limits(StepLimit { dt, reason: "the gel's director", cause: StepCause::Stabilised { bare } });
     }
 
@@ -296,8 +314,34 @@ impl Director {
             1.5 * (xx + yy + (xx - yy).hypot(2.0 * xy))
         });
         let active = 0.5 * material.activity.abs() * (1.0 + material.alignment.abs()) / viscosity;
-        material.largest_diffusivity(viscosity) * sharpest.fold(0.0, f64::max) + active
+        material.largest_diffusivity(viscosity) * sharpest.fold(0.0, f64::max) + active + self.rate_of_splay(viscosity)
     }
+
+    /// Returns the upper bound of the rate at which spontaneous splay turns the director at the boundary (1/time) in
+    /// fluid of a viscosity (stress times time).
+    fn rate_of_splay(&self, viscosity: f64) -> f64 {
+        let Self { material, elements, .. } = self;
+        if material.spontaneous_splay == 0.0 {
+            return 0.0;
+        }
+        // What is left of the gradients around a node is the boundary next to it, along the normal.
+        let mut sides = vec![Vec2::ZERO; elements.masses.len()];
+        for ((triangle, slopes), area) in elements.triangles.iter().zip(&elements.gradients).zip(&elements.areas) {
+            triangle.iter().zip(slopes).for_each(|(&node, slope)| sides[node] += *area * *slope);
+        }
+        let largest = sides.iter().zip(&elements.masses).map(|(side, mass)| side.length() / mass).fold(0.0, f64::max);
+        material.spontaneous_splay.abs() * largest * material.mobility(viscosity)
+    }
+}
+
+/// Returns what a second Frank constant and spontaneous splay add in a triangle with the gradients (d/dx, d/dy) of the
+/// director. First come the derivatives of the energy per area by both gradients (force), then this energy as x (force
+/// per length).
+fn more_than_one_constant(material: &GelMaterial, [x, y]: [Vec2; 2]) -> [Vec2; 3] {
+    let (more, splay) = (material.bend() - material.frank, material.spontaneous_splay);
+    let (divergence, curl) = (x.x + y.y, x.y - y.x);
+    let energy = 0.5 * more * curl * curl + splay * divergence;
+    [Vec2::new(splay, more * curl), Vec2::new(-more * curl, splay), Vec2::new(energy, 0.0)]
 }
 
 /// Returns the gradient of the angle in a triangle (1/length) from the differences D between corners, smooth also where

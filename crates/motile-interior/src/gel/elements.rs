@@ -27,7 +27,7 @@ impl Elements {
     }
 
     /// Returns the vector from one position to another, the shortest over periodic images.
-    fn between(&self, from: Vec2, to: Vec2) -> Vec2 {
+    pub(super) fn between(&self, from: Vec2, to: Vec2) -> Vec2 {
         let mut way = to - from;
         let [x, y] = self.periods;
         if let Some(period) = x {

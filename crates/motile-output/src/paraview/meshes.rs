@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use motile::active_interface::ActiveDroplet;
 use motile::base::Vec2;
 use motile::elastic_solids::{Mat2, Solid};
-use motile::interior::{GelInDroplet, ParticlesInDroplet};
+use motile::interior::{GelInDroplet, GelInLayer, ParticlesInDroplet};
 use motile::scene::{Hydrodynamics, System};
 
 use super::file::revolved;
@@ -60,6 +60,18 @@ pub(crate) fn gels<H: Hydrodynamics>(system: &System<H>) -> Option<VtkFile> {
     let (mut mesh, mut directors) = (Triangles::default(), Vec::new());
     for (_, gel) in system.bodies::<GelInDroplet>() {
         mesh.add(gel.nodes(), gel.triangles());
+        directors.extend(gel.directors().iter().copied());
+    }
+    for (_, gel) in system.bodies::<GelInLayer>() {
+        // Without the triangles across the end of the period.
+        let (nodes, period) = (gel.nodes(), system.hydrodynamics().fluid_view().domain.periods[0]);
+        let narrow = |triangle: &&[usize; 3]| {
+            let [a, b, c] = triangle.map(|node| nodes[node].x);
+            let width = a.max(b).max(c) - a.min(b).min(c);
+            period.is_none_or(|period| width < 0.5 * period)
+        };
+        let triangles: Vec<[usize; 3]> = gel.triangles().iter().filter(narrow).copied().collect();
+        mesh.add(nodes, &triangles);
         directors.extend(gel.directors().iter().copied());
     }
     Some(mesh.file()?.point_vectors("director", directors).cell_scalars("gel", mesh.numbers))

@@ -13,15 +13,14 @@ fn swings_leave_the_hopf_point_as_its_normal_form_has_it() {
     let swing = spectrum.modes.iter().find(|mode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric);
     let hopf = state.critical(swing.unwrap(), Parameter::Activity).unwrap();
     let start = Parameter::Activity.get(hopf.state.setup()).unwrap();
-    let [small, large] = [0.2, 0.3].map(|amplitude| {
-        let cycle = LimitCycle::from_hopf(&hopf, Parameter::Activity, amplitude, 5).unwrap();
-        (cycle.amplitude().unwrap().powi(2), cycle.value(Parameter::Activity) - start, cycle.period())
-    });
+    let [cycle, other] =
+        [0.2, 0.3].map(|amplitude| LimitCycle::from_hopf(&hopf, Parameter::Activity, amplitude, 5).unwrap());
+    let [small, large] = [&cycle, &other]
+        .map(|cycle| (cycle.amplitude().unwrap().powi(2), cycle.value(Parameter::Activity) - start, cycle.period()));
     let ratio = (large.1 / large.0) / (small.1 / small.0);
     assert!((ratio - 1.0).abs() < 0.1, "{small:?} {large:?}");
     // Half of what a disturbance of the straight swimmer grows by, in the other direction: the normal form of a Hopf
     // point.
-    let cycle = LimitCycle::from_hopf(&hopf, Parameter::Activity, 0.2, 5).unwrap();
     // Nine instants resolve a small swing: harmonics fall off as powers of its amplitude.
     assert!(cycle.instants() == 9 && cycle.tail() < 1e-5, "{} {}", cycle.instants(), cycle.tail());
     let at = cycle.value(Parameter::Activity);

@@ -104,7 +104,14 @@ impl Setup {
             inside.map(|inside| scene.add(inside));
         }
         let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
-        let (gels, interfaces) = (handles(&scene), handles(&scene));
+        let gels = handles(&scene);
+        let interfaces: Vec<Handle<ActiveInterface>> = handles(&scene);
+        let others = self.bodies().count() - self.interfaces.len();
+        for (k, (setup, &host)) in self.interfaces.iter().zip(&interfaces).enumerate() {
+            let Ok(interface) = scene.body(host) else { continue };
+            let gel = self.gel_in_layer(setup, interface, host).map_err(keyed(others + k))?;
+            gel.map(|gel| scene.add(gel));
+        }
         if self.mirror_symmetric || self.region.is_axisymmetric() {
             scene = scene.held_symmetric()?;
         }

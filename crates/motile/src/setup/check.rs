@@ -159,7 +159,7 @@ impl Setup {
     /// Refuses particles and gels, parts of whose motion are stiffer than an integrator without implicit parts steps.
     fn check_no_diffusion(&self) -> Result<(), SetupError> {
         let has = self.droplets.iter().any(|droplet| droplet.particles.is_some() || droplet.gel.is_some())
-            || self.interfaces.iter().any(|interface| interface.particles.is_some())
+            || self.interfaces.iter().any(|interface| interface.particles.is_some() || interface.gel.is_some())
             || !self.gels.is_empty();
         let remedy = "it cannot step particles or gels, because their diffusion is implicit. Use \"midpoint\" or \
                       \"runge-kutta-chebyshev\"";

@@ -2,18 +2,19 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Motion};
-use motile_base::{internal::decimals, polygon::contains};
-use motile_interior::{Anchoring, DirectorStart, DiscMesh, GelInDroplet, GelMaterial};
+use active_interface::{ActiveDroplet, ActiveInterface, Motion};
+use motile_base::{Region, internal::decimals, polygon::contains};
+use motile_interior::{Anchoring, DirectorStart, DiscMesh, GelInDroplet, GelInLayer, GelMaterial};
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
 
 use super::checked::Checked;
-use super::{DropletSetup, ExchangeSetup, Particles, Setup, body::Planned};
+use super::{DropletSetup, ExchangeSetup, InterfaceSetup, Particles, Setup, Side, body::Planned};
 use crate::SetupError;
 
-/// An active polar gel that fills a droplet ([`GelInDroplet`]). It has the viscosity of the droplet, and needs a grid:
-/// the methods [`crate::setup::Method::Layers`] and [`crate::setup::Method::Grid`].
+/// An active polar gel that fills a droplet ([`GelInDroplet`]), or the layer between an interface along a channel and
+/// the wall behind it ([`GelInLayer`]). It has the viscosity of the fluid there, and needs a grid: the methods
+/// [`crate::setup::Method::Layers`] and, in a droplet, [`crate::setup::Method::Grid`].
 ///
 /// ```
 /// use motile::interior::GelMaterial;
@@ -66,8 +67,10 @@ pub(super) fn check_gel(
     start: &DirectorStart,
     spacing: Option<f64>,
 ) -> Result<(), SetupError> {
-    let GelMaterial { frank, rotational_viscosity, alignment, activity } = *material;
+    let GelMaterial { frank, bend, spontaneous_splay, rotational_viscosity, alignment, activity } = *material;
     checked.not_negative("material.frank", frank)?;
+    checked.not_negative("material.bend", bend)?;
+    checked.finite("material.spontaneous-splay", spontaneous_splay)?;
     checked.positive("material.rotational-viscosity", rotational_viscosity)?;
     checked.finite("material.alignment", alignment)?;
     checked.finite("material.activity", activity)?;
@@ -85,6 +88,23 @@ impl GelSetup {
         check_gel(&gel, &self.material, &self.start, self.spacing)?;
         let remedy = "a droplet with a gel needs a fixed number of markers. Use equidistributed";
         checked.refuse_if(droplet.motion == Motion::WithFluid, "motion", "with-fluid", remedy)
+    }
+
+    pub(super) fn check_in_layer(
+        &self,
+        checked: &Checked<'_>,
+        interface: &InterfaceSetup,
+        setup: &Setup,
+    ) -> Result<(), SetupError> {
+        let gel = Checked { place: &format!("{}.gel", checked.place) };
+        check_gel(&gel, &self.material, &self.start, self.spacing)?;
+        let centred = !matches!(self.start, DirectorStart::Uniform { .. } | DirectorStart::Random { .. });
+        gel.refuse_if(centred, "start", "around a centre", "a layer has no centre. Use uniform or random")?;
+        let remedy = "a gel in a layer has the viscosity of the fluid on both sides. Remove the key";
+        checked.require(interface.viscosity.is_none(), "viscosity", interface.viscosity.unwrap_or(0.0), remedy)?;
+        let remedy = "a gel lies between the interface and a rigid wall. Use a channel";
+        let channel = matches!(setup.region, Region::Channel { .. });
+        Checked { place: "" }.refuse_if(!channel, "region", "box", remedy)
     }
 }
 
@@ -129,6 +149,20 @@ impl Setup {
         };
         let spacing = spacing_inside((&setup.name, "gel.spacing"), gel.spacing, grid, droplet)?;
         Ok(Some(GelInDroplet::new(droplet, host, gel.material, gel.anchoring, &start, spacing)?))
+    }
+
+    /// Returns the gel between an interface and the wall on its inside, made for the body `host`.
+    pub(super) fn gel_in_layer(
+        &self,
+        setup: &InterfaceSetup,
+        interface: &ActiveInterface,
+        host: Handle<ActiveInterface>,
+    ) -> Result<Option<GelInLayer>, SetupError> {
+        let (Some(gel), Some(grid)) = (&setup.gel, self.method.spacing()) else { return Ok(None) };
+        let half = 0.5 * self.region.lengths()[1];
+        let wall = if setup.inside == Side::Above { half } else { -half };
+        let places = [wall, gel.spacing.unwrap_or(grid)];
+        Ok(Some(GelInLayer::new(interface, host, gel.material, gel.anchoring, &gel.start, places)?))
     }
 
     /// Refuses bodies inside droplets that gels or diffusing particles fill, given all bodies in their order.

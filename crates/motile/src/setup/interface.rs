@@ -8,7 +8,7 @@ use motile_scene::{Body, Scene, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AnyFlow, MethodKind, Particles, Setup, Start,
+    AnyFlow, GelSetup, MethodKind, Particles, Setup, Start,
     body::{BodySetup, Planned},
     checked::Checked,
     droplet::check_points,
@@ -67,6 +67,9 @@ pub struct InterfaceSetup {
     /// start is `(1 - cos(2 pi x/L)) c0`, L the length of the region.
     #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
+    /// Active polar gel between the interface and the rigid wall on its inside, with the method
+    /// [`crate::setup::Method::Layers`]; `None` for fluid.
+    pub gel: Option<GelSetup>,
 }
 
 /// Elasticity of an interface.
@@ -126,6 +129,7 @@ impl Default for InterfaceSetup {
             shape: InterfaceShape::default(),
             elasticity: None,
             particles: Some(Particles::default()),
+            gel: None,
         }
     }
 }
@@ -212,7 +216,10 @@ impl BodySetup for InterfaceSetup {
     }
 
     fn needs(&self) -> Option<(&'static str, &'static [MethodKind])> {
-        Some(("interfaces across the period", &[MethodKind::Integral, MethodKind::Layers]))
+        match self.gel {
+            Some(_) => Some(("gels behind interfaces", &[MethodKind::Layers])),
+            None => Some(("interfaces across the period", &[MethodKind::Integral, MethodKind::Layers])),
+        }
     }
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
@@ -266,6 +273,7 @@ impl BodySetup for InterfaceSetup {
             }
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }
+        self.gel.map_or(Ok(()), |gel| gel.check_in_layer(checked, self, setup))?;
         let Some(particles) = &self.particles else { return Ok(()) };
         let remedy = "nothing holds the particles that leave it. Use \"none\", or a droplet";
         checked.refuse_if(particles.exchange.is_some(), "particles.exchange", "given", remedy)?;

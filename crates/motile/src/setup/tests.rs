@@ -960,7 +960,14 @@ mod file {
             "region.channel = {{ length = 12.0, width = 5.0 }}\nmethod.layers = {{}}\n[[solids]]\n\
              outline.wall-below.constriction = {constriction}\nmaterial.springs.shear = 10.0"
         );
-        let shape = ChannelShape::Constriction { width: 3.0, throat: 1.0, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
+        let shape = ChannelShape::Constriction {
+            width: 3.0,
+            throat: 1.0,
+            throat_length: 2.0,
+            ramp: 1.0,
+            exit_ramp: None,
+            centre: 0.0,
+        };
         assert_eq!(Setup::from_toml(&text).unwrap().solids[0].outline, SolidOutline::WallBelow(shape));
     }
 

@@ -3,6 +3,7 @@
 mod channel_flux;
 #[cfg(feature = "toml")]
 mod dimensions;
+mod gel_in_layer;
 mod living_walls;
 mod revolution;
 mod solid_gap;

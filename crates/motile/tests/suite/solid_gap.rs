@@ -121,7 +121,14 @@ fn the_number_of_nodes_that_a_film_needs_is_told() {
 #[test]
 fn the_number_of_nodes_that_a_narrow_place_needs_is_told_at_the_start() {
     let warned = |throat: f64, nodes: usize| {
-        let shape = ChannelShape::Constriction { width: 3.0, throat, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
+        let shape = ChannelShape::Constriction {
+            width: 3.0,
+            throat,
+            throat_length: 2.0,
+            ramp: 1.0,
+            exit_ramp: None,
+            centre: 0.0,
+        };
         let mut walls = motile::setup::WallSetup::channel(&shape, 0.1);
         walls.iter_mut().for_each(|wall| wall.rounding = 0.15);
         let setup = Setup {

@@ -113,7 +113,7 @@ shape.points = [[1.1, 0], [0.7, 0.7], [0, 1], [-0.7, 0.7], [-1, 0], [-0.7, -0.7]
 region.box.lengths = [6.0, 6.0]
 method.grid.spacing = 0.25
 droplets = []
-gels = [{ spacing = 0.25, start.random.seed = 1, material = { frank = 2.0, rotational-viscosity = 90.0, activity = -300.0 } }]
+gels = [{ spacing = 0.25, start.random.seed = 1, material = { frank = 2.0, bend = 3.0, rotational-viscosity = 90.0, activity = -300.0 } }]
 "#,
     r#"
 region.box.lengths = [6.0, 8.0]
@@ -212,6 +212,23 @@ material.neo-hookean = { shear = 500.0, bulk = 900.0 }
 [[solids]]
 outline.wall-below-points = [[-4, -1.9], [-2, -1.7], [2, -1.9]]
 material.springs.shear = 400.0
+"#,
+    r#"
+region.channel = { length = 8.0, width = 5.0 }
+method.layers = { nodes = 24, elements = 96, spacing = 0.125 }
+[[droplets]]
+shape.round.radius = 0.7
+gel.material = { frank = 2.0, bend = 3.0, spontaneous-splay = -4.0, activity = -30.0 }
+[[solids]]
+outline.wall-below.constriction = { width = 4.0, throat = 3.4, throat-length = 1.5, ramp = 1.0, exit-ramp = 2.0 }
+material.springs.shear = 400.0
+"#,
+    r#"
+region.channel = { length = 8.0, width = 5.0 }
+method.layers = { nodes = 32, elements = 64, spacing = 0.125 }
+[[interfaces]]
+height = 1.2
+gel = { spacing = 0.2, anchoring = "planar", material.activity = -50.0 }
 "#,
 ];
 

@@ -146,7 +146,9 @@ fn verdicts<'a>(which: impl Iterator<Item = &'a Entry>, entries: &[Entry]) -> Re
             let words = text.split_whitespace().count();
             ensure!((1..=MOST_WORDS).contains(&words), "figure {}: {words} words in '{text}'", entry.number);
         }
-        let link = format!("[{}]({})", entry.number, place(entry));
+        let name =
+            figure.place.as_ref().map_or_else(|| entry.number.clone(), |place| place.replace("Section", "section"));
+        let link = format!("[{name}]({})", place(entry));
         table += &format!("| {link} | {} | {} | {} |\n", cell(&figure.claim), entry.kind(), cell(&finding));
     }
     Ok(table)
@@ -154,7 +156,7 @@ fn verdicts<'a>(which: impl Iterator<Item = &'a Entry>, entries: &[Entry]) -> Re
 
 /// The page of a figure and its place there.
 fn place(entry: &Entry) -> String {
-    format!("chapter-{}.md#{}", entry.chapter(), entry.anchor())
+    format!("{}#{}", entry.page, entry.anchor())
 }
 
 /// How many figures of the thesis have each verdict.

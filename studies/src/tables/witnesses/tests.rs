@@ -1,7 +1,7 @@
 use motile_tests::validation::Table;
 
 use super::super::rows::{self, Measure, Once};
-use super::{Kept, choose, close, pieces, same};
+use super::{Kept, WitnessFlags, choose, close, pieces, same, witnesses};
 
 #[test]
 fn cells_are_the_same_up_to_one_in_the_last_digit() {
@@ -106,4 +106,12 @@ fn witnesses_name_rows() {
         let same = all.iter().filter(|other| other.title == kept.title).count();
         assert_eq!(same, 1, "{}: {}", kept.path.display(), kept.title);
     }
+}
+
+/// A few rows of every table and single runs of figures, computed again: half a minute, and not at the same time as
+/// other tests.
+#[test]
+#[ignore = "takes half a minute; .ci/run runs it"]
+fn tables_and_figures_are_current() {
+    witnesses(&WitnessFlags { only: None, slow: false, choose: false }).unwrap();
 }

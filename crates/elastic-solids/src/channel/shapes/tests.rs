@@ -31,7 +31,7 @@ fn highest(mesh: &TriangleMesh) -> Vec2 {
 }
 
 fn constriction(throat: f64, throat_length: f64, centre: f64) -> ChannelShape {
-    ChannelShape::Constriction { width: 2.0, throat, throat_length, ramp: 1.0, centre }
+    ChannelShape::Constriction { width: 2.0, throat, throat_length, ramp: 1.0, exit_ramp: None, centre }
 }
 
 #[test]
@@ -55,6 +55,45 @@ fn the_constriction_of_the_thesis() {
     let moved = constriction(1.0, 4.0, 6.0).channel(12.0).unwrap();
     let seam = moved.walls(BOTTOM, TOP, &Mesher::new(0.1).unwrap()).unwrap();
     assert!((seam.lower.area() - walls.lower.area()).abs() < 1e-3);
+}
+
+#[test]
+fn a_constriction_has_different_ramps_for_entry_and_exit() {
+    let (width, throat, throat_length, period) = (2.0, 1.0, 2.0, 12.0);
+    let channel = |ramp, exit_ramp, centre| {
+        let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, exit_ramp, centre };
+        shape.channel(period)
+    };
+    // Half the width at a distance from the middle of one passage, by the formula of the documentation.
+    let half_width = |distance: f64, [entry, exit]: [f64; 2]| {
+        let (ramp, s) = (if distance < 0.0 { entry } else { exit }, distance.abs() - 0.5 * throat_length);
+        if s <= 0.0 {
+            0.5 * throat
+        } else if s >= ramp {
+            0.5 * width
+        } else {
+            0.5 * throat + 0.25 * (width - throat) * (1.0 - (PI * s / ramp).cos())
+        }
+    };
+    // In the middle, across the seam, and ramps that fill all but a small part of the period.
+    for (ramps, centre) in [([1.0, 4.0], 0.0), ([1.0, 4.0], -5.5), ([4.0, 1.0], 6.0), ([0.5, 9.4], 3.0)] {
+        let channel = channel(ramps[0], Some(ramps[1]), centre).unwrap();
+        // Ramps have the mean of both widths.
+        let both = ramps[0] + ramps[1];
+        let area = 0.5 * (width + throat) * both + throat * throat_length + width * (period - throat_length - both);
+        walls(&channel, 0.1, area, 0.01);
+        for point in channel.lower().resampled(0.01).unwrap() {
+            let images = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| half_width(point.x - centre - period * k, ramps));
+            let expected = images.into_iter().fold(f64::INFINITY, f64::min);
+            assert!((point.y + expected).abs() < 1e-12, "{ramps:?} {centre}: {point} {expected}");
+        }
+    }
+    // Without the key both are equal.
+    let points = |exit| channel(1.5, exit, 0.3).unwrap().lower().resampled(0.01).unwrap();
+    assert_eq!(points(None), points(Some(1.5)));
+    let refusal = |exit| channel(1.0, Some(exit), 0.0).unwrap_err();
+    assert!(matches!(refusal(9.1), SolidError::Input(InputError::OutOfRange { .. })));
+    assert!(matches!(refusal(0.0), SolidError::Input(InputError::NotPositive { .. })));
 }
 
 #[test]

@@ -8,7 +8,14 @@ use super::Director;
 use crate::gel::{Anchoring, GelMaterial, elements::Elements};
 use crate::{DiscMesh, InteriorError};
 
-const PASSIVE: GelMaterial = GelMaterial { frank: 2.0, rotational_viscosity: 3.0, alignment: -0.7, activity: 0.0 };
+const PASSIVE: GelMaterial = GelMaterial {
+    frank: 2.0,
+    bend: None,
+    spontaneous_splay: 0.0,
+    rotational_viscosity: 3.0,
+    alignment: -0.7,
+    activity: 0.0,
+};
 
 /// A bent disc with a director that turns a lot.
 fn bent(material: GelMaterial, anchoring: Anchoring) -> (Director, Vec<Vec2>) {
@@ -47,8 +54,10 @@ fn energy_rate(director: &Director, nodes: &[Vec2], fluid: &[Vec2], rate: &[f64]
 
 #[test]
 fn without_activity_the_flow_takes_what_the_energy_gives_but_for_dissipation() {
-    for anchoring in [Anchoring::Free, Anchoring::Homeotropic, Anchoring::Planar] {
-        let (mut director, nodes) = bent(PASSIVE, anchoring);
+    let two = GelMaterial { bend: Some(5.0), spontaneous_splay: -1.5, ..PASSIVE };
+    let anchorings = [Anchoring::Free, Anchoring::Homeotropic, Anchoring::Planar];
+    for (anchoring, material) in anchorings.into_iter().flat_map(|anchoring| [(anchoring, PASSIVE), (anchoring, two)]) {
+        let (mut director, nodes) = bent(material, anchoring);
         let mut forces = vec![Vec2::ZERO; nodes.len()];
         director.write_forces(&nodes, &mut forces).unwrap();
         let fluid = random(nodes.len());
@@ -68,7 +77,8 @@ fn without_activity_the_flow_takes_what_the_energy_gives_but_for_dissipation() {
 #[test]
 fn forces_have_neither_resultant_nor_torque() {
     for anchoring in [Anchoring::Free, Anchoring::Homeotropic, Anchoring::Planar] {
-        let (mut director, nodes) = bent(GelMaterial { activity: -5.0, ..PASSIVE }, anchoring);
+        let material = GelMaterial { activity: -5.0, bend: Some(5.0), spontaneous_splay: -1.5, ..PASSIVE };
+        let (mut director, nodes) = bent(material, anchoring);
         let mut forces = vec![Vec2::ZERO; nodes.len()];
         director.write_forces(&nodes, &mut forces).unwrap();
         let size: f64 = forces.iter().map(|force| force.length()).sum();
@@ -169,4 +179,42 @@ fn activity_bounds_the_step() {
         let StepCause::Stabilised { bare } = limit.cause else { panic!("{limit:?}") };
         assert!((limit.dt / exact - 1.0).abs() < 1e-6 && (bare / exact - 1.0).abs() < 1e-6, "{limit:?} {exact}");
     });
+}
+
+/// An aster only splays and a vortex only bends, each with the energy `pi K ln(R/r)` between two radii. Spontaneous
+/// splay is k times the length of the boundary that the director points out of.
+#[test]
+fn splay_and_bend_have_their_own_constants() {
+    let energy = |[count, rows]: [usize; 2], bend: f64, spontaneous_splay: f64, turn: f64| {
+        let ring = |row: usize| {
+            let radius = 1.0 + row as f64 / rows as f64;
+            (0..count).map(move |k| radius * Vec2::from_angle(TAU * k as f64 / count as f64))
+        };
+        let nodes: Vec<Vec2> = (0..=rows).flat_map(ring).collect();
+        let number = |row: usize, k: usize| row * count + k % count;
+        let cells = (0..rows).flat_map(|row| (0..count).map(move |k| (row, k)));
+        let triangles = cells.flat_map(|(row, k)| {
+            let [a, b, c, d] = [number(row, k), number(row + 1, k), number(row + 1, k + 1), number(row, k + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let material = GelMaterial { frank: 2.0, bend: Some(bend), spontaneous_splay, ..PASSIVE };
+        let elements = Elements::new(triangles.collect(), nodes.len(), [None; 2]);
+        let angles = nodes.iter().map(|node| node.to_angle() + turn).collect();
+        let mut director = Director::new(material, elements, angles, None, 0);
+        director.move_to(&nodes);
+        director.energy()
+    };
+    let exact = std::f64::consts::PI * 2.0_f64.ln();
+    for (bend, splay, turn, expected) in [
+        (7.0, 0.0, 0.0, 2.0 * exact),
+        (7.0, 0.0, FRAC_PI_2, 7.0 * exact),
+        // Out of the outer circle and into the inner one: 2 pi (2 - 1).
+        (2.0, -1.5, 0.0, 2.0 * exact - 1.5 * TAU),
+        (2.0, -1.5, FRAC_PI_2, 2.0 * exact),
+    ] {
+        let errors = [[100, 20], [200, 40]].map(|size| (energy(size, bend, splay, turn) - expected).abs());
+        // Of second order.
+        let order = (errors[0] / errors[1]).log2();
+        assert!(errors[1] < 2e-3 * expected.abs() && order > 1.9, "{bend} {splay} {turn}: {errors:?} {expected}");
+    }
 }
