@@ -177,20 +177,21 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     for [lambda, mu] in [[1.0, 0.6], [0.7, 1.0], [0.8, 0.8]] {
         let (n, t, rates) = (3, 1.5, [lambda, mu]);
         let found = probabilities(n, rates, t);
+        let mean = |n: u32, z: f64, t: f64| generating(n, rates, z, t).ok_or("a z beyond the pole");
         // Nobody is left with the probability (B.11), and all probabilities add up to 1.
-        assert!((generating(n, rates, 0.0, t).unwrap() - found[0]).abs() < 1e-9);
-        assert!((generating(n, rates, 1.0, t).unwrap() - 1.0).abs() < 1e-12);
+        assert!((mean(n, 0.0, t)? - found[0]).abs() < 1e-9);
+        assert!((mean(n, 1.0, t)? - 1.0).abs() < 1e-12);
         for z in [-1.0, -0.4, 0.3, 0.8, 1.15_f64] {
-            let exact = generating(n, rates, z, t).ok_or("a z beyond the pole")?;
+            let exact = mean(n, z, t)?;
             let sum = found.iter().rev().fold(0.0, |sum, p| sum * z + p);
-            let [mean, error] = simulated_mean(n, rates, z, t, 4000);
-            println!("{lambda:<6}  {mu:<3}  {z:<4}  {exact:<19.6}  {sum:<17.6}  {mean:.4} +- {error:.4}");
+            let [simulated, error] = simulated_mean(n, rates, z, t, 4000);
+            println!("{lambda:<6}  {mu:<3}  {z:<4}  {exact:<19.6}  {sum:<17.6}  {simulated:.4} +- {error:.4}");
             assert!((sum - exact).abs() < 1e-9, "{sum} is not {exact}");
-            assert!((mean - exact).abs() <= 4.0 * error, "{mean} is not {exact}");
+            assert!((simulated - exact).abs() <= 4.0 * error, "{simulated} is not {exact}");
             // At first there are n cells, and after two times as after their sum (Chapman and Kolmogorov).
-            assert!((generating(n, rates, z, 0.0).unwrap() - z.powi(3)).abs() < 1e-12);
-            let half = generating(1, rates, z, 0.6 * t).ok_or("a z beyond the pole")?;
-            assert!((generating(n, rates, half, 0.4 * t).unwrap() - exact).abs() < 1e-12);
+            assert!((mean(n, z, 0.0)? - z.powi(3)).abs() < 1e-12);
+            let half = mean(1, z, 0.6 * t)?;
+            assert!((mean(n, half, 0.4 * t)? - exact).abs() < 1e-12);
             if lambda != mu {
                 assert!((as_printed(n, rates, z, t) - exact).abs() < 1e-12);
             }

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use crate::tables;
 use data::{Data, POINTS, Source};
 use expression::Definitions;
-use figure::{Checked, Figure, Judged};
+use figure::{Checked, Figure, Judged, Verdict};
 
 /// Makes a figure of the book.
 #[derive(Debug, Args)]
@@ -99,6 +99,17 @@ struct Kept {
     data: Vec<String>,
     checks: Vec<Checked>,
 }
+
+impl Kept {
+    /// How many of its runs ended in an error. A point of a bisection without a boundary is left out, but no run.
+    fn failed(&self) -> usize {
+        let points = self.failures.iter().filter(|failure| failure.contains(NO_BOUNDARY)).count();
+        self.left_out - points.min(self.left_out)
+    }
+}
+
+/// Words of a point of a bisection that is left out.
+const NO_BOUNDARY: &str = "no boundary between";
 
 /// Where the files of the figures are.
 fn directory() -> PathBuf {
@@ -287,7 +298,8 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, common:
         say(format_args!("Fewer and shorter runs than the ranges are for: they decide nothing."));
     } else {
         let judged = figure.judged(&kept.checks);
-        say(format_args!("Verdict: {}. {}", verdict(&figure, Some(&judged)), figure.why));
+        let why = pages::reasons(number, kept.clone())?;
+        say(format_args!("Verdict: {}. {why}", verdict(&figure, Some(&judged))));
     }
     say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
     if common.write {
@@ -304,7 +316,11 @@ fn verdict(figure: &Figure, judged: Option<&[Judged]>) -> String {
     let fails = judged.and_then(|judged| judged.iter().find(|check| !check.stands));
     let second = chapter_of(&figure.number) == ENVIRONMENT;
     match (figure.verdict, fails) {
-        (None, _) if second && !unknown => Figure::followed(judged.unwrap_or_default()).name().to_owned(),
+        (None, _) if second && !unknown => {
+            let followed = Figure::followed(judged.unwrap_or_default());
+            let part = followed == Verdict::Confirmed && figure.open.is_some();
+            if part { Verdict::ConfirmedInPart } else { followed }.name().to_owned()
+        }
         (None, _) => "not computed yet".to_owned(),
         _ if needs && unknown => "not computed yet".to_owned(),
         (Some(_), Some(check)) => {

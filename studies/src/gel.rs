@@ -14,13 +14,14 @@ use crate::tables::{self, Measure};
 /// Tension of the interface (force).
 const TENSION: f64 = 200.0;
 /// End of the runs, over which the speeds have come to rest.
-const END: f64 = 80.0;
+const END: f64 = 240.0;
 /// Alignment and activity of the gels.
 const GELS: [[f64; 2]; 5] = [[0.5, -50.0], [0.5, -100.0], [0.5, -200.0], [0.5, -300.0], [-0.5, 200.0]];
 
 pub(crate) fn run(keep: tables::Keep) -> Result<()> {
     let columns = "nu1 | zeta_b | h | speed | aspect ratio | polarisation | defects | steps per time";
-    let mut swimmers = Table::new("Passive droplets with a free gel, K = 2, tension 200, at t = 80", columns);
+    let title = format!("Passive droplets with a free gel, K = 2, tension 200, at t = {END}");
+    let mut swimmers = Table::new(&title, columns);
     for [alignment, activity] in GELS {
         for spacing in [0.2, 0.15, 0.1] {
             swimmers.measure(format_args!("{alignment} | {activity} | {spacing}"), || {

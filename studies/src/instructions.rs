@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --features rayon -p studies -- instructions`, with `RAYON_NUM_THREADS=1`, compares each with
 //! `studies/instructions.csv` and fails where one has become more than 5 % more, or fewer: then `--write` renews the
-//! table. A test does the same. Counts depend on the compiler and on the processor's instruction set; the table names the compiler that it
-//! was made with.
+//! table. The ignored test of this file does the same. Counts depend on the compiler and on the processor's instruction
+//! set; the table names the compiler that it was made with.
 
 use std::{env, fs, hint::black_box, process::Command};
 

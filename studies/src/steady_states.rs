@@ -4,6 +4,7 @@
 //! `docs/tables`.
 
 mod bifurcations;
+mod bubble;
 mod parameters;
 mod revolution;
 mod swimmers;
@@ -34,7 +35,7 @@ pub(crate) struct Flags {
 /// What makes the tables of a name, with so many nodes where they have no list of their own.
 type Run = fn(usize) -> Result<Vec<Table>>;
 
-const TABLES: [(&str, Run); 11] = [
+const TABLES: [(&str, Run); 13] = [
     // Swimmers of the reference: errors.
     ("swimmers", |_| swimmers::swimmers()),
     // Growth rates of swings in channels.
@@ -54,6 +55,10 @@ const TABLES: [(&str, Run); 11] = [
     ("tubes", |_| revolution::tubes()),
     ("folds", revolution::folds),
     ("hysteresis", |_| revolution::hysteresis()),
+    // How swimming sets in over the tension, against the closed form for a sphere.
+    ("onset", revolution::onset),
+    // The fold of a bubble in extension, against the exact one.
+    ("bubble", |_| bubble::bubble()),
 ];
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {

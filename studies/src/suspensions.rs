@@ -1,18 +1,15 @@
-//! Droplets that meet: pairs over their resolution, suspensions over activity, fraction and ratio of viscosities, when
-//! trajectories part, and the methods on sixteen droplets.
+//! Droplets that meet: pairs over their resolution, suspensions over fraction and ratio of viscosities from several
+//! starts, when trajectories part, and the methods on sixteen droplets.
 //!
-//! `cargo run --release -p studies -- suspensions` prints four tables, one of them with `--part`, which `--write` keeps
-//! as `docs/tables/suspensions.csv`, `suspensions-2.csv` ... With `--rows FILE` each row is kept there once it is
-//! found, and a study that was ended goes on behind it.
+//! `cargo run --release -p studies -- suspensions` prints five tables, `--part` some of them, which `--write` keeps as
+//! `docs/tables/suspensions-PART.csv`.
 
 mod crowds;
 mod methods;
 mod pairs;
 mod parting;
-mod rows;
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, builder::PossibleValuesParser};
@@ -20,37 +17,30 @@ use motile::base::Region;
 use motile::scene::gap::Repulsion;
 use motile::setup::{Distribution, DropletSetup, IntegralMethod, Method, Setup, SuspensionSetup};
 use motile_tests::validation::Table;
-use rows::Rows;
 
 use crate::tables;
 
-/// Makes a table.
-type Part = fn(&Flags, &mut Rows) -> Result<Table>;
+/// Makes tables.
+type Part = fn(&Flags) -> Result<Vec<Table>>;
 
-/// The tables in their order: two droplets that meet, suspensions over activity, fraction and ratio of viscosities,
-/// when trajectories part, the methods on sixteen droplets.
+/// The parts: two droplets that meet, suspensions over fraction and ratio of viscosities from several starts, when
+/// trajectories part, the methods on sixteen droplets.
 const PARTS: [(&str, Part); 4] = [
-    ("pairs", |_, rows| pairs::table(rows)),
-    ("crowds", crowds::table),
-    ("parting", |_, rows| parting::table(rows)),
-    ("methods", |_, rows| methods::table(rows)),
+    ("pairs", |_| Ok(vec![pairs::table()?])),
+    ("crowds", crowds::tables),
+    ("parting", |_| Ok(vec![parting::table()?])),
+    ("methods", |_| Ok(vec![methods::table()?])),
 ];
 
 /// Droplets that meet, in pairs and in suspensions.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
-    /// Droplets of a suspension
-    #[arg(long, default_value_t = 200)]
-    count: usize,
-    /// Time that suspensions are followed
-    #[arg(long, default_value_t = 20.0)]
-    time: f64,
-    /// One of the tables alone
+    /// Random starts of each suspension
+    #[arg(long, default_value_t = 8)]
+    seeds: u64,
+    /// One part alone
     #[arg(long, value_parser = PossibleValuesParser::new(PARTS.map(|(name, _)| name)))]
     part: Option<String>,
-    /// Rows that have been found, which are not computed again; new ones are added
-    #[arg(long)]
-    rows: Option<PathBuf>,
     #[command(flatten)]
     keep: tables::Keep,
 }
@@ -93,11 +83,10 @@ fn suspension(count: usize, fraction: f64, activity: f64, ratio: f64, nodes: usi
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let mut rows = Rows::open(flags.rows.as_deref())?;
     let wanted = |part: &str| flags.part.as_deref().is_none_or(|only| only == part);
-    for (number, (part, table)) in PARTS.into_iter().enumerate().filter(|(_, (part, _))| wanted(part)) {
-        let name = if number > 0 { format!("suspensions-{}", number + 1) } else { "suspensions".to_owned() };
-        flags.keep.tables(&name, &format!("suspensions --part {part}"), &[table(flags, &mut rows)?])?;
+    for (part, tables) in PARTS.into_iter().filter(|(part, _)| wanted(part)) {
+        let (name, command) = (format!("suspensions-{part}"), format!("suspensions --part {part}"));
+        flags.keep.tables(&name, &command, &tables(flags)?)?;
     }
     Ok(())
 }

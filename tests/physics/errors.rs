@@ -61,7 +61,9 @@ fn activities_beyond_measure_are_named() {
     let with = |activity| Setup { droplets: vec![DropletSetup::active(activity)], ..on_grid(0.2) };
     let message = with(-1e308).build().expect_err("an activity out of range").to_string();
     assert!(message.contains("particles.activity = -1e308: use a number from -1e50 to 1e50"), "{message}");
-    let error = with(-1e40).build().unwrap().scene.run(1.0).go().unwrap_err();
+    // An excluded volume that is stronger still keeps the particles apart.
+    let crowded = Setup { droplets: vec![DropletSetup::contractile(-1e40, 1e41)], ..on_grid(0.2) };
+    let error = crowded.build().unwrap().scene.run(1.0).go().unwrap_err();
     assert!(matches!(error, SceneError::Refused { .. }), "{error}");
     let text = error.to_string();
     assert!(text.starts_with("the time step at the start of the run would be "), "{text}");

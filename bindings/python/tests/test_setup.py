@@ -254,7 +254,7 @@ def test_droplets_that_would_collapse_are_refused() -> None:
     crowd = motile.Setup(droplets=[], suspension=[{"count": 2, "activity": -12}], region=motile.box(12, 12))
     with pytest.raises(motile.Error, match="collapse") as raised:
         crowd.build()
-    assert raised.value.key == "suspension.activity"
+    assert raised.value.key.endswith(".activity")
     # A larger excluded volume or a larger viscosity keeps them apart, at least for long.
     motile.Setup(droplets=[motile.droplet(-12, particles={"excluded_volume": {"step": 30}})]).build()
     motile.Setup(droplets=[motile.droplet(-12)], viscosity=1000).build()

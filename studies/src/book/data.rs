@@ -11,7 +11,7 @@ use motile::scene::checkpoint::Checkpoint;
 use motile::setup::{Built, Setup};
 use motile_cli::run::{Summary, explained, make_directory, say};
 use motile_output::{Raster, Samples};
-use motile_steady_states::{BranchEnd, Continuation, Parameter, SteadyState};
+use motile_steady_states::{BranchEnd, Continuation, Parameter, SpecialKind, SpecialPoint, SteadyState};
 use serde::Deserialize;
 use serde_json::Value;
 use toml::Table;
@@ -43,6 +43,9 @@ const CIRCLE: usize = 96;
 const BESIDE: f64 = 0.1;
 /// Largest step along a branch that leads to a state, the norm as of [`Continuation`].
 const LARGEST_STEP: f64 = 0.2;
+/// Most points of a branch to a fold, and the largest relative change of the speed by a step without a branch.
+const MOST_POINTS: usize = 30;
+const MOST_CHANGE: f64 = 0.3;
 /// Longest text that becomes a name.
 const LONGEST: usize = 40;
 
@@ -102,14 +105,65 @@ struct Follow {
     /// Name among [`Parameter::NAMES`].
     parameter: String,
     from: f64,
+    /// Values at which the branch is looked at, the scene's own the last one: what it is there rather than the state at
+    /// its end.
+    #[serde(default)]
+    at: Vec<f64>,
 }
 
 impl Follow {
-    /// The state of a description, at the end of the branch.
-    fn state(&self, setup: &Setup) -> Result<SteadyState> {
+    /// The branch of a description up to its value, or to the first fold before: where it ends, speeds and films at the
+    /// values that it reaches, and the value and the speed of the fold. A branch that is lost without one says so.
+    fn branch(&self, setup: &Setup) -> Result<Summary> {
+        let (parameter, to) = self.goal(setup)?;
+        let mut summary = Summary::default();
+        let mut lists = ["branch_at", "branch_speed", "branch_film"].map(|name| (name, Vec::new()));
+        let mut state = SteadyState::find(&parameter.with(setup, self.from)?)?;
+        let (mut last, mut speed, mut lost) = (self.from, state.measured()?.speed, false);
+        for at in self.at.iter().copied() {
+            // In one step where the swimmer changes little by it.
+            let next = state.at(parameter, at).ok();
+            let found = next.and_then(|next| Some((next.measured().ok()?.speed, next)));
+            match found.filter(|(found, _)| (found / speed - 1.0).abs() < MOST_CHANGE) {
+                Some((found, next)) => (last, speed, state) = (at, found, next),
+                None => {
+                    let is_fold = |special: &SpecialPoint| special.kind == SpecialKind::Fold;
+                    let range = Continuation::new(parameter, last, to);
+                    let along = Continuation { largest_step: LARGEST_STEP, most_points: MOST_POINTS, ..range };
+                    let branch = along.follow(&state, |_, special| !special.iter().any(is_fold))?;
+                    if let Some(fold) = branch.special.iter().find(|special| is_fold(special)) {
+                        summary.put("fold", fold.value, "");
+                        summary.put("fold_speed", fold.critical.state.measured()?.speed, "");
+                        last = fold.value;
+                    } else {
+                        lost = true;
+                        say(format_args!("the branch in {} is lost at {last}: {}", self.parameter, branch.end));
+                    }
+                    break;
+                }
+            }
+            let film = narrowness(&state)?[0].unwrap_or(f64::NAN);
+            lists.iter_mut().zip([at, speed, film]).for_each(|((_, list), value)| list.push(value));
+        }
+        summary.put("branch_end", last, "");
+        summary.put("lost", lost, "");
+        for (name, list) in lists {
+            summary.put(name, list, "");
+        }
+        Ok(summary)
+    }
+
+    /// The parameter and its value in a description.
+    fn goal(&self, setup: &Setup) -> Result<(Parameter, f64)> {
         let known = Parameter::NAMES.iter().find(|(name, _)| *name == self.parameter);
         let parameter = known.with_context(|| format!("no parameter is named {}", self.parameter))?.1;
         let to = parameter.get(setup).with_context(|| format!("the scene has no parameter {}", self.parameter))?;
+        Ok((parameter, to))
+    }
+
+    /// The state of a description, at the end of the branch.
+    fn state(&self, setup: &Setup) -> Result<SteadyState> {
+        let (parameter, to) = self.goal(setup)?;
         let start = SteadyState::find(&parameter.with(setup, self.from)?)?;
         if to == self.from {
             return Ok(start);
@@ -159,11 +213,11 @@ impl Data {
         Ok(Self::in_points(&text))
     }
 
-    /// Rows with panel, group, x and y, and a name of the curve's label that is 1.
+    /// Rows with panel, group, x, y and deviation, and a name of the curve's label that is 1.
     pub(super) fn in_points(text: &str) -> Self {
         let row = |line: &str| -> Option<Row> {
-            let Point { panel, curve, group, x, y } = Point::read(line)?;
-            let numbers = [("panel", panel as f64), ("x", x), ("y", y)];
+            let Point { panel, curve, group, x, y, deviation } = Point::read(line)?;
+            let numbers = [("panel", panel as f64), ("x", x), ("y", y), ("deviation", deviation)];
             let mut row: Row = numbers.map(|(name, value)| (name.to_owned(), value)).into();
             row.extend(group.parse().ok().map(|group| ("group".to_owned(), group)));
             row.insert("labelled".to_owned(), f64::from(u8::from(!curve.is_empty())));
@@ -307,9 +361,11 @@ impl Source {
         let steady = |trial: &Trial| {
             let started = std::time::Instant::now();
             let setup = &trial.setup;
-            let state =
-                self.follow.as_ref().map_or_else(|| Ok(SteadyState::find(setup)?), |follow| follow.state(setup))?;
-            let mut summary = steady(&state, self.streamlines)?;
+            let mut summary = match &self.follow {
+                Some(follow) if !follow.at.is_empty() => follow.branch(setup)?,
+                Some(follow) => steady(&follow.state(setup)?, self.streamlines)?,
+                None => steady(&SteadyState::find(setup)?, self.streamlines)?,
+            };
             summary.put("seconds", started.elapsed().as_secs_f64(), "");
             Ok(summary)
         };

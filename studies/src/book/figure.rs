@@ -76,6 +76,8 @@ pub(super) struct Figure {
     /// Of a figure of the thesis; that of a question of the second part follows from its numbers.
     pub(super) verdict: Option<Verdict>,
     pub(super) why: String,
+    /// Parts of the statement that its data do not decide, so that it is confirmed in part at most.
+    pub(super) open: Option<String>,
     /// Names of files of `studies/book/data`.
     #[serde(default)]
     pub(super) data: Vec<String>,
@@ -190,6 +192,8 @@ struct Check {
     within: Option<[f64; 2]>,
     /// The number if the contrary of the verdict were so: outside of the range.
     opposite: Option<f64>,
+    /// Of a share, the number of runs with those that were lost.
+    runs: Option<usize>,
 }
 
 /// A number that was found, as it is kept.
@@ -224,6 +228,8 @@ pub(super) struct Judged {
     pub(super) opposite: Option<f64>,
     /// True if the verdict can stand.
     pub(super) stands: bool,
+    /// Of shares, the number of runs with those that were lost.
+    runs: Option<usize>,
 }
 
 /// One of the numbers that a check found.
@@ -241,11 +247,21 @@ impl Judged {
         let single = |part: &str| {
             let (value, beside) = part.split_once(" (").unwrap_or((part, ""));
             let (group, value) = value.split_once(": ").map_or((None, value), |(group, value)| (Some(group), value));
-            let beside = beside.strip_suffix(')').unwrap_or(beside).to_owned();
+            let mut beside = beside.strip_suffix(')').unwrap_or(beside).to_owned();
+            beside += &self.bounds(value, &beside).unwrap_or_default();
             Single { group: group.map(str::to_owned), value: value.to_owned(), beside }
         };
         let text = self.text.as_deref().filter(|text| !text.is_empty());
         text.map(|text| text.split("; ").map(single).collect()).unwrap_or_default()
+    }
+
+    /// The shares if all runs that were lost had gone one way or the other.
+    fn bounds(&self, share: &str, beside: &str) -> Option<String> {
+        let found: f64 = beside.strip_prefix("of ")?.split(',').next()?.parse().ok()?;
+        let (all, share) = (self.runs? as f64, share.parse::<f64>().ok()?);
+        let (yes, lost) = ((share * found).round(), all - found);
+        let [low, high] = [yes / all, (yes + lost) / all].map(shown);
+        Some(format!(", with the {lost} lost runs on either side {low} to {high}"))
     }
 
     /// True for a number that the contrary of a statement would make another.
@@ -263,16 +279,25 @@ pub(super) struct Point {
     pub(super) group: String,
     pub(super) x: f64,
     pub(super) y: f64,
+    pub(super) deviation: f64,
 }
 
 impl Point {
     /// Of a line of the file, in which labels may have commas.
     pub(super) fn read(line: &str) -> Option<Self> {
         let (panel, rest) = line.split_once(',')?;
-        let mut parts = rest.rsplitn(5, ',').skip(1);
-        let (y, x, group, curve) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
-        let (curve, group) = (curve.to_owned(), group.to_owned());
-        Some(Self { panel: panel.parse().ok()?, curve, group, x: x.parse().ok()?, y: y.parse().ok()? })
+        let mut parts = rest.rsplitn(5, ',');
+        let mut next = || parts.next();
+        let (deviation, y, x, group, curve) = (next()?, next()?, next()?, next()?, next()?);
+        let number = |text: &str| text.parse().ok();
+        Some(Self {
+            panel: panel.parse().ok()?,
+            curve: curve.to_owned(),
+            group: group.to_owned(),
+            x: number(x)?,
+            y: number(y)?,
+            deviation: number(deviation).unwrap_or(f64::NAN),
+        })
     }
 }
 
@@ -384,6 +409,7 @@ impl Figure {
                 within: check.within,
                 opposite: check.opposite,
                 stands: stands || check.within.is_none(),
+                runs: check.runs,
             }
         };
         self.check.iter().map(judged).collect()
@@ -491,8 +517,12 @@ impl Figure {
         for (k, panel) in self.panel.iter().enumerate() {
             for curve in &panel.curve {
                 for (group, points) in self.groups(&curve.points, &definitions, data).unwrap_or_default() {
-                    let point = |x, y| Point { panel: k + 1, curve: curve.label.clone(), group: shown(group), x, y };
-                    all.extend(points.iter().filter(|(x, ..)| x.is_finite()).map(|(x, y, _)| point(*x, *y)));
+                    let (panel, label, group) = (k + 1, &curve.label, shown(group));
+                    let points = points.into_iter().filter(|(x, ..)| x.is_finite());
+                    all.extend(points.map(|(x, y, deviation)| {
+                        let (curve, group) = (label.clone(), group.clone());
+                        Point { panel, curve, group, x, y, deviation }
+                    }));
                 }
             }
         }

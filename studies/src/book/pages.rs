@@ -3,9 +3,10 @@
 //! A page is written from a text in `studies/book/chapters`, in which `{{figure 3.4}}` stands for a picture with its
 //! caption, `{{3.4 | NAME}}` for the number that the check NAME of figure 3.4 found, `{{3.4 | NAME | GROUP}}` for the
 //! number of one of its groups. Behind them, `| %` stands for percent, `| ±` for the number with its error, and `| error`
-//! for the error alone. There are also
-//! `{{failed 4.19}}`, `{{verdicts}}`, `{{questions}}`, `{{counts}}` and `{{sections}}` for what the machinery knows of all
-//! figures. Everything else that is known of the checks is in `docs/book/checks`.
+//! for the error alone; `| of`, `| pairs`, `| p` and `| bounds` for what stands next to the number. There are also
+//! `{{failed 4.19}}`, `{{missed E.5}}` for the ranges that its numbers are outside of, `{{verdicts}}`, `{{questions}}`,
+//! `{{counts}}` and `{{sections}}` for what the machinery knows of all figures. The reasons of a figure may have marks
+//! too. Everything else that is known of the checks is in `docs/book/checks`.
 
 mod filled;
 mod sheets;
@@ -62,6 +63,10 @@ impl Entry {
         let kept = kept(number)?;
         let checks = figure.found(&definitions()?, kept.as_ref().map_or(&[], |kept| &kept.checks))?;
         let judged = figure.judged(&checks);
+        Self::judged(number, figure, kept, judged)
+    }
+
+    fn judged(number: &str, figure: Figure, kept: Option<Kept>, judged: Vec<Judged>) -> Result<Self> {
         let verdict = verdict(&figure, Some(&judged));
         let page = page_of(number)?;
         Ok(Self { number: number.to_owned(), figure, kept, judged, verdict, page })
@@ -78,6 +83,17 @@ impl Entry {
     /// The verdict in a word or two.
     fn kind(&self) -> &str {
         if self.verdict.starts_with("open") { "open" } else { &self.verdict }
+    }
+
+    /// How many numbers have to be in a range, and how many of these are not.
+    fn missed(&self) -> [usize; 2] {
+        let ranges = || self.judged.iter().filter(|check| check.within.is_some());
+        [ranges().filter(|check| !check.stands).count(), ranges().count()]
+    }
+
+    /// The reasons of the verdict, with their marks filled.
+    fn why(&self, entries: &[Self]) -> Result<String> {
+        filled::text(&self.figure.why, entries).with_context(|| format!("reasons of figure {}", self.number))
     }
 
     /// What a page calls it.
@@ -133,6 +149,14 @@ fn page_of(number: &str) -> Result<String> {
     Ok(format!("chapter-{}.md", chapter_of(number)))
 }
 
+/// The reasons of a verdict on what was found of a figure; marks of other figures stay as they are.
+pub(super) fn reasons(number: &str, kept: Kept) -> Result<String> {
+    let figure = read(number)?;
+    let judged = figure.judged(&kept.checks);
+    let entry = Entry::judged(number, figure, Some(kept), judged)?;
+    Ok(entry.why(std::slice::from_ref(&entry)).unwrap_or_else(|_| entry.figure.why.clone()))
+}
+
 /// Writes all pages.
 pub(super) fn write() -> Result<()> {
     for (name, text) in all()? {
@@ -183,12 +207,18 @@ pub(super) fn filled_with_all(text: &str) -> Result<String> {
 }
 
 /// A question of the second part with its answer.
-fn section(entry: &Entry) -> String {
+fn section(entry: &Entry, entries: &[Entry]) -> Result<String> {
     let figure = &entry.figure;
     let mut text = format!("## Figure {}\n\n**{}.**\n\n", entry.number, figure.title);
     text += &wrapped(&format!("**Statement:** {}", figure.says));
     text += "\n";
-    text += &wrapped(&format!("**Verdict: {}.** {}", entry.verdict, figure.why));
+    let [missed, ranges] = entry.missed();
+    let ranges = if missed == 0 { String::new() } else { format!(" ({missed} of {ranges} ranges missed)") };
+    text += &wrapped(&format!("**Verdict: {}{ranges}.** {}", entry.verdict, entry.why(entries)?));
+    if let Some(open) = &figure.open {
+        text += "\n";
+        text += &wrapped(&format!("**Open:** {open}"));
+    }
     for picture in entry.pictures() {
         let _ = write!(text, "\n![{}]({picture})\n", entry.name());
     }
@@ -202,8 +232,8 @@ fn section(entry: &Entry) -> String {
     if let Some(seconds) = figure.processor.filter(|_| entry.kept.is_some()) {
         let _ = write!(last, " ({seconds:.0} s of processor time)");
     }
-    if let Some(kept) = entry.kept.as_ref().filter(|kept| kept.left_out > 0) {
-        let (failed, runs) = (kept.left_out, kept.runs);
+    if let Some(kept) = entry.kept.as_ref().filter(|kept| kept.failed() > 0) {
+        let (failed, runs) = (kept.failed(), kept.runs);
         let _ = write!(last, "; [{failed} of {runs} runs failed](checks/failures.csv)");
     }
     for page in &figure.see {
@@ -211,7 +241,7 @@ fn section(entry: &Entry) -> String {
         let _ = write!(last, "; [{name}](../{page})");
     }
     text += "\n";
-    text + &wrapped(&(last + "."))
+    Ok(text + &wrapped(&(last + ".")))
 }
 
 /// A paragraph in lines that are not too long.

@@ -24,6 +24,8 @@ pub(super) enum Measure {
     Slope,
     /// Least squares of a + b x: b, with its standard error.
     Line,
+    /// The a of that line, with its standard error.
+    Intercept,
     /// Least squares of a exp(-x/b) + c: b, with the largest residual relative to the range of y.
     Exponential,
     /// Largest less least y over their mean, of points with the same x, the mean over all x (of one x: 0).
@@ -32,10 +34,17 @@ pub(super) enum Measure {
     Widest,
     /// At how many x, of those with several points, y has both signs.
     Flips,
+    /// Of the x with several points, how many have a sum of y above 0, of those whose y do not cancel, with the exact
+    /// probability that chance alone takes as many or more one way (the sign test).
+    Sign,
     /// Where y changes its sign, by linear interpolation; the last of these places.
     Zero,
     /// Where y is greatest.
     Peak,
+    /// The y of the last x over that of the first, less 1.
+    Gain,
+    /// How far the least y lies below the y of the last x, over that y: 0 if the last one is the least.
+    Undershoot,
 }
 
 /// Fewest points of a correlation.
@@ -86,6 +95,14 @@ impl Measure {
                 let error = ((yy - xy * xy / xx).max(0.0) / (n - 2.0) / xx).sqrt();
                 (b, format!("standard error {}", shown(error)))
             }
+            Self::Intercept => {
+                let (a, ..) = line(points, |x| x);
+                let (xx, xy, yy) = moments(points);
+                let middle = points.iter().map(|(x, _)| x / n).sum::<f64>();
+                let scatter = (yy - xy * xy / xx).max(0.0) / (n - 2.0);
+                let error = (scatter * (1.0 / n + middle * middle / xx)).sqrt();
+                (a, format!("standard error {}", shown(error)))
+            }
             Self::Exponential => {
                 let (a, b, c, worst) = exponential(points);
                 let range = ys().fold(f64::NAN, f64::max) - ys().fold(f64::NAN, f64::min);
@@ -99,12 +116,26 @@ impl Measure {
                 let count = several(points).filter(|group| both(group)).count();
                 (count as f64, format!("of {}", several(points).count()))
             }
+            Self::Sign => {
+                let sums: Vec<f64> = several(points).map(|group| group.iter().map(|p| p.1).sum()).collect();
+                let [up, down] = [1.0, -1.0].map(|sign| sums.iter().filter(|sum| sign * **sum > 1e-9).count());
+                let p = shown(sign_test(up, down));
+                (up as f64, format!("of {}, of all {}, p = {p}", up + down, sums.len()))
+            }
             Self::Zero => {
                 let crossing = |pair: &[(f64, f64)]| {
                     let [(x, y), (next, other)] = [pair[0], pair[1]];
                     (y * other < 0.0).then(|| x - y * (next - x) / (other - y))
                 };
                 alone(points.windows(2).rev().find_map(crossing).unwrap_or(f64::NAN))
+            }
+            Self::Gain => match points {
+                [first, .., last] => alone(last.1 / first.1 - 1.0),
+                _ => alone(f64::NAN),
+            },
+            Self::Undershoot => {
+                let last = points.last().map_or(f64::NAN, |(_, y)| *y);
+                alone((last - ys().fold(f64::NAN, f64::min)) / last.abs())
             }
             Self::Peak => alone(points.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |(x, _)| *x)),
         }
@@ -178,6 +209,19 @@ fn wilson(share: f64, n: f64, z: f64) -> [f64; 2] {
     let (middle, scale) = (share + z * z / (2.0 * n), 1.0 + z * z / n);
     let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
     [(middle - half) / scale, (middle + half) / scale]
+}
+
+/// The probability that fair coins show sides as unequally as `up` and `down` or more so, by the binomial
+/// distribution.
+fn sign_test(up: usize, down: usize) -> f64 {
+    let n = up + down;
+    let mut term = 0.5_f64.powi(n as i32);
+    let mut tail = 0.0;
+    for k in 0..=up.min(down) {
+        tail += term;
+        term *= (n - k) as f64 / (k + 1) as f64;
+    }
+    (2.0 * tail).min(1.0)
 }
 
 /// Points with the same x, where there are several.

@@ -238,7 +238,16 @@ fn marks_of_a_text_are_filled_with_the_numbers_of_checks() {
     assert!(kept.ranges().any(|(name, ..)| name == "unconfined speed at -2"));
     let text = filled("The speed is {{3.4 | unconfined speed at -2}}.").expect("a number");
     assert!(text.starts_with("The speed is 0.13") && !text.contains('{'), "{text}");
+    let pairs = "E.10 | pairs of mirrored starts with more members in the wide branch, of those that differ";
+    let text = filled(&format!("{{{{{pairs}}}}} of {{{{{pairs} | of}}}}, p = {{{{{pairs} | p}}}}")).expect("a test");
+    assert_eq!(text, "7 of 7, p = 0.0156\n");
+    // 16 of 39 went there, and one of 40 was lost.
+    let share = "E.4 | share of the droplets that go to the stiff side, of those that go somewhere | bounds";
+    assert_eq!(filled(&format!("{{{{{share}}}}}")).expect("bounds"), "0.4 to 0.425\n");
+    // 46 are left out, of which two are points without a boundary and no runs.
+    assert_eq!(filled("{{failed E.6}}").expect("failed runs"), "44 of 126\n");
     for (text, expected) in [
+        ("{{3.4 | speed at -2 by width | 2 | p}}", "says no"),
         ("{{3.4 | no such check}}", "has no check"),
         ("{{3.4 | speed at -2 by width}}", "name a group"),
         ("{{3.4 | speed at -2 by width | 7}}", "found nothing"),
@@ -248,6 +257,145 @@ fn marks_of_a_text_are_filled_with_the_numbers_of_checks() {
         let told = format!("{:#}", filled(text).expect_err(text));
         assert!(told.contains(expected), "{text}: {told}");
     }
+}
+
+/// The numbers in a text, with their places after the point.
+fn numbers_of(text: &str) -> Vec<(f64, i32, String)> {
+    let text = text.replace('−', "-");
+    let mut found = Vec::new();
+    let mut before = ' ';
+    let mut rest = text.as_str();
+    while let Some(first) = rest.chars().next() {
+        let ends = rest.find(|c: char| !c.is_ascii_digit() && c != '.' && c != 'e').unwrap_or(rest.len());
+        let mut word = &rest[..ends];
+        if word.ends_with('e') && rest[ends..].starts_with(['-', '+']) {
+            let more = rest[ends + 1..].find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len() - ends - 1);
+            word = &rest[..ends + 1 + more];
+        }
+        let word = word.trim_end_matches(['.', 'e', '-']);
+        if !first.is_ascii_digit() || before.is_alphanumeric() || before == '.' {
+            before = first;
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let (digits, power) = word.split_once('e').unwrap_or((word, "0"));
+        let places = digits.split_once('.').map_or(0, |(_, after)| after.len() as i32);
+        found.extend(
+            word.parse().ok().map(|value| (value, places - power.parse::<i32>().unwrap_or(0), word.to_owned())),
+        );
+        before = '0';
+        rest = &rest[word.len().max(1)..];
+    }
+    found
+}
+
+fn numbers_in(value: &toml::Value, pool: &mut Vec<f64>) {
+    match value {
+        toml::Value::Table(table) => table.values().for_each(|value| numbers_in(value, pool)),
+        toml::Value::Array(list) => list.iter().for_each(|value| numbers_in(value, pool)),
+        toml::Value::Float(value) => pool.push(value.abs()),
+        toml::Value::Integer(value) => pool.push((*value as f64).abs()),
+        toml::Value::String(text) => pool.extend(numbers_of(text).into_iter().map(|(value, ..)| value)),
+        _ => {}
+    }
+}
+
+/// A number in the reasons of a verdict is a rounding of one that a check of its figure found (or of its percentage),
+/// or one of the statement, of the set-up or of another figure.
+#[test]
+fn numbers_of_verdicts_are_those_of_checks() {
+    let found = numbers_of("figure 3.1, at -2 (1e-5, 2.5e4): 0.50 R0.");
+    let expected = [(3.1, 1), (2.0, 0), (1e-5, 5), (2.5e4, -3), (0.5, 2)];
+    assert_eq!(found.iter().map(|(value, places, _)| (*value, *places)).collect::<Vec<_>>(), expected);
+    let pages = pages::all().expect("pages");
+    let mut typed = Vec::new();
+    for number in numbers().expect("figures").into_iter() {
+        let figure = read(&number).expect(&number);
+        // A drawing has no checks.
+        if figure.data.is_empty() {
+            continue;
+        }
+        let name = format!("checks/chapter-{}.csv", chapter_of(&number));
+        let (_, sheet) = pages.iter().find(|(other, _)| *other == name).expect(&name);
+        let mut table = csv::Reader::from_reader(sheet.as_bytes());
+        let rows = table.records().map(|row| row.expect(&name)).filter(|row| row[0] == number[..]);
+        let text: Vec<String> = rows.map(|row| [&row[1], &row[2], &row[3], &row[4]].join(" ")).collect();
+        let checked: Vec<f64> = numbers_of(&text.join(" ")).into_iter().map(|(value, ..)| value).collect();
+        let mut set_up: Vec<f64> = numbers_of(&figure.says).into_iter().map(|(value, ..)| value).collect();
+        for data in &figure.data {
+            let path = directory().join(format!("data/{data}.toml"));
+            let table: toml::Table = toml::from_str(&fs::read_to_string(path).expect(data)).expect(data);
+            numbers_in(&toml::Value::Table(table), &mut set_up);
+        }
+        // Marks are numbers of checks already.
+        let mut why = figure.why.clone();
+        while let Some((start, end)) = why.find("{{").zip(why.find("}}")) {
+            why.replace_range(start..end + 2, "");
+        }
+        for (value, places, word) in numbers_of(&why) {
+            let unit = 0.5001 * 10_f64.powi(-places);
+            let rounded = |found: f64| [1.0, 100.0].iter().any(|factor| (factor * found - value).abs() <= unit);
+            let given = |found: &f64| (found - value).abs() <= 1e-9 * value;
+            let cited = why.contains(&format!("figure {word}")) || why.contains(&format!("({word})"));
+            let step = why.contains(&format!("A = {word}"));
+            if !(checked.iter().any(|found| rounded(*found)) || set_up.iter().any(given) || cited || step) {
+                typed.push(format!("{number}: {word}"));
+            }
+        }
+    }
+    assert!(typed.is_empty(), "numbers that no check found: {}", typed.join("; "));
+}
+
+/// The numbers of a text outside of its marks, each with what follows it.
+fn typed(text: &str) -> Vec<(f64, &str, bool)> {
+    let mut found = Vec::new();
+    let outside = text.split("{{").enumerate().filter_map(|(k, part)| match k {
+        0 => Some(part),
+        _ => part.split_once("}}").map(|(_, after)| after),
+    });
+    for part in outside {
+        let mut rest = part;
+        while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+            // The number of a figure, such as E.5, or a name, such as R0, is none.
+            let word = rest[..start].ends_with(|c: char| c.is_alphabetic() || c == '_' || c == '.');
+            rest = &rest[start..];
+            let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == 'e')).unwrap_or(rest.len());
+            let number = rest[..end].trim_end_matches(['.', 'e']);
+            let after = &rest[number.len()..];
+            if let (false, Ok(value)) = (word, number.parse()) {
+                found.push((value, after, number.contains('.')));
+            }
+            rest = &rest[end..];
+        }
+    }
+    found
+}
+
+/// If the reasons of a verdict of the second part have any marks, all that was measured is a mark: other numbers are
+/// those of the scenes, of the statement, or small whole ones.
+#[test]
+fn no_measured_number_of_a_verdict_is_typed() {
+    let mut marked = 0;
+    for number in numbers().expect("figures").into_iter().filter(|number| chapter_of(number) == ENVIRONMENT) {
+        let figure = read(&number).expect(&number);
+        for text in [&figure.why, &figure.finding].into_iter().filter(|text| text.contains("{{")) {
+            marked += 1;
+            let mut known = figure.says.clone();
+            for name in &figure.data {
+                known += &fs::read_to_string(directory().join("data").join(format!("{name}.toml"))).expect(name);
+            }
+            let known: Vec<f64> = typed(&known).into_iter().map(|(value, ..)| value).collect();
+            for (value, after, decimal) in typed(text) {
+                let told = format!("figure {number}: '{value}{after:.20}' is typed: give a mark");
+                assert!(!after.starts_with(" %"), "{told}");
+                assert!(!decimal || known.iter().any(|other| (other - value).abs() < 1e-9), "{told}");
+            }
+        }
+    }
+    assert!(marked > 8, "{marked}");
+    let found = typed("In E.5 at 2.2 R0 {{E.1 | 0.5}} is 12 % of 1e4.");
+    let found: Vec<(f64, bool, bool)> = found.iter().map(|(v, after, d)| (*v, after.starts_with(" %"), *d)).collect();
+    assert_eq!(found, [(2.2, false, true), (12.0, true, false), (1e4, false, false)]);
 }
 
 /// (1.12) and (1.13), corrected as the report says, are free of divergence and have their values on the sphere; as

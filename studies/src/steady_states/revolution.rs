@@ -250,3 +250,64 @@ fn tensions(count: usize) -> Result<Table> {
     }
     Ok(table)
 }
+
+/// Concentration that varies as the cosine of the polar angle, over the mean, of a droplet that is nearly a sphere.
+fn amplitude(state: &SteadyState) -> Result<f64> {
+    let (profile, centre) = (state.profile(), state.measured()?.centroid);
+    let count = profile.positions.len();
+    // The integral from pole to pole of what is odd in the parameter, by its sines.
+    let over_rings = |value: &dyn Fn(f64) -> f64| {
+        let wave = |m: usize| {
+            let nodes = profile.positions.iter().zip(&profile.density).enumerate();
+            let at = |k: usize| (TAU * (k * m) as f64 / count as f64).sin();
+            nodes.map(|(k, (x, number))| value(x.x - centre.x) * number * x.y * at(k)).sum::<f64>() / m as f64
+        };
+        (1..count / 2).step_by(2).map(wave).sum::<f64>()
+    };
+    Ok(3.0 * over_rings(&|x| x) / over_rings(&|_| 1.0))
+}
+
+/// The coefficient b of swimmers that branch off a droplet at rest, activity = threshold (1 - b (c1/c0)^2), from the
+/// first two points of the branch, and the tension at rest (force).
+fn coefficient(viscosities: [f64; 2], tension: f64, count: usize) -> Result<[f64; 2]> {
+    let [inside, outside] = viscosities;
+    let guess = -1e-3 * (3.0 * inside + 2.0 * outside);
+    let mut setup = droplet(Region::Space, viscosities, guess, 0.0, count);
+    setup.droplets[0].tension = tension;
+    let critical = polarisation(&setup)?;
+    let threshold = activity(&critical);
+    let range = Continuation::new(Parameter::Activity, 0.5 * threshold, 1.5 * threshold);
+    let swimmers = Continuation { largest_step: 0.02, most_points: 3, ..range };
+    let point = SpecialPoint::new(SpecialKind::BranchPoint, critical, Parameter::Activity);
+    let branch = swimmers.switch(&point, true, |_, _| true)?;
+    let at = |k: usize| -> Result<(f64, f64)> {
+        let point = branch.points.get(k).context("no branch")?;
+        Ok((amplitude(&point.state)?.powi(2), 1.0 - point.value / threshold))
+    };
+    let ((u, p), (v, q)) = (at(0)?, at(1)?);
+    Ok([(p / u * v - q / v * u) / (v - u), tension - MEAN * threshold])
+}
+
+/// Particles per area at rest.
+const MEAN: f64 = 100.0;
+
+/// How swimming sets in over the tension without an excluded volume, and on a sphere in closed form.
+pub(super) fn onset(count: usize) -> Result<Vec<Table>> {
+    let title = "Onset of swimming in unbounded fluid without an excluded volume: b in activity = threshold \
+                 (1 - b (c1/c0)^2), and (3 rho - 1)/(15 (1 - rho)) of a sphere";
+    let header = "viscosities | tension without particles | tension at rest | b | on a sphere | b over that less 1";
+    let mut table = Table::new(title, header);
+    for viscosities in [[10.0, 100.0], [100.0; 2], [100.0, 10.0]] {
+        let [inside, outside] = viscosities;
+        let rho = (2.0 * outside + 3.0 * inside) / (5.0 * (inside + outside));
+        let exact = (3.0 * rho - 1.0) / (15.0 * (1.0 - rho));
+        for tension in [10.0, 100.0, 1e3, 1e4] {
+            table.measure(format_args!("{inside}/{outside} | {tension}"), || {
+                let [found, whole] = coefficient(viscosities, tension, count)?;
+                let excess = digits(found / exact - 1.0, 2);
+                Ok(format!("{whole:.0} | {} | {} | {excess}", digits(found, 4), digits(exact, 4)))
+            })?;
+        }
+    }
+    Ok(vec![table])
+}

@@ -6,8 +6,9 @@ use motile::base::{Region, Vec2};
 use motile::setup::{Built, GridMethod, LayersMethod, Method, Setup};
 use motile_tests::validation::Table;
 
-use super::{CELLS, Rows, integral, suspension};
+use super::{CELLS, integral, suspension};
 use crate::many::costs;
+use crate::tables::{Measure, Once};
 
 const COUNT: usize = 16;
 const FRACTION: f64 = 0.3;
@@ -19,7 +20,7 @@ const TIME: f64 = 2.0;
 /// Time over which a method's steps are measured (seconds).
 const BUDGET: f64 = 6.0;
 
-pub(super) fn table(rows: &mut Rows) -> Result<Table> {
+pub(super) fn table() -> Result<Table> {
     let columns = "method | error in % of the way | steps | FFT pairs a unit of time";
     let mut table = Table::new("sixteen droplets in a box, area fraction 0.3: error at t = 2 against cost", columns);
     let usual = suspension(COUNT, FRACTION, ACTIVITY, 1.0, HELD)?;
@@ -45,22 +46,19 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
         let tolerance = usual.tolerance.filter(|_| !matches!(method, Method::Grid(_)));
         Setup { method, tolerance, ..usual.clone() }
     };
-    let mut exact = None;
+    let exact = Once::new();
     for (name, method) in all {
-        let row = rows.row(&format!("method {name}"), || {
-            if exact.is_none() {
-                exact = Some(way(&by(integral(FINEST)))?.0);
-            }
+        table.measure(name, || {
+            let exact = exact.get(|| Ok(way(&by(integral(FINEST)))?.0))?;
             let (found, steps) = way(&by(method))?;
             let (mut error, mut length) = (0.0_f64, 0.0_f64);
-            for ([start, end], [_, other]) in exact.iter().flatten().zip(&found) {
+            for ([start, end], [_, other]) in exact.iter().zip(&found) {
                 error = error.max(end.distance(*other));
                 length = length.max(end.distance(*start));
             }
             let cost = costs(std::iter::once((by(method), steps as f64 / TIME)), BUDGET)?[0];
-            Ok(format!("{name} | {:.2} | {steps} | {cost:.0}", 100.0 * error / length))
+            Ok(format!("{:.2} | {steps} | {cost:.0}", 100.0 * error / length))
         })?;
-        table.row(format_args!("{row}"));
     }
     Ok(table)
 }

@@ -10,7 +10,8 @@ use motile::setup::{Built, DropletSetup, Setup};
 use motile_cli::run::say;
 use motile_tests::validation::Table;
 
-use super::{Rows, held, integral};
+use super::{held, integral};
+use crate::tables::Measure;
 
 const NODES: [usize; 3] = [48, 96, 192];
 const ACTIVITY: f64 = -2.0;
@@ -25,15 +26,15 @@ const TIMES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 /// Part of the speed at the first of these times below which a droplet stands still, so that it has no direction.
 const MOVING: f64 = 0.2;
 
-pub(super) fn table(rows: &mut Rows) -> Result<Table> {
+pub(super) fn table() -> Result<Table> {
     let mut table = Table::new(
         "two droplets that meet",
         "meeting | nodes | repulsion | film at 2 | at 5 | at 10 | at 20 | least film | turned by | steps | end",
     );
     for meeting in MEETINGS {
         for (nodes, repulsion) in NODES.into_iter().flat_map(|nodes| [(nodes, false), (nodes, true)]) {
-            let name = format!("pair {} {nodes} {repulsion}", meeting.0);
-            table.row(format_args!("{}", rows.row(&name, || pair(meeting, nodes, repulsion))?));
+            let on = if repulsion { "on" } else { "off" };
+            table.measure(format_args!("{} | {nodes} | {on}", meeting.0), || pair(meeting, nodes, repulsion))?;
         }
     }
     Ok(table)
@@ -70,6 +71,6 @@ fn pair((name, places, back): (&str, [[f64; 2]; 2], bool), nodes: usize, repulsi
     };
     let film = |k: usize| films.get(k).map_or_else(String::new, |film| format!("{film:.4}"));
     let least = scene.system().minimum_gap().unwrap_or(f64::NAN);
-    let (on, films, steps) = (if repulsion { "on" } else { "off" }, [0, 1, 2, 3].map(film).join(" | "), scene.steps());
-    Ok(format!("{name} | {nodes} | {on} | {films} | {least:.4} | {turned} | {steps} | {end}"))
+    let (films, steps) = ([0, 1, 2, 3].map(film).join(" | "), scene.steps());
+    Ok(format!("{films} | {least:.4} | {turned} | {steps} | {end}"))
 }

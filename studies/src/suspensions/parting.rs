@@ -7,7 +7,8 @@ use motile::scene::{Every, Hydrodynamics, SceneError, System};
 use motile::setup::{Built, Setup};
 use motile_tests::validation::Table;
 
-use super::{Rows, TOLERANCE, integral, suspension};
+use super::{TOLERANCE, integral, suspension};
+use crate::tables::{Measure, Once};
 
 const COUNT: usize = 100;
 const FRACTION: f64 = 0.3;
@@ -19,18 +20,15 @@ const RUNS: [(&str, usize, f64, f64); 3] =
     [("itself", NODES, TOLERANCE, 80.0), ("sums over pairs", NODES, 1e-13, 5.0), ("96 nodes", 96, TOLERANCE, 80.0)];
 const TIMES: [f64; 7] = [1.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0];
 
-pub(super) fn table(rows: &mut Rows) -> Result<Table> {
+pub(super) fn table() -> Result<Table> {
     let at = TIMES.map(|time| format!("at {time}")).join(" | ");
     let columns = format!("against | steps | {at} | area change | particle change | least film");
     let mut table = Table::new("largest distance of a droplet from where it is with 64 nodes at 1e-6", &columns);
-    let mut usual = None;
+    let first = Once::new();
     for (number, (name, nodes, tolerance, end)) in RUNS.into_iter().enumerate() {
-        let row = rows.row(&format!("parting {name}"), || {
-            if usual.is_none() {
-                let (_, nodes, tolerance, _) = RUNS[0];
-                usual = Some(Way::of(nodes, tolerance, end)?);
-            }
-            let usual = usual.as_ref().context("no run")?;
+        table.measure(name, || {
+            let (_, usual_nodes, usual_tolerance, usual_end) = RUNS[0];
+            let usual = first.get(|| Way::of(usual_nodes, usual_tolerance, usual_end))?;
             let other = if number > 0 { &Way::of(nodes, tolerance, end)? } else { usual };
             let apart = (0..TIMES.len()).map(|time| match other.places.get(time) {
                 Some(there) if number > 0 => {
@@ -41,9 +39,8 @@ pub(super) fn table(rows: &mut Rows) -> Result<Table> {
             });
             let changes = other.changes.map(|change| format!("{change:.0e}")).join(" | ");
             let apart = apart.collect::<Vec<_>>().join(" | ");
-            Ok(format!("{name} | {} | {apart} | {changes} | {:.3}", other.steps, other.film))
+            Ok(format!("{} | {apart} | {changes} | {:.3}", other.steps, other.film))
         })?;
-        table.row(format_args!("{row}"));
     }
     Ok(table)
 }

@@ -137,16 +137,10 @@ fn transient() -> Result<Table, StudyError> {
 
 fn turning_points() -> Result<Table, StudyError> {
     let mut table = Table::new(
-        "Turning points of steady drops in extension, beyond which there are none: capillary number and deformation; \
-         a bubble's are exactly 0.304860 and 0.79988",
+        "Turning points of steady drops in extension, beyond which there are none: capillary number and deformation",
         "ratio | nodes | capillary number | D | curvature of the tip | tail of modes",
     );
-    for (ratio, from, all) in [
-        (1e-6, 0.28, [128, 160, 192]),
-        (0.1, 0.2, [64, 96, 128]),
-        (1.0, 0.15, [64, 96, 128]),
-        (10.0, 0.1, [64, 96, 128]),
-    ] {
+    for (ratio, from, all) in [(0.1, 0.2, [64, 96, 128]), (1.0, 0.15, [64, 96, 128]), (10.0, 0.1, [64, 96, 128])] {
         for nodes in all {
             let fold = || -> Result<String, SteadyError> {
                 let start = drop_in(FlowSetup { extension: from, ..EXTENSION }, ratio, 1.0, nodes);

@@ -1,8 +1,12 @@
 //! Swimmers in three dimensions.
 
+use std::f64::consts::TAU;
+
 use motile::prelude::*;
 use motile::setup::{ExcludedVolume, Setup};
-use motile_steady_states::SteadyState;
+use motile_steady_states::{
+    BranchPoint, Continuation, Critical, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+};
 
 fn swimmer(region: Region, activity: f64, viscosities: [f64; 2], strength: f64, nodes: usize) -> Setup {
     let mut setup = Setup {
@@ -58,4 +62,56 @@ fn droplets_off_the_axis_are_refused() {
     setup.droplets[0].angle = 0.5;
     let error = SteadyState::find(&setup).unwrap_err().to_string();
     assert!(error.contains("along the x axis"), "{error}");
+}
+
+/// Concentration that varies as the cosine of the polar angle, over the mean, of a droplet that is nearly a sphere.
+fn amplitude(point: &BranchPoint) -> f64 {
+    let (profile, centre) = (point.state.profile(), point.state.measured().unwrap().centroid);
+    let count = profile.positions.len();
+    // The integral from pole to pole of what is odd in the parameter, by its sines.
+    let over_rings = |value: &dyn Fn(f64) -> f64| {
+        let wave = |m: usize| {
+            let nodes = profile.positions.iter().zip(&profile.density).enumerate();
+            let at = |k: usize| (TAU * (k * m) as f64 / count as f64).sin();
+            nodes.map(|(k, (x, number))| value(x.x - centre.x) * number * x.y * at(k)).sum::<f64>() / m as f64
+        };
+        (1..count / 2).step_by(2).map(wave).sum::<f64>()
+    };
+    3.0 * over_rings(&|x| x) / over_rings(&|_| 1.0)
+}
+
+/// The coefficient b of swimmers that branch off a droplet at rest, activity = threshold (1 - b (c1/c0)^2), from the
+/// first two points of the branch.
+fn onset_coefficient(viscosities: [f64; 2], tension: f64) -> f64 {
+    let mut setup = swimmer(Region::Space, -1e-3 * (3.0 * viscosities[0] + 2.0 * viscosities[1]), viscosities, 0.0, 40);
+    setup.droplets[0].tension = tension;
+    let rest = SteadyState::uniform(&setup).unwrap();
+    let spectrum = rest.spectrum().unwrap();
+    let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).unwrap();
+    let critical: Critical = rest.critical(mode, Parameter::Activity).unwrap();
+    let threshold = Parameter::Activity.get(critical.state.setup()).unwrap();
+    let range = Continuation::new(Parameter::Activity, 0.5 * threshold, 1.5 * threshold);
+    let swimmers = Continuation { largest_step: 0.02, most_points: 3, ..range };
+    let point = SpecialPoint::new(SpecialKind::BranchPoint, critical, Parameter::Activity);
+    let branch = swimmers.switch(&point, true, |_, _| true).unwrap();
+    let [(u, p), (v, q)] =
+        [0, 1].map(|k| (amplitude(&branch.points[k]).powi(2), 1.0 - branch.points[k].value / threshold));
+    (p / u * v - q / v * u) / (v - u)
+}
+
+/// On a sphere, without an excluded volume, the second harmonic c2 = c1^2/(3 c0 (1 - rho)) of the concentration follows
+/// from the first, where rho = (2 eta_e + 3 eta_i)/(5 Sigma) is the mobility of the second harmonic over that of the
+/// first. Its flow adds (3 rho - 1)/5 c2/c0 to the growth of the first, so the activity of swimmers is the threshold
+/// times 1 - (3 rho - 1)/(15 (1 - rho)) (c1/c0)^2. Deformation changes this as one over the tension.
+#[test]
+fn the_onset_on_a_sphere_is_subcritical_as_the_closed_form_says() {
+    for viscosities in [[10.0, 100.0], [100.0, 100.0], [100.0, 10.0]] {
+        let [inside, outside] = viscosities;
+        let rho = (2.0 * outside + 3.0 * inside) / (5.0 * (inside + outside));
+        let exact = (3.0 * rho - 1.0) / (15.0 * (1.0 - rho));
+        let errors = [1e3, 1e4].map(|tension| onset_coefficient(viscosities, tension) / exact - 1.0);
+        // What is left without the part that falls as one over the tension.
+        let left: f64 = (10.0 * errors[1] - errors[0]) / 9.0;
+        assert!(left.abs() < 5e-4 && errors[1].abs() < 0.015, "{viscosities:?}: {errors:?}, {left}");
+    }
 }

@@ -40,7 +40,7 @@ fn divided(widths: [f64; 2], drive: Drive) -> Scene<AnyFlow> {
         walls: vec![WallSetup { outline, spacing: 0.15, grading: 1.0, rounding: 0.2 }],
         ..Setup::default()
     };
-    setup.build().unwrap().scene
+    setup.build().expect("a valid scene").scene
 }
 
 /// Both branches resist as plates do, `12 eta L/w^3`, so that fluxes are as the cubes of their widths where the same

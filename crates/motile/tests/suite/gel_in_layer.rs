@@ -38,20 +38,20 @@ fn channel(depths: [f64; 2], spacing: f64) -> Setup {
 
 /// The growth rate of each gel's director if it is tilted by `size * tilt(y)`, as the mean of rate times tilt.
 fn growth(setup: &Setup, tilt: impl Fn(f64) -> f64) -> Vec<f64> {
-    let mut scene = setup.build().unwrap().scene;
+    let mut scene = setup.build().expect("a valid scene").scene;
     let handles: Vec<_> = scene.system().bodies::<GelInLayer>().map(|(handle, _)| handle).collect();
     let size = 1e-6;
     for &handle in &handles {
-        let gel = scene.body_mut(handle).unwrap();
+        let gel = scene.body_mut(handle).expect("a gel");
         let angles: Vec<f64> = gel.nodes().iter().map(|node| size * tilt(node.y)).collect();
-        gel.read_state(&angles).unwrap();
+        gel.read_state(&angles).expect("as many angles");
     }
     let lengths: Vec<usize> = scene.system().all_bodies().map(|(_, body)| body.state_len()).collect();
     let mut rate = vec![0.0; lengths.iter().sum()];
-    scene.system_mut().present_rate(&mut rate).unwrap();
+    scene.system_mut().present_rate(&mut rate).expect("rates");
     let of = |&handle: &Handle<GelInLayer>| {
         let start: usize = lengths[..handle.index()].iter().sum();
-        let gel = scene.body(handle).unwrap();
+        let gel = scene.body(handle).expect("a gel");
         let pairs = gel.nodes().iter().zip(&rate[start..]).map(|(node, rate)| (tilt(node.y), rate / size));
         let [sum, norm] = pairs.fold([0.0; 2], |[sum, norm], (tilt, rate)| [sum + tilt * rate, norm + tilt * tilt]);
         sum / norm

@@ -6,35 +6,77 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::{Data, Source, flatten, folder, track};
-use crate::book::Making;
 use crate::book::expression::{Definitions, Expression, Row};
+use crate::book::{Making, NO_BOUNDARY};
 
 /// Most rounds of a bisection: 2^-20 of the way between the first ends.
 const ROUNDS: usize = 20;
 
+/// How often ends of points of their own move on while both have one outcome.
+const MOVES: usize = 3;
+
 /// Bisection of one number that some entries of a scene share.
 ///
 /// Each point of the plan ends as one row: that of the run nearest to the boundary with the outcome of the second end,
-/// with `boundary`, the middle between the last two values, and `boundary_error`, half their distance. A run that ends
-/// in an error is judged by what it came to (`furthest_x`, all other columns being those of its scene), and is told as
-/// all failures are.
+/// with `boundary`, the middle between the last two values, and `boundary_error`, half their distance. Both values are
+/// of runs whose outcome is known. A run that ends in an error is told as all failures are. Its outcome is known if it
+/// has come to the second one (`furthest_x`, all other columns being those of its scene). Otherwise it could still have
+/// come to it: the bisection of its point ends there.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Bisection {
     /// Entries by their paths in the scene file.
     entries: Vec<String>,
     /// Ends with different outcomes.
-    between: [f64; 2],
+    between: Ends,
     /// Half the distance of the last two values, relative to their middle.
     within: f64,
     /// Expression of a run's columns that is not 0 at the second end, and 0 at the first.
     outcome: String,
+    /// Runs that end in an error before the second outcome count as those of the first one, so that the boundary is a
+    /// bound on one side only.
+    #[serde(default)]
+    one_sided: bool,
+}
+
+/// Ends of all points, or of each. If both ends of a point have one outcome, those of each move on.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Ends {
+    All([f64; 2]),
+    Each(Vec<[f64; 2]>),
+}
+
+impl Ends {
+    fn of(&self, point: usize) -> Option<[f64; 2]> {
+        match self {
+            Self::All(ends) => Some(*ends),
+            Self::Each(list) => list.get(point).copied(),
+        }
+    }
+
+    fn moves(&self) -> usize {
+        match self {
+            Self::All(_) => 0,
+            Self::Each(_) => MOVES,
+        }
+    }
+}
+
+/// A run and its outcome, if that is known.
+#[derive(Clone)]
+struct Run {
+    row: Option<Row>,
+    outcome: Option<bool>,
 }
 
 /// Values with different outcomes of one point, and the row of the second.
+#[derive(Clone)]
 struct Bracket {
     values: [f64; 2],
     row: Option<Row>,
+    /// Nothing is known of the middle between its values.
+    stuck: bool,
 }
 
 impl Bracket {
@@ -57,42 +99,79 @@ impl Bisection {
         points: &[Trial],
         data: &mut Data,
     ) -> Result<()> {
-        ensure!(self.within > 0.0 && self.between.iter().all(|value| *value > 0.0), "data {name}: numbers above 0");
+        let ends: Option<Vec<[f64; 2]>> = (0..points.len()).map(|point| self.between.of(point)).collect();
+        let mut ends = ends.with_context(|| format!("data {name}: ends of each point"))?;
+        let positive = ends.iter().flatten().all(|value| *value > 0.0);
+        ensure!(self.within > 0.0 && positive, "data {name}: numbers above 0");
         let plan = source.whole_plan(making)?.with_context(|| format!("data {name}: a bisection without a plan"))?;
         let outcome = Expression::parse(&self.outcome, &Definitions::new())?;
-        let mut run = |asked: &[(usize, f64)]| -> Result<Vec<Option<Row>>> {
+        let mut run = |asked: &[(usize, f64)]| -> Result<Vec<Run>> {
             let trials = asked.iter().map(|(k, value)| self.trial(&plan, name, making, (*k, &points[*k]), *value));
             let trials: Vec<Trial> = trials.collect::<Result<_>>()?;
             let rows = source.made(name, making, trials.clone(), data)?;
-            let ended =
-                |(row, trial): (Option<Row>, &Trial)| row.map_or_else(|| Self::ended(trial), |row| Ok(Some(row)));
-            rows.into_iter().zip(&trials).map(ended).collect()
+            let judged = |(row, trial): (Option<Row>, &Trial)| -> Result<Run> {
+                let finished = row.is_some();
+                let row = row.map_or_else(|| Self::ended(trial), |row| Ok(Some(row)))?;
+                let second = row.as_ref().is_some_and(|row| outcome.value(row) != 0.0);
+                Ok(Run { row, outcome: (finished || second || self.one_sided).then_some(second) })
+            };
+            rows.into_iter().zip(&trials).map(judged).collect()
         };
-        let holds = |row: &Option<Row>| row.as_ref().is_some_and(|row| outcome.value(row) != 0.0);
 
-        let mut brackets: Vec<Option<Bracket>> = Vec::with_capacity(points.len());
-        let first: Vec<(usize, f64)> = (0..points.len()).flat_map(|k| self.between.map(|value| (k, value))).collect();
-        for pair in run(&first)?.chunks(2) {
-            let two = !holds(&pair[0]) && holds(&pair[1]);
-            brackets.push(two.then(|| Bracket { values: self.between, row: pair[1].clone() }));
+        let mut brackets: Vec<Option<Bracket>> = vec![None; points.len()];
+        let mut found: Vec<[Option<Run>; 2]> = vec![[None, None]; points.len()];
+        let mut open: Vec<usize> = (0..points.len()).collect();
+        for round in 0..=self.between.moves() {
+            let places: Vec<(usize, usize)> = open.iter().flat_map(|k| [(*k, 0), (*k, 1)]).collect();
+            let places: Vec<(usize, usize)> =
+                places.into_iter().filter(|(k, side)| found[*k][*side].is_none()).collect();
+            let asked: Vec<(usize, f64)> = places.iter().map(|(k, side)| (*k, ends[*k][*side])).collect();
+            for ((k, side), run) in places.into_iter().zip(run(&asked)?) {
+                found[k][side] = Some(run);
+            }
+            let last = round == self.between.moves();
+            open.retain(|k| {
+                let [first, second] = &mut found[*k];
+                let [low, high] = ends[*k];
+                match [&*first, &*second].map(|run| run.as_ref().and_then(|run| run.outcome)) {
+                    [Some(false), Some(true)] => {
+                        let row = second.take().and_then(|run| run.row);
+                        brackets[*k] = Some(Bracket { values: ends[*k], row, stuck: false });
+                        false
+                    }
+                    [Some(true), Some(true)] if !last => {
+                        ends[*k] = [2.0 * low - high, low];
+                        *second = first.take();
+                        ends[*k][0] > 0.0
+                    }
+                    [Some(false), Some(false)] if !last => {
+                        ends[*k] = [high, 2.0 * high - low];
+                        *first = second.take();
+                        true
+                    }
+                    _ => false,
+                }
+            });
         }
         for _ in 0..ROUNDS {
-            let wide = |bracket: &Bracket| bracket.error() > self.within * bracket.middle();
+            let wide = |bracket: &Bracket| !bracket.stuck && bracket.error() > self.within * bracket.middle();
             let open = brackets.iter().enumerate().filter_map(|(k, bracket)| Some((k, bracket.as_ref()?)));
             let asked: Vec<(usize, f64)> =
                 open.filter(|(_, bracket)| wide(bracket)).map(|(k, bracket)| (k, bracket.middle())).collect();
-            for ((k, value), row) in asked.iter().zip(run(&asked)?) {
+            for ((k, value), run) in asked.iter().zip(run(&asked)?) {
                 let Some(bracket) = &mut brackets[*k] else { continue };
-                let side = usize::from(holds(&row));
-                bracket.values[side] = *value;
-                if side == 1 {
-                    bracket.row = row;
+                match run.outcome {
+                    Some(second) => {
+                        bracket.values[usize::from(second)] = *value;
+                        bracket.row = if second { run.row } else { bracket.row.take() };
+                    }
+                    None => bracket.stuck = true,
                 }
             }
         }
-        for (point, bracket) in points.iter().zip(brackets) {
+        for ((point, bracket), ends) in points.iter().zip(brackets).zip(&ends) {
             let Some(bracket) = bracket else {
-                data.failures.push(format!("{}: no boundary between {:?}", point.label, self.between));
+                data.failures.push(format!("{}: {NO_BOUNDARY} {ends:?}", point.label));
                 continue;
             };
             let mut row = bracket.row.clone().unwrap_or_default();

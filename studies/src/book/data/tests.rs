@@ -55,3 +55,28 @@ fn mean_velocities_are_those_of_the_track() {
     assert!((over_period - 0.25).abs() < 1e-12 && (late - 0.25).abs() < 1e-12, "{over_period}, {late}");
     assert!(means(&[], 1.0).iter().all(|value| value.is_nan()));
 }
+
+/// A branch that is looked at on the way has the speeds of the states there, and ends at a fold: swimmers in three
+/// dimensions turn between half the threshold of polarisation and the threshold.
+#[test]
+fn branches_are_looked_at_on_the_way_and_end_in_folds() {
+    let scene = |activity: f64, outside: f64, region: &str| -> Setup {
+        let text = format!(
+            "region = \"{region}\"\nviscosity = {outside}\nmethod.integral = {{ nodes = 48, elements = 192 }}\n\
+             [[droplets]]\nparticles.activity = {activity}\nparticles.excluded-volume.step = 1.0\n"
+        );
+        Setup::from_toml(&text).expect("a scene")
+    };
+    let number = |summary: &Summary, name: &str| summary.number(name);
+    let follow = |to: &[f64]| Follow { parameter: "activity".to_owned(), from: -0.6, at: to.to_vec() };
+    let weak = scene(-0.55, 100.0, "space");
+    let branch = follow(&[-0.58, -0.55]).branch(&weak).expect("a branch");
+    let speeds: Vec<f64> = serde_json::from_value(branch.values()["branch_speed"].clone()).expect("speeds");
+    let direct = SteadyState::find(&weak).expect("a state").measured().expect("a speed").speed;
+    assert!((speeds[1] / direct - 1.0).abs() < 1e-4, "{speeds:?}, {direct}");
+    assert!((number(&branch, "branch_end") + 0.55).abs() < 1e-12 && number(&branch, "fold").is_nan());
+    let branch = follow(&[-0.55, -0.3]).branch(&scene(-0.3, 100.0, "space")).expect("a branch");
+    let fold = number(&branch, "fold");
+    // `steady-folds.csv`: -0.491459 with 40 nodes.
+    assert!((fold + 0.4915).abs() < 1e-3 && (number(&branch, "branch_end") - fold).abs() < 1e-12, "{fold}");
+}

@@ -7,6 +7,9 @@ use crate::book::different;
 
 const BEGIN: &str = "{{";
 const END: &str = "}}";
+/// Marks of what is said next to a number, and the words that it follows there.
+const BESIDE: [(&str, &str); 4] =
+    [("of", "of "), ("pairs", "of all "), ("p", "p = "), ("bounds", "lost runs on either side ")];
 
 /// A page from its text; paragraphs with numbers in them are wrapped again.
 pub(super) fn page(text: &str, entries: &[Entry]) -> Result<String> {
@@ -49,6 +52,11 @@ pub(super) fn with_marks(text: &str, value: &dyn Fn(&str) -> Result<String>) -> 
     Ok(out + rest)
 }
 
+/// A text with its marks filled, and not laid out.
+pub(super) fn text(text: &str, entries: &[Entry]) -> Result<String> {
+    with_marks(text, &|mark| value(mark, entries))
+}
+
 fn value(mark: &str, entries: &[Entry]) -> Result<String> {
     let of = |number: &str| {
         let found = entries.iter().find(|entry| entry.number == number);
@@ -62,10 +70,17 @@ fn value(mark: &str, entries: &[Entry]) -> Result<String> {
         "failed" => {
             let entry = of(rest.trim())?;
             let kept = entry.kept.as_ref().with_context(|| format!("figure {} was not made yet", entry.number))?;
-            Ok(format!("{} of {}", kept.left_out, kept.runs))
+            Ok(format!("{} of {}", kept.failed(), kept.runs))
+        }
+        "missed" => {
+            let [missed, ranges] = of(rest.trim())?.missed();
+            Ok(format!("{missed} of {ranges}"))
         }
         "counts" => Ok(counts(entries)),
-        "sections" => Ok(of_chapter(entries, rest).map(section).collect::<Vec<_>>().join("\n")),
+        "sections" => {
+            let sections = of_chapter(entries, rest).map(|entry| section(entry, entries));
+            Ok(sections.collect::<Result<Vec<_>>>()?.join("\n"))
+        }
         _ => number(of(first)?, mark),
     }
 }
@@ -79,7 +94,12 @@ fn number(entry: &Entry, mark: &str) -> Result<String> {
     let mut parts = mark.split(" | ").map(str::trim).skip(1);
     let name = parts.next().context("no name of a check")?;
     let (mut group, mut percent, mut error, mut value_too) = (None, false, false, true);
+    let mut said = None;
     for part in parts {
+        if let Some((_, words)) = BESIDE.iter().find(|(mark, _)| *mark == part) {
+            said = Some(*words);
+            continue;
+        }
         match part {
             "%" => percent = true,
             "±" => error = true,
@@ -96,6 +116,11 @@ fn number(entry: &Entry, mark: &str) -> Result<String> {
         None => bail!("'{name}' has {} numbers: name a group", results.len()),
     };
     let result = result.with_context(|| format!("'{name}' found nothing there: {:?}", found.text))?;
+    if let Some(words) = said {
+        let text = result.beside.split(", ").find_map(|part| Some(part.split_once(words)?.1));
+        let text = text.with_context(|| format!("'{name}' says no '{words}': {}", result.beside))?;
+        return Ok(text.parse().map_or_else(|_| text.to_owned(), short));
+    }
     let value: f64 = result.value.parse().with_context(|| result.value.clone())?;
     ensure!(value.is_finite(), "'{name}' is not a number");
     let factor = if percent { 100.0 } else { 1.0 };
@@ -140,8 +165,7 @@ fn verdicts<'a>(which: impl Iterator<Item = &'a Entry>, entries: &[Entry]) -> Re
     let mut table = String::from("| figure | statement | verdict | finding |\n|---|---|---|---|\n");
     for entry in which {
         let figure = &entry.figure;
-        let finding = with_marks(&figure.finding, &|mark| value(mark, entries))
-            .with_context(|| format!("finding of figure {}", entry.number))?;
+        let finding = text(&figure.finding, entries).with_context(|| format!("finding of figure {}", entry.number))?;
         for text in [&figure.claim, &finding] {
             let words = text.split_whitespace().count();
             ensure!((1..=MOST_WORDS).contains(&words), "figure {}: {words} words in '{text}'", entry.number);

@@ -54,13 +54,14 @@ fn checks<'a>(entries: impl Iterator<Item = &'a Entry>) -> Result<String> {
 
 /// A line of each figure: the statement in full, the verdict and its reasons.
 fn verdicts(entries: &[Entry]) -> Result<String> {
-    let row = |entry: &Entry| {
+    let row = |entry: &Entry| -> Result<Vec<String>> {
         let figure = &entry.figure;
-        let texts = [&entry.number, &figure.title, &figure.says, &entry.verdict, &figure.why];
+        let texts = [&entry.number, &figure.title, &figure.says, &entry.verdict, &entry.why(entries)?];
         let command = figure.command.clone().unwrap_or_else(|| format!("studies -- figure {}", entry.number));
-        texts.into_iter().cloned().chain([command]).collect()
+        Ok(texts.into_iter().cloned().chain([command]).collect())
     };
-    sheet(&["figure", "title", "statement", "verdict", "reasons", "command"], entries.iter().map(row))
+    let rows = entries.iter().map(row).collect::<Result<Vec<_>>>()?;
+    sheet(&["figure", "title", "statement", "verdict", "reasons", "command"], rows)
 }
 
 /// A line of each figure's data.
@@ -68,7 +69,7 @@ fn data(entries: &[Entry]) -> Result<String> {
     let mut rows = Vec::new();
     for entry in entries {
         let kept = |of: fn(&super::Kept) -> String| entry.kept.as_ref().map(of).unwrap_or_default();
-        let (runs, failed) = (kept(|kept| kept.runs.to_string()), kept(|kept| kept.left_out.to_string()));
+        let (runs, failed) = (kept(|kept| kept.runs.to_string()), kept(|kept| kept.failed().to_string()));
         let seconds = kept(|kept| format!("{:.0}", kept.seconds));
         for name in &entry.figure.data {
             let about = Source::read(name)?.told();

@@ -10,6 +10,10 @@ fn measures_find_what_points_are_made_of() {
         (Measure::Correlation, &made(|x| 5.0 - 0.25 * x), -1.0, 1e-12),
         (Measure::Slope, &made(|x| 3.0 * x), 3.0, 1e-12),
         (Measure::Zero, &made(|x| x - 4.3), 4.3, 1e-12),
+        (Measure::Intercept, &made(|x| 5.0 - 0.25 * x), 5.0, 1e-12),
+        (Measure::Gain, &vec![(1.0, 4.0), (2.0, 1.5), (3.0, 5.0)], 0.25, 1e-12),
+        (Measure::Undershoot, &vec![(1.0, 4.0), (2.0, 1.5), (3.0, 2.0)], 0.25, 1e-12),
+        (Measure::Undershoot, &made(|x| 5.0 - 0.25 * x), 0.0, 0.0),
         (Measure::Peak, &made(|x| -(x - 7.0).powi(2)), 7.0, 0.0),
         (Measure::Count, &made(|x| f64::from(x > 4.0)), 6.0, 0.0),
         (Measure::Mean, &made(|x| x), 6.0, 1e-12),
@@ -17,6 +21,7 @@ fn measures_find_what_points_are_made_of() {
         (Measure::Spread, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, 5.0)], 0.1, 1e-12),
         (Measure::Widest, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, 5.0)], 0.2, 1e-12),
         (Measure::Flips, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0), (2.0, -5.0), (3.0, -1.0)], 1.0, 0.0),
+        (Measure::Sign, &vec![(1.0, 1.0), (1.0, -1.0), (2.0, 1.0), (2.0, 0.0), (3.0, -1.0), (3.0, -1.0)], 1.0, 0.0),
     ] {
         let (found, beside) = measure.of(points);
         assert!((found - expected).abs() <= tolerance, "{measure:?}: {found} ({beside}), expected {expected}");
@@ -34,5 +39,18 @@ fn measures_find_what_points_are_made_of() {
 fn numbers_have_four_figures() {
     for (value, text) in [(0.123_456, "0.1235"), (-12.0, "-12"), (0.0, "0"), (f64::NAN, "none"), (2.5e-7, "2.500e-7")] {
         assert_eq!(shown(value), text);
+    }
+}
+
+/// Against the sums of binomial coefficients: 7 of 7, 9 of 10 and 5 of 10.
+#[test]
+fn sign_tests_are_exact() {
+    for (up, down, expected) in [(7, 0, 2.0 / 128.0), (0, 7, 2.0 / 128.0), (9, 1, 22.0 / 1024.0), (5, 5, 1.0)] {
+        let pairs = |count: usize, y: f64, from: usize| (from..from + count).flat_map(move |x| [(x as f64, y); 2]);
+        let parted = [(0.5, 1.0), (0.5, -1.0)].into_iter();
+        let points: Vec<(f64, f64)> = parted.chain(pairs(up, 1.0, 1)).chain(pairs(down, -1.0, 1 + up)).collect();
+        let (found, beside) = Measure::Sign.of(&points);
+        let all = up + down + 1;
+        assert_eq!((found, beside), (up as f64, format!("of {}, of all {all}, p = {}", up + down, shown(expected))));
     }
 }

@@ -55,6 +55,7 @@ fn only_witnesses_are_found_and_compared() {
     let mut asked = Vec::new();
     assert_eq!(kept.compare(&table(0.0, &mut asked)).unwrap(), 1);
     assert_eq!(asked, ["2"]);
+    rows::want_only(vec![["Squares".to_owned(), "plain | 2".to_owned()]]);
     let text = format!("{:#}", kept.compare(&table(0.1, &mut asked)).unwrap_err());
     assert!(
         text.contains("row 'plain | 2', column 'square': the file shows 4.00, and the program finds 4.10"),
