@@ -1,7 +1,7 @@
 //! Witnesses: a few rows of each table that take little time, found again and compared with what the file shows.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, Parser};
@@ -75,9 +75,9 @@ struct Kept {
 }
 
 impl Kept {
-    fn read(path: PathBuf) -> Result<Option<Self>> {
+    fn read(path: &Path) -> Result<Option<Self>> {
         let read = || -> Result<Option<Self>> {
-            let text = fs::read_to_string(&path)?;
+            let text = fs::read_to_string(path)?;
             let comments: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
             let command = comments.first().context("the file does not begin with the command that made it")?;
             // Tables that tests write are checked by those tests.
@@ -86,7 +86,7 @@ impl Kept {
             let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
             let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
             Ok(Some(Self {
-                path: path.clone(),
+                path: path.to_owned(),
                 command: command.split_whitespace().map(str::to_owned).collect(),
                 title: (*comments.last().context("the file has no title")?).to_owned(),
                 header: cells(table.headers()?),
@@ -98,7 +98,8 @@ impl Kept {
     }
 
     fn all() -> Result<Vec<Self>> {
-        let kept = files("docs/tables", "csv")?.into_iter().map(Self::read);
+        let paths = files("docs/tables", "csv")?;
+        let kept = paths.iter().map(|path| Self::read(path));
         Ok(kept.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
     }
 

@@ -12,6 +12,9 @@ const NODES: [usize; 3] = [16, 32, 64];
 
 const RATIOS: [f64; 5] = [0.01, 1.0, 10.0, 100.0, 1000.0];
 
+/// Finds the errors at all resolutions.
+type Find<'a> = &'a dyn Fn() -> Result<Vec<Errors>, StudyError>;
+
 pub(crate) fn shapes() -> Tables {
     let mut table = Table::new(
         "Fixed ellipses of another viscosity in a 6 x 6 box, errors in % of layers with 16, 32, 64 nodes and of a \
@@ -25,8 +28,7 @@ pub(crate) fn shapes() -> Tables {
         let exact = || exact.get(|| Exact::new(region, &[Droplet::ellipse(ratio)], 256));
         let layers = || NODES.iter().map(|&nodes| Ok(exact()?.errors(nodes)?[0])).collect::<Result<_, StudyError>>();
         let smeared = || SPACINGS.iter().map(|&h| Ok(exact()?.smeared_errors(h)?[0])).collect();
-        let ways: [(&str, &dyn Fn() -> Result<Vec<Errors>, StudyError>); 2] =
-            [("layers", &layers), ("arithmetic", &smeared)];
+        let ways: [(&str, Find<'_>); 2] = [("layers", &layers), ("arithmetic", &smeared)];
         for (way, errors) in ways {
             table.measure(format_args!("ellipse, 1 + 0.5 cos | {ratio} | {way}"), || {
                 let errors = errors()?;

@@ -66,7 +66,7 @@ fn droplets_off_the_axis_are_refused() {
 
 /// Concentration that varies as the cosine of the polar angle, over the mean, of a droplet that is nearly a sphere.
 fn amplitude(point: &BranchPoint) -> f64 {
-    let (profile, centre) = (point.state.profile(), point.state.measured().unwrap().centroid);
+    let (profile, centre) = (point.state.profile(), point.state.measured().expect("a measured state").centroid);
     let count = profile.positions.len();
     // The integral from pole to pole of what is odd in the parameter, by its sines.
     let over_rings = |value: &dyn Fn(f64) -> f64| {
@@ -85,15 +85,15 @@ fn amplitude(point: &BranchPoint) -> f64 {
 fn onset_coefficient(viscosities: [f64; 2], tension: f64) -> f64 {
     let mut setup = swimmer(Region::Space, -1e-3 * (3.0 * viscosities[0] + 2.0 * viscosities[1]), viscosities, 0.0, 40);
     setup.droplets[0].tension = tension;
-    let rest = SteadyState::uniform(&setup).unwrap();
-    let spectrum = rest.spectrum().unwrap();
-    let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).unwrap();
-    let critical: Critical = rest.critical(mode, Parameter::Activity).unwrap();
-    let threshold = Parameter::Activity.get(critical.state.setup()).unwrap();
+    let rest = SteadyState::uniform(&setup).expect("a state of rest");
+    let spectrum = rest.spectrum().expect("a spectrum");
+    let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).expect("a symmetric mode");
+    let critical: Critical = rest.critical(mode, Parameter::Activity).expect("a threshold");
+    let threshold = Parameter::Activity.get(critical.state.setup()).expect("an activity");
     let range = Continuation::new(Parameter::Activity, 0.5 * threshold, 1.5 * threshold);
     let swimmers = Continuation { largest_step: 0.02, most_points: 3, ..range };
     let point = SpecialPoint::new(SpecialKind::BranchPoint, critical, Parameter::Activity);
-    let branch = swimmers.switch(&point, true, |_, _| true).unwrap();
+    let branch = swimmers.switch(&point, true, |_, _| true).expect("a branch");
     let [(u, p), (v, q)] =
         [0, 1].map(|k| (amplitude(&branch.points[k]).powi(2), 1.0 - branch.points[k].value / threshold));
     (p / u * v - q / v * u) / (v - u)

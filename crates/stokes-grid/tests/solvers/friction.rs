@@ -61,8 +61,8 @@ fn solutions_satisfy_the_discrete_equations() {
 /// Flow between plates with friction: `u = (G/alpha) (1 - cosh(q y)/cosh(q H/2))`, q^2 = alpha/eta, to second order.
 #[test]
 fn a_driven_channel_has_hartmanns_profile() {
-    let (friction, gradient, height) = (40.0, -3.0, 1.0);
-    let q = (friction / ETA as f64).sqrt();
+    let (friction, gradient, height): (f64, f64, f64) = (40.0, -3.0, 1.0);
+    let q = (friction / ETA).sqrt();
     let errors = [64, 128, 256].map(|rows| {
         let grid = Grid::channel(8, rows, height / rows as f64).unwrap();
         let mut solver = channel(grid, friction, Drive::Gradient(gradient), WallMotion::AT_REST);
