@@ -14,7 +14,7 @@ use crate::tables::{self, Measure};
 /// Tension of the interface (force).
 const TENSION: f64 = 200.0;
 /// End of the runs, over which the speeds have come to rest.
-const END: f64 = 240.0;
+const END: f64 = 80.0;
 /// Alignment and activity of the gels.
 const GELS: [[f64; 2]; 5] = [[0.5, -50.0], [0.5, -100.0], [0.5, -200.0], [0.5, -300.0], [-0.5, 200.0]];
 
