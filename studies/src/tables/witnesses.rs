@@ -213,7 +213,7 @@ fn compare_one(kept: &Kept, table: &Table) -> Result<()> {
         .compare(table)
         .with_context(|| format!("{file} is not current; make it again: studies -- {}", kept.command.join(" ")))?;
     say(format_args!("{file}: {count} of {} rows are as before", kept.rows.len()));
-    if rows::are_chosen() {
+    if rows::are_chosen() && kept.witnesses.is_empty() {
         let chosen = choose(table);
         ensure!(!chosen.is_empty(), "{file}: the first row takes too long for a witness");
         let text = fs::read_to_string(&kept.path)?;
