@@ -1,7 +1,7 @@
 //! Tables of measurements as files, and the pages that show parts of them.
 //!
-//! A study writes `docs/tables/NAME.csv` (`--write`) with the command that made it and the names of a few rows that take
-//! little time, its witnesses. `studies -- witnesses` finds those again, and fails if the file shows other digits;
+//! A study writes `docs/tables/NAME.csv` (`--write`) with the command that made it and the names of a few rows that
+//! take little time, its witnesses. `studies -- witnesses` finds those again, and fails if the file shows other digits;
 //! `studies -- all --write` makes every table and figure again. A page shows rows and columns of a table between two
 //! comments,
 //!

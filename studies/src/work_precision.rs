@@ -4,8 +4,8 @@
 //! `cargo run --release -p studies -- work_precision` takes some minutes on one core; `--only
 //! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/BUILD/`, where BUILD
 //! is a number that another build of this program does not have, and is not made again. So the tables may be made in
-//! several goes, by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and PNG); with
-//! `--write` the tables of docs/tables and the figures of docs/images/work_precision.
+//! several goes, by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and
+//! PNG); with `--write` the tables of docs/tables and the figures of docs/images/work_precision.
 //!
 //! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
 //! one at a time.

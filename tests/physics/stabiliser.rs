@@ -20,8 +20,8 @@ fn law() -> ContractileTension {
     ContractileTension::new(1.01, 1.0, ExcludedVolume::None, 1.0).expect("a law")
 }
 
-/// Returns the factor of a wave in one step of the midpoint rule: the wave decays at `rate` (1/time), and the stabiliser
-/// at `implicit` (1/time).
+/// Returns the factor of a wave in one step of the midpoint rule: the wave decays at `rate` (1/time), and the
+/// stabiliser at `implicit` (1/time).
 fn factor(rate: f64, implicit: f64, dt: f64) -> f64 {
     let (a, b) = (rate * dt, implicit / rate);
     1.0 - a * (1.0 + a * (b - 0.5)) / (1.0 + 0.5 * a * b).powi(2)
@@ -72,8 +72,8 @@ fn symbol(h: f64, count: usize, waves: usize, dt: f64) -> f64 {
     factor(square / (4.0 * waves as f64), 0.25 * h * square, dt)
 }
 
-/// The corrected grid has the mobility of the fluid for all waves that are near to growing. So waves of markers that the
-/// grid takes for others are not what shortens the stable step there.
+/// The corrected grid has the mobility of the fluid for all waves that are near to growing. So waves of markers that
+/// the grid takes for others are not what shortens the stable step there.
 #[test]
 fn one_step_multiplies_a_wave_on_a_circle_by_the_symbol() {
     let h = 0.1;

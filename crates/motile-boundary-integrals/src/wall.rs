@@ -318,8 +318,8 @@ impl RigidWall {
         (largest, steps.sum::<f64>() * count as f64 / (within * self.nodes) as f64)
     }
 
-    /// Returns the corners that turn by more than `limit` (radians) within the distance of the nodes of this wall, which
-    /// has that number.
+    /// Returns the corners that turn by more than `limit` (radians) within the distance of the nodes of this wall,
+    /// which has that number.
     pub(crate) fn sharp_corner(&self, wall: usize, limit: f64) -> Result<Option<SharpCorner>, LayerError> {
         let (turn, spacing) = self.sharpest_turn();
         if turn <= limit {

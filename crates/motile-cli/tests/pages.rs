@@ -1,8 +1,8 @@
 //! The scenes and commands of README.md and of the pages in the folders of docs, as a reader would use them.
 //!
-//! A block `toml scene` is a whole scene: it is built and takes ten steps. A block `toml` is added to the first scene of
-//! its page, and its values replace those there. A block with `file=NAME` is saved first, and blocks `sh` run in order
-//! in a new folder, with `motile` on the path.
+//! A block `toml scene` is a whole scene: it is built and takes ten steps. A block `toml` is added to the first scene
+//! of its page, and its values replace those there. A block with `file=NAME` is saved first, and blocks `sh` run in
+//! order in a new folder, with `motile` on the path.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;

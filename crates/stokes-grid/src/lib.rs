@@ -109,8 +109,8 @@
 //!
 //! `cargo bench --bench solvers` compares times with a *pair*, a forward and an inverse real transform of one field of
 //! the same size, in the same run. A solve takes about 1.1 pairs with [`PeriodicStokes`] in boxes of 120 to 1024 cells
-//! squared. With [`ChannelStokes`], it takes about 2.1 pairs of transforms along x alone. [`ProjectionStokes`] takes 2.2
-//! to 3.1 pairs in a box, and 9 to 13 pairs of transforms along x in a channel.
+//! squared. With [`ChannelStokes`], it takes about 2.1 pairs of transforms along x alone. [`ProjectionStokes`] takes
+//! 2.2 to 3.1 pairs in a box, and 9 to 13 pairs of transforms along x in a channel.
 //!
 //! Equations, sections and figures of Cowley refer to Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.

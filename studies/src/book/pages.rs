@@ -2,11 +2,11 @@
 //!
 //! A page is written from a text in `studies/book/chapters`, in which `{{figure 3.4}}` stands for a picture with its
 //! caption, `{{3.4 | NAME}}` for the number that the check NAME of figure 3.4 found, `{{3.4 | NAME | GROUP}}` for the
-//! number of one of its groups. Behind them, `| %` stands for percent, `| ±` for the number with its error, and `| error`
-//! for the error alone; `| of`, `| pairs`, `| p` and `| bounds` for what stands next to the number. There are also
-//! `{{failed 4.19}}`, `{{missed E.5}}` for the ranges that its numbers are outside of, `{{verdicts}}`, `{{questions}}`,
-//! `{{counts}}` and `{{sections}}` for what the machinery knows of all figures. The reasons of a figure may have marks
-//! too. Everything else that is known of the checks is in `docs/book/checks`.
+//! number of one of its groups. Behind them, `| %` stands for percent, `| ±` for the number with its error, and
+//! `| error` for the error alone; `| of`, `| pairs`, `| p` and `| bounds` for what stands next to the number. There are
+//! also `{{failed 4.19}}`, `{{missed E.5}}` for the ranges that its numbers are outside of, `{{verdicts}}`,
+//! `{{questions}}`, `{{counts}}` and `{{sections}}` for what the machinery knows of all figures. The reasons of a
+//! figure may have marks too. Everything else that is known of the checks is in `docs/book/checks`.
 
 mod filled;
 mod sheets;

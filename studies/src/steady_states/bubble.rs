@@ -57,7 +57,8 @@ fn mean_side(nodes: &[Vec2]) -> f64 {
 
 /// Folds at some numbers of nodes, and the exact one.
 pub(super) fn bubble() -> Result<Vec<Table>> {
-    let header = "nodes | capillary number | D | curvature of the tip | of an ellipse of that D | side over radius of the tip | tail of modes";
+    let header = "nodes | capillary number | D | curvature of the tip | of an ellipse of that D | side over radius of \
+        the tip | tail of modes";
     let mut table = Table::new("Fold of a bubble (viscosity ratio 1e-6) in plane extension", header);
     let row = |count: usize| -> Result<String> {
         let droplet = DropletSetup { viscosity: Some(RATIO), ..DropletSetup::passive(1.0) };

@@ -133,7 +133,8 @@ impl Kept {
     }
 }
 
-/// Names of the witnesses of a table that was just found: those of its rows that took least time, and that hold numbers.
+/// Names of the witnesses of a table that was just found: those of its rows that took least time, and that hold
+/// numbers.
 pub(super) fn choose(table: &Table) -> Vec<String> {
     let mut all: Vec<(f64, String)> = rows::names(table.title())
         .into_iter()

@@ -106,8 +106,8 @@ impl GelInLayer {
         Ok(Self { name, host, director, anchoring, wall, rows, nodes, fluid, motion, forces, fits: true })
     }
 
-    /// Returns the positions of the nodes (length): the markers of the interface, the ends of their columns on the wall,
-    /// and the rows between.
+    /// Returns the positions of the nodes (length): the markers of the interface, the ends of their columns on the
+    /// wall, and the rows between.
     #[must_use]
     pub fn nodes(&self) -> &[Vec2] {
         &self.nodes

@@ -59,8 +59,8 @@ impl Setup {
         }))
     }
 
-    /// Refuses droplets whose particles would collapse to a point early in a run. Their activity is at least as strong as
-    /// the excluded volume, so that nothing stops particles that attract each other, and far above the threshold of
+    /// Refuses droplets whose particles would collapse to a point early in a run. Their activity is at least as strong
+    /// as the excluded volume, so that nothing stops particles that attract each other, and far above the threshold of
     /// swimming. Droplets after the first `listed` come from suspensions.
     pub(super) fn check_collapse(&self, listed: usize) -> Result<(), SetupError> {
         for (number, droplet) in self.droplets.iter().enumerate() {

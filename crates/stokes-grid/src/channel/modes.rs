@@ -8,13 +8,13 @@ use crate::transform::second_difference;
 /// that nothing changes. Skipping it saves half of the work in the middle of a wide channel.
 const NEGLIGIBLE: f64 = 1e-20;
 
-/// Tables and sweeps for the Dirichlet problems `(T - s) w = g`, `T psi = w` on rows 1..N of nodes, for each wave number
-/// m of x, where
+/// Tables and sweeps for the Dirichlet problems `(T - s) w = g`, `T psi = w` on rows 1..N of nodes, for each wave
+/// number m of x, where
 ///
 /// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
 ///
-/// s is the friction times h^2 over the viscosity, and the no-slip condition gives the wall values `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`
-/// (lengths in cells).
+/// s is the friction times h^2 over the viscosity, and the no-slip condition gives the wall values
+/// `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)` (lengths in cells).
 ///
 /// The first problem is eliminated upwards and substituted downwards; in the same downward sweep the second one is
 /// eliminated, to be substituted upwards. So the spectrum is passed three times, twice of them together with a

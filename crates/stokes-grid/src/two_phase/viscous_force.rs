@@ -3,9 +3,9 @@
 use crate::stencil::{self, left, right};
 use crate::{CentreField, NodeField, StaggeredField, WallMotion};
 
-/// Operator `div(2 eta D) - alpha v` (force per volume) of a velocity v without divergence, D its strain rate and alpha a
-/// uniform friction: normal stresses at the centres, shear stresses at the nodes, each with the viscosity there. It is
-/// symmetric and negative, and `eta lap - alpha` where eta is uniform.
+/// Operator `div(2 eta D) - alpha v` (force per volume) of a velocity v without divergence, D its strain rate and alpha
+/// a uniform friction: normal stresses at the centres, shear stresses at the nodes, each with the viscosity there. It
+/// is symmetric and negative, and `eta lap - alpha` where eta is uniform.
 #[derive(Debug, Clone)]
 pub(crate) struct ViscousForce {
     centres: CentreField,
@@ -31,8 +31,8 @@ impl ViscousForce {
         (self.centres.values_mut(), self.nodes.values_mut())
     }
 
-    /// Writes `out = base + factor * (div(2 eta D(velocity)) - alpha velocity)` for the wall velocities `walls`; zero on
-    /// the rows that lie on walls.
+    /// Writes `out = base + factor * (div(2 eta D(velocity)) - alpha velocity)` for the wall velocities `walls`; zero
+    /// on the rows that lie on walls.
     pub(crate) fn add(
         &mut self,
         velocity: &StaggeredField,
