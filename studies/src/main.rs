@@ -15,6 +15,7 @@ mod many;
 mod nucleus;
 mod pages;
 mod pictures;
+mod questions;
 mod scene_keys;
 mod shared_benchmark;
 mod site;
@@ -64,6 +65,7 @@ enum Study {
     Sums(tables::Keep),
     Suspensions(suspensions::Flags),
     Nucleus(nucleus::Flags),
+    Questions(questions::Flags),
     /// Lets droplets exchange their particles with the inside
     Exchange(tables::Keep),
     Witnesses(tables::WitnessFlags),
@@ -96,6 +98,7 @@ fn run(flags: &Flags) -> anyhow::Result<()> {
         Study::Sums(keep) => sums::run(*keep),
         Study::Suspensions(flags) => suspensions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
+        Study::Questions(flags) => questions::run(flags),
         Study::Exchange(keep) => exchange::run(*keep),
         Study::Witnesses(flags) => tables::witnesses(flags),
         Study::All(flags) => tables::all(flags),

@@ -19,6 +19,8 @@ use motile_tests::validation::Table;
 
 use crate::tables;
 
+pub(crate) use bifurcations::{activity, polarisation};
+
 /// Prints a table of steady states.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {

@@ -1,6 +1,7 @@
 //! A step in steady state allocates nothing, in every kind of scene.
 
 use allocation_counter::measure;
+use motile::active_interface::Cortex;
 use motile::elastic_solids::ChannelShape;
 use motile::elastic_solids::Moduli;
 use motile::scene::{Scene, integrator::RungeKuttaChebyshev};
@@ -39,6 +40,15 @@ fn viscous(mut setup: Setup) -> Setup {
     setup
 }
 
+/// Scene with droplets that have a cortex and friction with a substrate.
+fn resisting(mut setup: Setup) -> Setup {
+    for droplet in &mut setup.droplets {
+        (droplet.cortex, droplet.friction) =
+            (Cortex { viscosity: 50.0, per_concentration: 0.5, ..Cortex::default() }, 10.0);
+    }
+    setup
+}
+
 #[test]
 fn steps_allocate_nothing() {
     assert_eq!(measure(|| drop(std::hint::black_box(vec![1.0; 10]))).count_total, 1);
@@ -54,6 +64,8 @@ fn steps_allocate_nothing() {
         ("layers, gel, contrast", viscous(filled(by_layers(0.2)))),
         ("integrals", without_grid(32, 128)),
         ("integrals, contrast", viscous(without_grid(32, 128))),
+        ("grid, cortex", resisting(on_grid(0.2))),
+        ("integrals, cortex, contrast", resisting(viscous(without_grid(32, 128)))),
         ("thesis", thesis.clone()),
         ("thesis, contrast", viscous(thesis)),
     ];

@@ -217,6 +217,36 @@ impl Transport {
         add_flux_differences(&self.fluxes, factor, numbers);
     }
 
+    /// Replaces the particle numbers n by the solution y of `y - factor (L y - k y) = n` for losses at the rates k of
+    /// the segments (1/time; not negative), as [`Transport::solve_diffusion`] does without losses.
+    pub(crate) fn solve_loss<'a>(
+        &mut self,
+        cells: impl Into<Cells<'a>>,
+        diffusivities: &[f64],
+        factor: f64,
+        losses: &[f64],
+        numbers: &mut [f64],
+    ) {
+        let cells = cells.into();
+        if !cells.sizes.iter().all(|&length| length > 0.0) {
+            return numbers.fill(f64::NAN);
+        }
+        for (k, (lower, diffusivity)) in self.lower.iter_mut().zip(diffusivities).enumerate() {
+            *lower = -(factor * diffusivity / spacing_at(cells.lengths, k));
+        }
+        cells.over_faces(&mut self.lower);
+        self.upper.copy_from_slice(&self.lower);
+        self.upper.rotate_left(1);
+        for (k, size) in cells.sizes.iter().enumerate() {
+            self.diagonal[k] = size * (1.0 + factor * losses[k]) - self.lower[k] - self.upper[k];
+        }
+        self.concentrations.copy_from_slice(numbers);
+        self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations);
+        for ((number, c), size) in numbers.iter_mut().zip(&self.concentrations).zip(cells.sizes) {
+            *number = c * size;
+        }
+    }
+
     /// Takes negative particle numbers to zero by [`repair_positivity`].
     pub(crate) fn repair(&mut self, numbers: &mut [f64]) -> Result<Repair, InterfaceError> {
         repair_positivity(numbers, [&mut self.concentrations, &mut self.fluxes])

@@ -8,7 +8,7 @@ use std::{ops::Deref, sync::Arc};
 use motile_base::{Vec2, internal::at_least};
 
 use crate::{
-    ActiveInterface, Exchange, Flux, InterfaceError, Motion, Tension,
+    ActiveInterface, Cortex, Exchange, Field, Fields, Flux, InterfaceError, Motion, Noise, Tension,
     curve::{MINIMUM_MARKERS, markers_from_points},
     exchange::Pool,
 };
@@ -137,6 +137,46 @@ impl ActiveDroplet {
         Ok(Self { interface: self.interface.with_bending(modulus, reference_curvature)?, ..self })
     }
 
+    /// Adds a cortex of one viscosity, as [`ActiveInterface::with_cortex_viscosity`] does.
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite.
+    pub fn with_cortex_viscosity(self, viscosity: f64) -> Result<Self, InterfaceError> {
+        self.with_cortex(Cortex::new(viscosity))
+    }
+
+    /// Adds a cortex, as [`ActiveInterface::with_cortex`] does.
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite.
+    pub fn with_cortex(self, cortex: Cortex) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_cortex(cortex)?, ..self })
+    }
+
+    /// Adds friction with a substrate, as [`ActiveInterface::with_friction`] does.
+    ///
+    /// # Errors
+    /// Returns an error for a coefficient that is negative or not finite.
+    pub fn with_friction(self, coefficient: f64) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_friction(coefficient)?, ..self })
+    }
+
+    /// Makes a force per area act on the fluid inside, as [`ActiveInterface::with_body_force`] does.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_body_force`].
+    pub fn with_body_force(self, force: Vec2) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_body_force(force)?, ..self })
+    }
+
+    /// Makes a force act on the fluid inside, as [`ActiveInterface::with_force`] does.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_body_force`].
+    pub fn with_force(self, force: Vec2) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_force(force)?, ..self })
+    }
+
     /// Lets particles come and go, as [`ActiveInterface::with_open_number`] does.
     #[must_use]
     pub fn with_open_number(self) -> Self {
@@ -156,6 +196,36 @@ impl ActiveDroplet {
         Ok(self)
     }
 
+    /// Makes the droplet feel fields, as [`ActiveInterface::with_fields`] does. Fields of binding and unbinding are
+    /// added to the rates of the exchange with a well-mixed inside, so call this after
+    /// [`ActiveDroplet::with_well_mixed_interior`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_fields`]; fields of binding or unbinding without a well-mixed
+    /// inside.
+    pub fn with_fields(self, fields: Fields) -> Result<Self, InterfaceError> {
+        if self.pool.is_none() {
+            return Ok(Self { interface: self.interface.with_fields(fields)?, ..self });
+        }
+        Ok(Self { interface: self.interface.with_all_fields(fields)?, ..self })
+    }
+
+    /// Adds noise to the particles, as [`ActiveInterface::with_noise`] does. Binding and unbinding with a well-mixed
+    /// inside have noise too.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_noise`].
+    pub fn with_noise(self, noise: Noise) -> Result<Self, InterfaceError> {
+        Ok(Self { interface: self.interface.with_noise(noise)?, ..self })
+    }
+
+    /// Returns the rates of binding and unbinding without fields, if the interface feels fields of them.
+    fn felt_rates(&self) -> Option<[f64; 2]> {
+        let exchange = self.pool.as_ref()?.exchange;
+        let felt = self.interface.felt.as_ref()?.feels_exchange();
+        felt.then(|| [exchange.binding(), exchange.unbinding()])
+    }
+
     /// Returns the number of particles in the well-mixed interior; `None` without one.
     #[must_use]
     pub fn number_inside(&self) -> Option<f64> {
@@ -166,7 +236,20 @@ impl ActiveDroplet {
     /// interior.
     #[must_use]
     pub fn exchange_flux(&self) -> Option<f64> {
-        self.pool.map(|pool| pool.flux(self.element_lengths(), self.interface.number()))
+        let pool = self.pool?;
+        let Some([binding, unbinding]) = self.felt_rates() else {
+            return Some(pool.flux(self.element_lengths(), self.interface.number()));
+        };
+        let felt = self.interface.felt.as_ref()?;
+        let segments = self.element_lengths().iter().zip(self.particle_numbers()).zip(&felt.middles);
+        let fluxes = segments.map(|((length, number), place)| {
+            let rate = |base: f64, field: &Option<Field>| {
+                (base + field.as_ref().map_or(0.0, |field| field.value(*place, felt.time))).max(0.0)
+            };
+            let bound = rate(binding, &felt.fields.binding) * length * pool.number / pool.area();
+            bound - rate(unbinding, &felt.fields.unbinding) * number
+        });
+        Some(fluxes.sum())
     }
 
     /// Returns the particles on the interface and inside.

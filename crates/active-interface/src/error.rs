@@ -59,6 +59,77 @@ impl InterfaceError {
         Self::refused(what, "", "Correct the law, so that it is finite at any concentration from 0 on")
     }
 
+    /// Returns the error for a field that is not finite at a place.
+    pub(crate) fn field_not_finite(Vec2 { x, y }: Vec2) -> Self {
+        let what = format!("a field that the interface feels is not finite at {}", place(x, y));
+        Self::refused(what, "", "Use a field that is finite wherever the interface goes")
+    }
+
+    /// Returns the error for a wave (radians per length) that does not fit a period (length).
+    pub(crate) fn wave_does_not_fit(wave: f64, period: f64, nearest: f64) -> Self {
+        let what = format!("a wave of the wave number {} does not fit the period {}", told(wave), told(period));
+        Self::refused(what, "it would jump there", format!("Use {nearest:.10e}, or another multiple of 2 pi over it"))
+    }
+
+    /// Returns the error for a spot that is wider than a period (both length).
+    pub(crate) fn spot_too_wide(radius: f64, period: f64) -> Self {
+        let [radius, period] = told_apart([radius, period]);
+        let value = format!("its radius is {radius} and the period is {period}");
+        Self::refused("a spot is wider than the period that it repeats with", value, "Use a smaller radius")
+    }
+
+    /// Returns the error for a table that does not cover a period (both length).
+    pub(crate) fn table_does_not_fit(count: usize, length: f64, period: f64) -> Self {
+        let [length, period] = told_apart([length, period]);
+        let value = format!("{count} values cover {length}, and the period is {period}");
+        let remedy = "Use a spacing of the period over the number of values, without the value at its end";
+        Self::refused("a table does not repeat with the period of the region", value, remedy)
+    }
+
+    /// Returns the error for a table whose rows have different lengths.
+    pub(crate) fn ragged_table(first: usize, other: usize) -> Self {
+        let value = format!("one has {first} values and another {other}");
+        Self::refused("the rows of a table have different lengths", value, "Use rows of the same length")
+    }
+
+    /// Returns the error for a field of the exchange on an interface without one.
+    pub(crate) fn no_exchange(name: &str) -> Self {
+        let what = format!("there is a field of the {name}, but the interface exchanges no particles");
+        Self::refused(what, "", "Use it for a droplet with a well-mixed inside, or remove it")
+    }
+
+    /// Returns the error for a field of the activity on an interface without particles.
+    pub(crate) fn no_particles_to_feel() -> Self {
+        let what = "there is a field of the activity, but no particles that have one";
+        Self::refused(what, "", "Use a field of the tension, or give the interface particles")
+    }
+
+    /// Returns the error for noise on an interface without particles.
+    pub(crate) fn nothing_to_shake() -> Self {
+        let what = "there is noise on particles, but the interface has none";
+        Self::refused(what, "", "Remove the noise, or give the interface particles")
+    }
+
+    /// Returns the error for a field that is not symmetric about the axis.
+    pub(crate) fn field_not_axisymmetric(name: &str) -> Self {
+        let what = format!("the field of the {name} is not symmetric about the axis of a body of revolution");
+        Self::refused(what, "", "Use slopes and wave vectors along x, centres on the axis, and symmetric tables")
+    }
+
+    /// Returns the error for a field that differs between the ends of a period (length).
+    pub(crate) fn field_not_periodic(here: f64, there: f64, period: f64) -> Self {
+        let [here, there] = told_apart([here, there]);
+        let value = format!("it is {here} at one end and {there} at the other, {period} further along x");
+        let remedy = "Use a wave that fits the period, or a slope across it";
+        Self::refused("a field is not periodic along an interface that is", value, remedy)
+    }
+
+    /// Returns the error for a rate of the exchange that a field makes negative.
+    pub(crate) fn negative_rate(name: &str, rate: f64, Vec2 { x, y }: Vec2) -> Self {
+        let what = format!("the rate of {name} with its field is {} at {}", told(rate), place(x, y));
+        Self::refused(what, "rates are not negative", "Use a weaker field, or a higher rate")
+    }
+
     /// Returns the error for a marker of an axisymmetric interface that has no mirror image.
     pub(crate) fn not_axisymmetric(marker: Vec2) -> Self {
         let what = format!("the marker at {} has no mirror image in the x axis", place(marker.x, marker.y));
@@ -176,10 +247,61 @@ impl InterfaceError {
         Self::refused(what, "it must be positive everywhere", "Use smaller amplitudes of the modes")
     }
 
+    /// Returns the error for a shear viscosity of the cortex of a line.
+    pub(crate) fn sheared_line() -> Self {
+        let what = "a line in two dimensions has no shear viscosity";
+        Self::refused(what, "it has no shear along itself", "Use the viscosity of the cortex alone")
+    }
+
+    /// Returns the error for an interface that does not stretch where its constraint is not resolved.
+    pub(crate) fn unresolved_membrane() -> Self {
+        let what = "a membrane that does not stretch";
+        let remedy = "Use a region in two dimensions, and the method integral or layers";
+        Self::refused(what, "it is resolved in two dimensions only, and not on a grid", remedy)
+    }
+
+    /// Returns the error for a round droplet whose interface does not stretch.
+    pub(crate) fn round_membrane() -> Self {
+        let what = "a round droplet whose membrane does not stretch";
+        let remedy = "Start from a longer outline of the same area, such as an ellipse";
+        Self::refused(what, "it cannot deform, because a circle has the shortest outline of its area", remedy)
+    }
+
+    /// Returns the error for friction of a body of revolution.
+    pub(crate) fn resisting_revolution() -> Self {
+        let what = "a body of revolution has no friction with a substrate";
+        Self::refused(what, "a substrate touches it on one side", "Remove it, or use a region in two dimensions")
+    }
+
+    /// Returns the error for a cortex where the flow near the markers is of first order.
+    pub(crate) fn cortex_on_plain_grid() -> Self {
+        let what = "a cortex needs more accurate velocities than a grid without the mobility correction has: speeds \
+                    would be off by several per cent";
+        Self::refused(what, "", "Use equidistributed markers with the correction, layers or boundary integrals")
+    }
+
     /// Returns the error for bending of an interface through whose markers no smooth curve goes.
     pub(crate) fn uneven_bending() -> Self {
         let what = "bending needs a fixed number of markers in two dimensions";
         Self::refused(what, "", "Move the markers by Motion::Equidistributed")
+    }
+
+    /// Returns the error for a force on the inside of an interface that is periodic along x.
+    pub(crate) fn open_body_force() -> Self {
+        let what = "a force on the inside of an interface that is periodic along x";
+        Self::refused(what, "a layer has no inside of its own", "Use a droplet, or a pressure gradient along a channel")
+    }
+
+    /// Returns the error for a body force in the plane.
+    pub(crate) fn pushed_plane() -> Self {
+        let what = "a body force in the plane, where nothing holds a fluid that is pushed";
+        Self::refused(what, "no speed exists there (Stokes' paradox)", "Use a periodic box or a channel")
+    }
+
+    /// Returns the error for a force (force) across the axis of a body of revolution.
+    pub(crate) fn force_across_axis(force: f64) -> Self {
+        let what = format!("the body force across the axis is {}", told(force));
+        Self::refused(what, "it would push an axisymmetric body off its axis", "Use a force along x only")
     }
 
     /// Returns the error for particle numbers with a negative sum.

@@ -89,6 +89,56 @@ impl Pool {
         loss
     }
 
+    /// Returns the area inside (length squared).
+    pub(crate) fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Adds the rates of exchange as [`Pool::add`] does, with rates of binding and unbinding on each segment.
+    pub(crate) fn add_at(
+        &self,
+        [binding, unbinding]: [&[f64]; 2],
+        factor: f64,
+        lengths: &[f64],
+        numbers: &[f64],
+        inside: f64,
+        out: &mut [f64],
+    ) -> f64 {
+        let density = inside / self.area;
+        let mut loss = 0.0;
+        for (k, out) in out.iter_mut().enumerate() {
+            let change = factor * (binding[k] * density * lengths[k] - unbinding[k] * numbers[k]);
+            *out += change;
+            loss -= change;
+        }
+        loss
+    }
+
+    /// Solves a step as [`Pool::solve`] does, with rates of binding and unbinding on each segment; `diffuse(losses,
+    /// numbers)` solves one of diffusion and of losses at the rates `losses` (1/time). With the numbers P inside, the
+    /// numbers on the segments are `a + b P`, where a and b are the solutions for the numbers and for what binds.
+    pub(crate) fn solve_at(
+        &self,
+        ([binding, unbinding], bound): ([&[f64]; 2], &mut Vec<f64>),
+        factor: f64,
+        lengths: &[f64],
+        numbers: &mut [f64],
+        inside: &mut f64,
+        mut diffuse: impl FnMut(&[f64], &mut [f64]),
+    ) {
+        let total = *inside + numbers.iter().sum::<f64>();
+        diffuse(unbinding, numbers);
+        bound.clear();
+        bound.extend(binding.iter().zip(lengths).map(|(k, l)| factor * k * l / self.area));
+        let binds: f64 = bound.iter().sum();
+        diffuse(unbinding, bound);
+        let unbinds = |numbers: &[f64]| factor * numbers.iter().zip(unbinding).map(|(n, k)| n * k).sum::<f64>();
+        let number = (*inside + unbinds(numbers)) / (1.0 + binds - unbinds(bound));
+        numbers.iter_mut().zip(&*bound).for_each(|(on, bound)| *on += bound * number);
+        // The sum of all is kept to round-off.
+        *inside = total - numbers.iter().sum::<f64>();
+    }
+
     /// Solves a step of exchange and diffusion, both implicit over the time `factor` f, for the numbers on the segments
     /// and inside; `diffuse(f, numbers)` solves one of diffusion alone. The sum of all numbers is kept.
     ///

@@ -4,11 +4,13 @@
 
 mod bending;
 mod body;
+pub(crate) mod body_force;
 mod build;
 mod filter;
 pub(crate) mod geometry;
 mod limits;
 mod redistribution;
+mod resistance;
 mod shape;
 pub(crate) mod spectral;
 
@@ -19,16 +21,20 @@ use motile_scene::{FluidView, points};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Tension,
+    Cortex, Tension,
     concentration::{Cells, Repair, Transport},
     curve::MINIMUM_MARKERS,
+    field::{Felt, middles_of},
+    noise::Fluctuations,
 };
 use bending::Bending;
+use body_force::BodyForce;
 use filter::ShortWaveFilter;
 use geometry::{Geometry, equidistribute, motion_rate};
 use limits::finest_response;
 pub(crate) use limits::grid_spacing;
 use redistribution::redistribute;
+use resistance::Resistance;
 use shape::Shape;
 use spectral::SpectralCurve;
 
@@ -85,6 +91,12 @@ pub(crate) struct Law {
     pub(crate) elasticity: Option<Membrane>,
     /// Bending, if the interface resists it.
     pub(crate) bending: Option<Bending>,
+    /// Viscosity of the cortex.
+    pub(crate) cortex: Cortex,
+    /// Friction xi with a substrate (force times time per length squared).
+    pub(crate) friction: f64,
+    /// Force on the fluid inside, if there is one.
+    pub(crate) body_force: Option<BodyForce>,
 }
 
 /// Unknowns of an interface: marker positions (with their geometry) and the particle numbers of the segments.
@@ -126,6 +138,8 @@ struct Scheme {
     band: Option<(PeriodicSeries, usize)>,
     /// Smooth curve through the markers, where the flow is spectrally accurate.
     spectral: Option<SpectralCurve>,
+    /// Stresses of the cortex and of friction, if there are any.
+    resistance: Option<Box<Resistance>>,
 }
 
 /// Interventions of the scheme in particle numbers and markers.
@@ -145,6 +159,8 @@ pub(crate) struct Account {
     pub(crate) markers: usize,
     pub(crate) area: f64,
     pub(crate) number: f64,
+    /// Length at the start (length), which an interface that does not stretch keeps.
+    pub(crate) length: f64,
     /// Bounds on the relative changes of area and number, beyond which a step is an error.
     pub(crate) bounds: [f64; 2],
     /// Interventions of all steps that were kept.
@@ -169,6 +185,10 @@ pub struct ActiveInterface {
     pub(crate) account: Account,
     scheme: Scheme,
     crossing: CrossingFinder,
+    /// Fields in the laboratory, if it feels any.
+    pub(crate) felt: Option<Box<Felt>>,
+    /// Noise on the particles, if there is any.
+    pub(crate) noise: Option<Box<Fluctuations>>,
 }
 
 /// Implicit diffusion of particles over an interface of a given shape.
@@ -209,6 +229,27 @@ impl ActiveInterface {
             *c = self.state.numbers.get(k).map_or(0.0, |n| n / sizes[k]);
         }
         self.law.tension.values(concentrations, tensions);
+        if let Some(felt) = &mut self.felt {
+            let Shape { markers, advance, .. } = &self.state.shape;
+            felt.middles.clear();
+            felt.middles.extend_from_slice(markers);
+            match self.scheme.spectral.as_mut().filter(|spectral| spectral.len() == markers.len()) {
+                Some(spectral) => spectral.write_middles(markers, *advance, &mut felt.middles),
+                None => {
+                    let even = matches!(self.law.motion, Motion::Equidistributed { .. });
+                    middles_of(&mut felt.middles, *advance, even);
+                }
+            }
+            felt.add_tensions(concentrations, tensions);
+        }
+        if let Some(resistance) = &mut self.scheme.resistance {
+            resistance.add_tensions(tensions);
+        }
+    }
+
+    /// Returns what fields add to the activity on the segments (force times length); empty without such a field.
+    pub(crate) fn felt_activities(&self) -> &[f64] {
+        self.felt.as_ref().map_or(&[], |felt| &felt.activities)
     }
 
     /// Remakes the truncation and the geometry that `view` asks for, where they have changed.
@@ -228,6 +269,7 @@ impl ActiveInterface {
                 // Another measure of the same area.
                 self.account.area = self.area();
             }
+            self.account.length = self.geometry().total_weight();
         }
         let band = view.shape_modes.filter(|&modes| modes < count);
         if band.map(|modes| (count, modes)) != self.scheme.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
@@ -245,19 +287,19 @@ impl ActiveInterface {
         self.fit(view)?;
         let Shape { geometry, axisymmetric, .. } = &self.state.shape;
         if let Some(spectral) = self.scheme.spectral.as_mut().filter(|_| *axisymmetric) {
-            spectral.ring_forces(geometry, &self.derived.tensions, forces);
+            let felt = self.felt.as_ref().map_or(&[][..], |felt| &felt.tensions);
+            spectral.ring_forces(geometry, &self.derived.tensions, felt, forces);
+            if let Some(force) = &self.law.body_force {
+                force.add_forces(&self.state.shape, true, forces);
+            }
             return Ok(());
         }
-        let directions = &geometry.directions;
-        let pull = |k: usize| self.derived.tensions[k] * directions[k];
-        let mut before = pull(directions.len() - 1);
-        for (k, force) in forces.iter_mut().enumerate() {
-            let here = pull(k);
-            *force = here - before;
-            before = here;
-        }
+        geometry.write_pulls(&self.derived.tensions, forces);
         if let Some(spectral) = self.scheme.spectral.as_mut() {
             spectral.sharpen(forces);
+        }
+        if let Some(force) = &self.law.body_force {
+            force.add_forces(&self.state.shape, self.scheme.spectral.is_some(), forces);
         }
         let Law { elasticity, bending, .. } = &mut self.law;
         let Shape { markers, advance, .. } = &self.state.shape;
@@ -332,6 +374,9 @@ impl ActiveInterface {
             let rates = &mut rates[..count];
             transport.add_advection(numbers, geometry.cells(), slip, rates);
             // The implicit part has the stabiliser's diffusion added: take it off here.
+            if let Some(noise) = &self.noise {
+                noise.add(rates);
+            }
             if self.scheme.stabiliser.len() == count {
                 transport.add_diffusion(geometry.cells(), &self.scheme.stabiliser, numbers, -1.0, rates);
             }
@@ -363,8 +408,19 @@ impl ActiveInterface {
         }
         stabiliser.resize(count, 0.0);
         let scale = 0.25 * finest_response(view) / viscosity;
-        let stiffness = |c: f64| scale * c * (-self.law.tension.slope(c)).max(0.0);
         let concentrations = &self.derived.concentrations;
+        if let Some(felt) = self.felt.as_ref().filter(|felt| felt.activities.len() == count) {
+            let stiffness = |k: usize| {
+                let c = concentrations[k];
+                scale * c * (felt.activities[k] - self.law.tension.slope(c)).max(0.0)
+            };
+            for (k, (face, all)) in stabiliser.iter_mut().zip(diffusivities).enumerate() {
+                *face = 0.5 * (stiffness(if k == 0 { count - 1 } else { k - 1 }) + stiffness(k));
+                *all += *face;
+            }
+            return Ok(());
+        }
+        let stiffness = |c: f64| scale * c * (-self.law.tension.slope(c)).max(0.0);
         let mut before = stiffness(concentrations[count - 1]);
         for ((face, all), &c) in stabiliser.iter_mut().zip(diffusivities).zip(concentrations) {
             let here = stiffness(c);
@@ -396,7 +452,8 @@ impl ActiveInterface {
         match (self.law.motion, grid_spacing(view)) {
             (Motion::Equidistributed { filter: true, .. }, Some(spacing)) => {
                 let rate = 0.5 * dt / (viscosity * spacing);
-                let tensions = &self.derived.tensions;
+                let resisting = self.scheme.resistance.as_ref();
+                let tensions = resisting.map_or(&self.derived.tensions, |resisting| &resisting.tensions);
                 let before = |k: usize| tensions[if k == 0 { tensions.len() - 1 } else { k - 1 }];
                 self.scheme.filter.apply(markers, geometry, spacing, |k| 0.5 * rate * (tensions[k] + before(k)));
                 self.update();

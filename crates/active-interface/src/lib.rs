@@ -16,6 +16,7 @@
 //! * **Particles**: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
 //!   along the interface without losing any.
 //! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or your own [`Tension`].
+//! * **Fields** in the laboratory that an interface feels ([`Field`]), and [`Noise`] on its particles.
 //! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_well_mixed_interior`].
 //! * **Measurements**: [`observables::observe`] returns all [`observables`] at once, and there is a function for each,
 //!   also for the fluxes along a channel.
@@ -69,11 +70,14 @@
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod concentration;
+mod cortex;
 mod curve;
 mod droplet;
 mod error;
 mod exchange;
+pub mod field;
 mod interface;
+mod noise;
 pub mod observables;
 mod tension;
 pub mod theory;
@@ -81,6 +85,7 @@ mod tridiagonal;
 mod units;
 
 pub use concentration::{Flux, InitialConcentration, Repair};
+pub use cortex::Cortex;
 pub use curve::{
     AreaMoments, Curve, line_distance_from_polygon, line_through, polygon_area, polygon_moments, polygon_perimeter,
     wave,
@@ -88,12 +93,14 @@ pub use curve::{
 pub use droplet::ActiveDroplet;
 pub use error::InterfaceError;
 pub use exchange::Exchange;
+pub use field::{Field, Fields};
 pub use interface::{ActiveInterface, Motion};
 pub use motile_base::{FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
     self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerKind, Markers, Observer, PrescribedFlow, Scene,
     SceneError, StepSize, Substrate, System, Warnings,
 };
+pub use noise::Noise;
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::{Quantity, Units};
 

@@ -2,6 +2,7 @@
 
 pub mod fits;
 mod flat_interface;
+mod resistance;
 mod sphere;
 mod squirmer_flow;
 
@@ -46,8 +47,17 @@ pub struct RoundDroplet {
 /// assert!(theory.concentration_growth_rate(1) > 0.0); // it will swim
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
+///
+/// The interface may resist motion: by the viscosity of a cortex ([`LinearTheory::with_cortex`]) and by friction with a
+/// substrate ([`LinearTheory::with_friction`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LinearTheory(RoundDroplet);
+pub struct LinearTheory {
+    droplet: RoundDroplet,
+    /// Viscosity eta_s of the cortex (force times time).
+    cortex: f64,
+    /// Friction xi with a substrate (force times time per length squared).
+    friction: f64,
+}
 
 impl LinearTheory {
     /// Creates a linear theory of this droplet.
@@ -63,59 +73,71 @@ impl LinearTheory {
         not_negative("the diffusivity", droplet.diffusivity)?;
         finite("the tension", droplet.tension)?;
         finite("the activity", droplet.activity)?;
-        Ok(Self(droplet))
+        Ok(Self { droplet, cortex: 0.0, friction: 0.0 })
     }
 
     /// Returns the parameters of the droplet.
     #[must_use]
     pub fn droplet(&self) -> &RoundDroplet {
-        &self.0
+        &self.droplet
     }
 
     fn viscosity_sum(&self) -> f64 {
-        self.0.viscosity_inside + self.0.viscosity_outside
+        self.droplet.viscosity_inside + self.droplet.viscosity_outside
     }
 
     /// Returns the growth rate (1/time) of mode k of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_ext)) for
     /// k >= 2, and 0 for k = 1, which moves the circle, and k = 0, which changes its area.
     ///
     /// In a periodic box, the rate is smaller: for k = 2 and equal viscosities in a box of 6 R0 its size is 0.4187
-    /// gamma/(eta R0) instead of 0.5.
+    /// gamma/(eta R0) instead of 0.5. The viscosity of a cortex does not change it, because a circle relaxes without
+    /// stretching. With friction, the concentration changes too: this is the entry of
+    /// [`LinearTheory::growth_matrix`] for a uniform concentration.
     #[must_use]
     pub fn shape_growth_rate(&self, k: u32) -> f64 {
         if k < 2 {
             return 0.0;
         }
-        -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
+        if self.friction > 0.0 {
+            return self.of_mode(k)[0][0];
+        }
+        -f64::from(k) * self.droplet.tension / (2.0 * self.droplet.radius * self.viscosity_sum())
     }
 
     /// Returns the growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0
-    /// (eta_in + eta_ext)) + D k / R0^2).
+    /// (eta_in + eta_ext)) + D k / R0^2). A cortex of viscosity eta_s adds `k eta_s/(2 R0)` to eta_in + eta_ext. With
+    /// friction, this is the entry of [`LinearTheory::growth_matrix`] for a circle.
     #[must_use]
     pub fn concentration_growth_rate(&self, k: u32) -> f64 {
-        let droplet = &self.0;
+        if self.friction > 0.0 {
+            return self.of_mode(k)[1][1];
+        }
+        let droplet = &self.droplet;
         let k = f64::from(k);
-        let activity = droplet.activity * droplet.concentration / (2.0 * droplet.radius * self.viscosity_sum());
+        let sum = self.viscosity_sum() + 0.5 * k * self.cortex / droplet.radius;
+        let activity = droplet.activity * droplet.concentration / (2.0 * droplet.radius * sum);
         -k * (activity + droplet.diffusivity * k / (droplet.radius * droplet.radius))
     }
 
     /// Returns the threshold of the activity (force times length), which is negative. If the activity is stronger, the
     /// uniform state is unstable and the droplet swims. If it is weaker, the droplet stays at rest. Eq. (2.20):
-    /// -2 D (eta_in + eta_ext) / (R0 c0).
+    /// -2 D (eta_in + eta_ext) / (R0 c0). A cortex adds `eta_s/(2 R0)` to eta_in + eta_ext, and friction adds
+    /// `xi R0/4`.
     #[must_use]
     pub fn activity_threshold(&self) -> f64 {
-        let droplet = &self.0;
-        -2.0 * droplet.diffusivity * self.viscosity_sum() / (droplet.radius * droplet.concentration)
+        let droplet = &self.droplet;
+        -2.0 * droplet.diffusivity * (0.25 * self.drag()) / (droplet.radius * droplet.concentration)
     }
 
     /// Returns the velocity (length per time) of a round droplet with the concentration c0 + c1 cos(theta), along
-    /// theta = pi, where there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_ext)).
+    /// theta = pi, where there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_ext)). A
+    /// cortex adds `2 eta_s/R0` to the denominator, and friction adds `xi R0`.
     ///
     /// # Errors
     /// Returns an error for an amplitude that is not finite.
     pub fn swimming_speed(&self, first_mode: f64) -> Result<f64, InterfaceError> {
         let amplitude = finite("the first mode of the concentration", first_mode)?;
-        Ok(-self.0.activity * amplitude / (4.0 * self.viscosity_sum()))
+        Ok(-self.droplet.activity * amplitude / self.drag())
     }
 
     /// Returns the flow due to the concentration c = c0 + concentration_amplitude cos(k theta) (particles per length)
@@ -133,9 +155,12 @@ impl LinearTheory {
         at_least("waves around the droplet", k as usize, 1)?;
         let c = finite("the amplitude of the concentration", concentration_amplitude)?;
         let r = finite("the amplitude of the radius", radius_amplitude)?;
-        let droplet = self.0;
+        let droplet = self.droplet;
         let radius = droplet.radius;
         let n = f64::from(k);
+        if self.resists() {
+            return Ok(self.resisted_flow(k, c, r));
+        }
         let active = droplet.activity * radius * c;
         let scale = n / (4.0 * self.viscosity_sum());
         Ok(ModeFlow {

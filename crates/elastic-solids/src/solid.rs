@@ -1,6 +1,7 @@
 //! Elastic solids: a mesh, the law of its forces, and the present positions of its points.
 
 mod body;
+mod body_force;
 mod deformation;
 mod self_contact;
 mod spreading;
@@ -21,6 +22,7 @@ use crate::relaxation::{NoElasticity, Relaxation};
 use crate::surface_elasticity::SurfaceElasticity;
 use crate::{ActiveSprings, ElasticForces, EnergyDensity, Maxwell, SolidError};
 
+use body_force::BodyForce;
 use self_contact::SelfContact;
 use spreading::Spreading;
 
@@ -75,6 +77,7 @@ pub struct Solid {
     surface: SelfContact,
     /// True for a solid without elastic stress.
     flows: bool,
+    pub(crate) body_force: Option<Box<BodyForce>>,
 }
 
 /// A spring from a point to a fixed place.
@@ -174,6 +177,7 @@ impl Solid {
             relaxation: None,
             bonds: None,
             damping: None,
+            body_force: None,
             spreading: None,
             surface: SelfContact::of(&mesh),
             flows: false,
@@ -277,6 +281,17 @@ impl Solid {
     /// Returns an error for an excess that is not positive and finite.
     pub fn with_excess_viscosity(mut self, excess: f64) -> Result<Self, SolidError> {
         self.damping = Some(Damping::new(&self.mesh, positive("the excess viscosity of the solid", excess)?));
+        Ok(self)
+    }
+
+    /// Makes a force act on the solid, uniform over its area at rest: its weight less the weight of as much fluid,
+    /// `(rho_solid - rho_fluid) g` (force per area). Pinned points take up their share.
+    ///
+    /// # Errors
+    /// Returns an error for a force that is not finite.
+    pub fn with_body_force(mut self, force: Vec2) -> Result<Self, SolidError> {
+        all_points_finite("the body force of a solid", &[force])?;
+        self.body_force = (force != Vec2::ZERO).then(|| Box::new(BodyForce::new(&self.mesh, force)));
         Ok(self)
     }
 
@@ -386,8 +401,8 @@ impl Solid {
         &mut self.tethers
     }
 
-    /// Computes the forces on the fluid (force) of all points, from law, surface elasticity, inner stresses and
-    /// tethers.
+    /// Computes the forces on the fluid (force) of all points, from law, surface elasticity, inner stresses, the
+    /// body force and tethers.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
         self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;
@@ -399,6 +414,9 @@ impl Solid {
         }
         if let Some(bonds) = &self.bonds {
             bonds.add_forces(&self.positions, &mut self.forces);
+        }
+        if let Some(body_force) = &self.body_force {
+            body_force.add_forces(&mut self.forces);
         }
         for tether in &self.tethers {
             self.forces[tether.point] += (tether.anchor - self.positions[tether.point]) * tether.stiffness;

@@ -11,7 +11,7 @@ use motile_scene::{
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, level_at_walls, sample_flow};
 
 use crate::mobility::{MobilityCorrection, MobilityDeficit, Setting};
-use crate::{Kernel, Transfer};
+use crate::{Kernel, Role, Transfer};
 
 /// Distance beyond a wall up to which a marker may lie, in grid spacings.
 pub const WALL_TOLERANCE: f64 = 0.25;
@@ -201,11 +201,20 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
+    /// Returns the distance from a wall with slip that markers keep (length): half of the kernel's support.
+    fn slip_reach(&self) -> f64 {
+        let support = [Role::Normal, Role::Tangential].map(|role| self.kernel().support(role));
+        0.5 * self.grid().spacing() * support[0].max(support[1]) as f64
+    }
+
     /// Refuses markers that are not finite or too far beyond a wall, forces that are not finite, rigid bodies, and
     /// interfaces to another viscosity that the solver does not know.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
         let walls = grid_domain(self.grid()).walls;
         let allowed = WALL_TOLERANCE * self.grid().spacing();
+        // Beyond the walls the kernel continues a flow without slip.
+        let slips = self.solver.walls().slip().map(|slip| slip > 0.0);
+        let reach = self.slip_reach();
         for (body, group) in markers.groups().iter().enumerate() {
             if other_viscosities(group, self.solver.viscosity())?.is_some() && !self.varying {
                 return Err(FlowError::unsupported(
@@ -226,6 +235,12 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                     if depth > allowed {
                         let (x, y) = (position.x, position.y);
                         return Err(FlowError::BeyondWall { body, marker, x, y, depth, allowed });
+                    }
+                    if slips[0] && position.y - bottom < reach || slips[1] && top - position.y < reach {
+                        return Err(FlowError::unsupported(
+                            "a marker next to a wall with slip, closer than the delta function of the grid reaches",
+                            "Use boundary integrals (the method `integral`), a finer grid, or a wider channel",
+                        ));
                     }
                 }
             }

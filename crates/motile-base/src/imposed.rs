@@ -73,6 +73,15 @@ impl ImposedFlow {
         Self { velocity: [0.5 * (below + above), 0.0], ..Self::shear((above - below) / width) }
     }
 
+    /// Creates the Couette flow as [`ImposedFlow::couette`] between walls along which fluid slips, with these slip
+    /// lengths (length), the lower one first. The shear rate is the difference of the velocities over the sum of the
+    /// width and both slip lengths.
+    #[must_use]
+    pub fn couette_with_slip([below, above]: [f64; 2], width: f64, slip: [f64; 2]) -> Self {
+        let rate = (above - below) / (width + slip[0] + slip[1]);
+        Self { velocity: [below + rate * (0.5 * width + slip[0]), 0.0], ..Self::shear(rate) }
+    }
+
     /// Returns true if there is no flow.
     #[must_use]
     pub fn is_none(&self) -> bool {

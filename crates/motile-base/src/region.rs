@@ -2,11 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Drive, InputError, positive, within};
+use crate::{Drive, InputError, not_negative, positive, within};
+use described::Described;
+
+mod described;
 
 /// Region that the fluid fills, centred on the origin.
+///
+/// In data, a channel with slip is a `channel` with the key `slip`: two lengths, or one for both walls.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(from = "Described", into = "Described")]
 #[non_exhaustive]
 #[doc(alias("domain", "periodic box", "channel", "tube", "boundary conditions"))]
 pub enum Region {
@@ -24,8 +29,20 @@ pub enum Region {
         /// Distance between the walls (length).
         width: f64,
         /// Mean pressure gradient or flux that is prescribed along the channel.
-        #[serde(default)]
         drive: Drive,
+    },
+    /// A channel as [`Region::Channel`], along whose walls the fluid slips: `u = b du/dn` and `v = 0` at a wall with
+    /// the slip length b and the normal n into the fluid (Navier's condition). [`Region::with_slip`] makes one.
+    #[doc(alias("slip length", "Navier slip", "partial slip"))]
+    SlipChannel {
+        /// Period in x (length).
+        length: f64,
+        /// Distance between the walls (length).
+        width: f64,
+        /// Mean pressure gradient or flux that is prescribed along the channel.
+        drive: Drive,
+        /// Slip lengths of the lower and the upper wall (length), not negative.
+        slip: [f64; 2],
     },
     /// Unbounded fluid in three dimensions, at rest far away, around bodies of revolution about the x axis: curves are
     /// their meridians with the mirror images, y the distance from the axis.
@@ -36,15 +53,12 @@ pub enum Region {
         /// Radius of the tube (length), the radius of its ends if it is not straight.
         radius: f64,
         /// Shape of the wall.
-        #[serde(default)]
         shape: TubeShape,
         /// Flux, or mean pressure gradient over the length, that is prescribed along the tube.
-        #[serde(default = "no_flux")]
         drive: Drive,
         /// Length of the tube (length): between closed ends where it is not straight, 16 radii without; of a straight
         /// one, which continues beyond, the length over which the pressure falls by the prescribed gradient times it,
         /// as in a tube with a droplet in every such length, a radius or more from the next one; infinite without.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         length: Option<f64>,
     },
 }
@@ -73,10 +87,6 @@ pub enum TubeShape {
         /// Period (length).
         period: f64,
     },
-}
-
-fn no_flux() -> Drive {
-    Drive::ZeroFlux
 }
 
 /// Length of a tube that is not straight over its radius, if none is given.
@@ -169,9 +179,12 @@ impl Region {
                 positive("the period in x", lx)?;
                 positive("the period in y", ly).map(drop)
             }
-            Self::Channel { length, width, drive } => {
+            Self::Channel { length, width, drive } | Self::SlipChannel { length, width, drive, .. } => {
                 positive("the period of the channel", length)?;
                 positive("the width of the channel", width)?;
+                for slip in self.slip() {
+                    not_negative("the slip length of a wall", slip)?;
+                }
                 drive.check()
             }
         }
@@ -212,7 +225,7 @@ impl Region {
                 [self.half_length().map_or(f64::INFINITY, |half| 2.0 * half), 2.0 * (radius + widest)]
             }
             Self::Box { lengths } => lengths,
-            Self::Channel { length, width, .. } => [length, width],
+            Self::Channel { length, width, .. } | Self::SlipChannel { length, width, .. } => [length, width],
         }
     }
 
@@ -222,14 +235,42 @@ impl Region {
         match *self {
             Self::Plane | Self::Space | Self::Tube { .. } => [None; 2],
             Self::Box { lengths } => lengths.map(Some),
-            Self::Channel { length, .. } => [Some(length), None],
+            Self::Channel { length, .. } | Self::SlipChannel { length, .. } => [Some(length), None],
         }
     }
 
     /// Returns the drive of a channel; `None` for other regions.
     #[must_use]
     pub fn drive(&self) -> Option<Drive> {
-        if let Self::Channel { drive, .. } = *self { Some(drive) } else { None }
+        if let Self::Channel { drive, .. } | Self::SlipChannel { drive, .. } = *self { Some(drive) } else { None }
+    }
+
+    /// Returns the slip lengths of the lower and the upper straight wall of a channel (length); zero without slip, and
+    /// for other regions.
+    #[must_use]
+    pub fn slip(&self) -> [f64; 2] {
+        if let Self::SlipChannel { slip, .. } = *self { slip } else { [0.0; 2] }
+    }
+
+    /// Returns the region with these slip lengths of the lower and the upper wall (length). Regions other than channels
+    /// stay as they are.
+    #[must_use]
+    pub fn with_slip(self, slip: [f64; 2]) -> Self {
+        match self.without_slip() {
+            Self::Channel { length, width, drive } if slip != [0.0; 2] => {
+                Self::SlipChannel { length, width, drive, slip }
+            }
+            region => region,
+        }
+    }
+
+    /// Returns the region with no-slip walls.
+    #[must_use]
+    pub fn without_slip(self) -> Self {
+        match self {
+            Self::SlipChannel { length, width, drive, .. } => Self::Channel { length, width, drive },
+            region => region,
+        }
     }
 }
 

@@ -76,6 +76,18 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// Returns an error for fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel
     /// whose middle is not at y = 0.
     pub fn new(solver: S, kernel: K, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
+        if solver.friction() != 0.0 {
+            return Err(FlowError::unsupported(
+                "friction of the fluid with layers, whose Green's functions have none",
+                "Use the immersed boundary method, or a solver without friction",
+            ));
+        }
+        if solver.walls().slip() != [0.0; 2] {
+            return Err(FlowError::unsupported(
+                "walls with slip with layers, whose grid part does not slip next to them",
+                "Use boundary integrals, or walls without slip",
+            ));
+        }
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
         let region = if grid.has_walls() {

@@ -87,6 +87,17 @@ pub trait Body: Any + fmt::Debug + Send {
         Ok(())
     }
 
+    /// Returns true if forces or rates depend on the time of the scene beyond the state. The scene then advances the
+    /// time with the states, and sets it by [`Body::set_time`]. By default, they do not.
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
+    /// Takes over the time of the present state (time). If [`Body::depends_on_time`], the scene calls this when the
+    /// body joins, after each [`Body::read_state`] at another time, and when a step has been accepted. Other bodies may
+    /// not know the time.
+    fn set_time(&mut self, _time: f64) {}
+
     /// Adds `factor * L(state) state` to `out`, where the implicit operator L may depend on the explicit part of
     /// `state` (the geometry).
     fn add_implicit(&mut self, _state: &[f64], _factor: f64, _out: &mut [f64]) {}
@@ -213,15 +224,40 @@ pub trait InteriorBody {
 }
 
 /// A body with forces `-D v` that are linear in the velocities v of its markers, in addition to the forces of
-/// [`Body::write_forces`]: for example, a solid more viscous than the fluid. D is symmetric and positive semidefinite:
-/// no motion gains energy by it.
+/// [`Body::write_forces`]. Examples are a solid more viscous than the fluid, and an interface with a viscous cortex. D
+/// is symmetric and positive semidefinite: no motion gains energy by it.
 ///
-/// Velocities and these forces are solved for together, by conjugate gradients with several evaluations of the flow.
-/// Steps are therefore as stable as without them, however large D is.
+/// The body states it as `D = B^T C^-1 B`. B takes velocities to rates of deformation, `g = C^-1 B v` are the stresses,
+/// and C is the diagonal of compliances. A compliance of zero means that the body does not deform at all. Rates times
+/// stresses are powers (force times length per time), so that B^T takes stresses to forces.
+///
+/// Velocities and stresses are solved for together, by preconditioned conjugate gradients for
+/// `(C + B M B^T) g = B V(F)`, in which each iteration evaluates the flow V once; M is the change of velocities by
+/// forces. Steps are therefore as stable as without these forces, however large D is. All calls are at the state of the
+/// last [`Body::write_forces`].
 pub trait Viscous {
-    /// Adds `-D v` (force) to the forces on the fluid, from the velocities v of the markers (length per time), at the
-    /// state of the last [`Body::write_forces`].
-    fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]);
+    /// Returns the number of stresses.
+    fn stress_count(&self) -> usize;
+
+    /// Writes the rates of deformation `B v` from the velocities v of the markers (length per time).
+    fn write_rates(&mut self, velocities: &[Vec2], rates: &mut [f64]);
+
+    /// Adds the forces `-B^T g` of stresses to the forces on the fluid (force): the exact transpose of
+    /// [`Viscous::write_rates`].
+    fn add_stress_forces(&mut self, stresses: &[f64], forces: &mut [Vec2]);
+
+    /// Writes the compliances: the diagonal C of `C g = B v`, not negative.
+    fn write_compliances(&self, compliances: &mut [f64]);
+
+    /// Replaces rates of deformation by stresses that cause about these rates: by a symmetric, positive approximation
+    /// of the inverse of `C + B M B^T`. Stresses that it leaves out altogether stay zero.
+    fn precondition(&mut self, rates: &mut [f64]);
+
+    /// Returns the stresses that were last found, from which the next solution starts. Returns zeros if there are none.
+    fn stresses(&self) -> &[f64];
+
+    /// Takes over the stresses that belong to the velocities of the present state.
+    fn set_stresses(&mut self, stresses: &[f64]);
 }
 
 /// A doubt about the accuracy of a state from which a run continues: results may be off by more than 1 %.

@@ -43,7 +43,7 @@ mod threads;
 /// Version of the program and, after a plus sign, of the numbers that it computes, which is raised whenever the same
 /// scene comes to other ones. Results that are kept on disk carry it, so that results of another version are not taken
 /// for new ones.
-pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+2");
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+3");
 
 pub use body::{Body, InteriorBody, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
 pub use error::{BodyError, FlowError, SceneError};

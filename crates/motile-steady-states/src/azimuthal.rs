@@ -249,6 +249,13 @@ impl SteadyState {
     /// cannot be solved for.
     pub fn spectrum_around(&self, order: usize) -> Result<Spectrum, SteadyError> {
         within("the order of a disturbance", order as f64, 1.0, MOST_ORDER)?;
+        if self.setup().droplets.iter().any(|droplet| !droplet.cortex.is_none()) {
+            return Err(SteadyError::unsupported(
+                "disturbances around the axis of a droplet with a cortex are not computed",
+                "Leave the cortex out, or use `SteadyState::spectrum` for disturbances that leave the droplet a body \
+                 of revolution",
+            ));
+        }
         let mut system = System::new(self.setup())?;
         let matrix = system.around(self.point(), order)?;
         let unit = system.model.rate_unit();

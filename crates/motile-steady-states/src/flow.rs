@@ -99,6 +99,21 @@ impl Flow {
         }
     }
 
+    /// Returns the forces of stresses along and around the axis (force per length) at the nodes; in the plane, of that
+    /// along the interface (force).
+    pub(crate) fn stress_forces(
+        &mut self,
+        positions: &[Vec2],
+        [along, around]: [&[f64]; 2],
+        forces: &mut [Vec2],
+    ) -> Result<(), LayerError> {
+        let placement = TensionPlacement::Points;
+        match self {
+            Self::Plane { calculus, .. } => calculus.tension_forces(positions, along, placement, forces),
+            Self::Revolution { calculus, .. } => calculus.stress_forces(positions, [along, around], placement, forces),
+        }
+    }
+
     /// Takes over interfaces and solves for their velocities.
     pub(crate) fn solve<'a>(
         &mut self,

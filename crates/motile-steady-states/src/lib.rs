@@ -74,6 +74,7 @@ mod modes;
 mod newton;
 mod parameter;
 mod profile;
+mod resistance;
 mod revolution;
 mod settling;
 mod spectrum;

@@ -11,6 +11,7 @@ use stokes_boundary_integrals::{Interface, Settings, TensionPlacement};
 use crate::flow::Flow;
 use crate::inside::{Inside, Wall};
 use crate::profile::analyse;
+use crate::resistance::{Progress, Resistance, Strain};
 use crate::revolution::Rings;
 use crate::{Profile, SteadyError};
 
@@ -118,6 +119,8 @@ pub(crate) struct Model {
     tangents: Vec<Vec2>,
     pub(crate) concentrations: Vec<f64>,
     tensions: Vec<f64>,
+    /// Cortex and friction of the interface, if there are any.
+    resistance: Option<Box<Resistance>>,
     pub(crate) forces: Vec<Vec2>,
     pub(crate) velocities: Vec<Vec2>,
     nuclei: Vec<Nucleus>,
@@ -143,9 +146,36 @@ impl Model {
                 "Run it until its deformation no longer changes (System::deformation)",
             );
         }
-        let [DropletSetup { particles, tension, viscosity, shape, bending, .. }] = setup.droplets.as_slice() else {
+        let [
+            DropletSetup {
+                particles,
+                tension,
+                viscosity,
+                shape,
+                bending,
+                fields,
+                cortex,
+                friction,
+                body_force,
+                force,
+                ..
+            },
+        ] = setup.droplets.as_slice()
+        else {
             return refuse("the scene does not have exactly one droplet", "Use one droplet");
         };
+        if !fields.is_none() {
+            return refuse(
+                "the droplet feels fields that are fixed in the laboratory, in which a droplet that moves is not steady",
+                "Leave the fields out, or run the scene",
+            );
+        }
+        if cortex.inextensible {
+            return refuse("the interface does not stretch", "Run it until its deformation no longer changes");
+        }
+        if particles.is_some_and(|particles| particles.noise.is_some()) {
+            return refuse("there is noise on the particles", "Leave the noise out, or run the scene");
+        }
         if !setup.flow.is_none() && matches!(setup.region, Region::Box { .. }) {
             return refuse(
                 "the images of a sheared box never stop moving",
@@ -155,11 +185,17 @@ impl Model {
         if !(setup.solids.is_empty() && setup.walls.is_empty()) || setup.repulsion.is_some() {
             return refuse("the scene has solids, shaped walls or a repulsion", "Leave them out");
         }
+        if setup.region.slip() != [0.0; 2] {
+            return refuse("fluid slips along the walls of the channel", "Run the scene, or set the slip lengths to 0");
+        }
         if setup.region.half_length().is_some() {
             return refuse("nothing is steady in a tube that is not straight", "Use a straight tube");
         }
         if *bending > 0.0 {
             return refuse("the interface resists bending", "Leave the bending out");
+        }
+        if [*body_force, *force] != [[0.0; 2]; 2] {
+            return refuse("a force acts on the droplet", "Leave out body-force and force, or run the scene");
         }
         let disc = |body: &RigidBodySetup| match body.shape {
             DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),
@@ -230,6 +266,7 @@ impl Model {
             tangents: vec![Vec2::ZERO; nodes],
             concentrations: vec![0.0; nodes],
             tensions: vec![0.0; nodes],
+            resistance: Resistance::new(*cortex, *friction, nodes, &setup.region).map(Box::new),
             forces: vec![Vec2::ZERO; nodes],
             velocities: vec![Vec2::ZERO; nodes],
             offset_rates: vec![0.0; nodes + discs.len()],
@@ -369,20 +406,32 @@ impl Model {
             *c = m / tangent.length();
         }
         self.law.values(&self.concentrations, &mut self.tensions);
-        let Self { flow, positions, tensions, forces, .. } = self;
-        flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
-        if flow.approximate(positions, forces, &mut self.velocities)? {
-            return Ok(());
-        }
-        let viscosity = self.viscosities[0];
-        let viscosities = [viscosity, self.viscosities[1]];
+        let nodes = self.nodes();
         for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
-            *centre = Vec2::new(offsets[positions.len() + k], density[positions.len() + k]);
+            *centre = Vec2::new(offsets[nodes + k], density[nodes + k]);
             let step = TAU / surface.len() as f64;
             for (j, point) in surface.iter_mut().enumerate() {
                 *point = *centre + *radius * Vec2::from_angle(step * j as f64);
             }
         }
+        if let Some(mut resistance) = self.resistance.take() {
+            let solved = self.solve_resisted(&mut resistance);
+            self.resistance = Some(resistance);
+            return solved;
+        }
+        let Self { flow, positions, tensions, forces, .. } = self;
+        flow.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
+        self.solve_flow()
+    }
+
+    /// Solves for the flow of the present forces.
+    fn solve_flow(&mut self) -> Result<(), SteadyError> {
+        let Self { flow, positions, forces, .. } = self;
+        if flow.approximate(positions, forces, &mut self.velocities)? {
+            return Ok(());
+        }
+        let viscosity = self.viscosities[0];
+        let viscosities = [viscosity, self.viscosities[1]];
         let discs = self.nuclei.iter().map(|disc| Interface::rigid(&disc.surface, &self.zeros, viscosity));
         self.flow.solve(std::iter::once(Interface::closed(positions, forces, viscosities)).chain(discs))?;
         for (k, nucleus) in self.nuclei.iter_mut().enumerate() {
@@ -393,11 +442,154 @@ impl Model {
 
     /// Takes the flow of all states for linear about the loaded one, until [`Model::release`], where that is quicker.
     pub(crate) fn linearise(&mut self) -> Result<(), SteadyError> {
+        if let Some(mut resistance) = self.resistance.take() {
+            let renewed = self.renew(&mut resistance);
+            // Particles that diffuse inside are carried by the flow there, which has to be that of all forces.
+            resistance.fix(!self.has_field());
+            self.resistance = Some(resistance);
+            renewed?;
+        }
         Ok(self.flow.linearise(&self.positions, &self.forces, &self.velocities)?)
     }
 
     pub(crate) fn release(&mut self) {
         self.flow.release();
+        if let Some(resistance) = &mut self.resistance {
+            resistance.fix(false);
+        }
+    }
+
+    /// Returns true if derivatives come from the linear flow about a state.
+    pub(crate) fn is_linearised(&self) -> bool {
+        self.is_axisymmetric() || self.resistance.is_some()
+    }
+
+    /// Starts from the stresses of a neighbouring model.
+    pub(crate) fn adopt(&mut self, other: &Self) {
+        if let (Some(own), Some(other)) = (&mut self.resistance, &other.resistance) {
+            own.adopt(other);
+        }
+    }
+
+    /// Solves for the flow of an interface that resists it, and for its stresses.
+    fn solve_resisted(&mut self, resistance: &mut Resistance) -> Result<(), SteadyError> {
+        resistance.set_curve(&self.tangents);
+        self.find_stresses(resistance)?;
+        let uniform = resistance.uniform();
+        let moving = self.velocities.iter_mut().chain(self.nuclei.iter_mut().map(|disc| &mut disc.velocity));
+        moving.for_each(|velocity| *velocity += uniform);
+        Ok(())
+    }
+
+    /// Solves for the stresses, and for the velocities except for a uniform one.
+    fn find_stresses(&mut self, resistance: &mut Resistance) -> Result<(), SteadyError> {
+        if resistance.is_fixed() {
+            self.push(resistance, true)?;
+            self.solve_flow()?;
+            let [along, around] = self.strain_rates()?;
+            let strain = Strain { along: &along, around: &around, velocities: &self.velocities };
+            let change = resistance.first_order(strain, &self.concentrations)?;
+            let moving = self.velocities.iter_mut().chain(self.nuclei.iter_mut().map(|disc| &mut disc.velocity));
+            moving.zip(change).for_each(|(velocity, change)| *velocity += change);
+            return Ok(());
+        }
+        let mut fresh = !resistance.has_matrix();
+        if fresh {
+            self.push(resistance, true)?;
+            self.solve_flow()?;
+            self.renew(resistance)?;
+        }
+        loop {
+            let scale = self.tensions.iter().fold(0.0_f64, |largest, tension| largest.max(tension.abs()));
+            let mut progress = Progress::new(self.radius, scale);
+            loop {
+                self.push(resistance, true)?;
+                self.solve_flow()?;
+                let [along, around] = self.strain_rates()?;
+                let strain = Strain { along: &along, around: &around, velocities: &self.velocities };
+                if resistance.correct(strain, &self.concentrations, &mut progress)? {
+                    break;
+                }
+            }
+            if progress.is_done() {
+                return Ok(());
+            }
+            if fresh {
+                return Err(SteadyError::singular(
+                    "the stresses of the cortex",
+                    "Use another number of nodes, or a smaller viscosity of the cortex",
+                ));
+            }
+            self.renew(resistance)?;
+            fresh = true;
+        }
+    }
+
+    /// Writes the forces of the stresses of the interface, with the forces of the tension or without.
+    fn push(&mut self, resistance: &Resistance, with_tension: bool) -> Result<(), SteadyError> {
+        let total = |stresses: &[f64]| -> Vec<f64> {
+            let tension = self.tensions.iter().map(|tension| if with_tension { *tension } else { 0.0 });
+            tension.zip(stresses).map(|(tension, stress)| tension + stress).collect()
+        };
+        let (along, around) = (total(&resistance.along), total(&resistance.around));
+        self.flow.stress_forces(&self.positions, [&along, &around], &mut self.forces)?;
+        resistance.add_drag(&mut self.forces);
+        Ok(())
+    }
+
+    /// Gives the stresses the matrix of the loaded state, whose flow is solved for.
+    fn renew(&mut self, resistance: &mut Resistance) -> Result<(), SteadyError> {
+        let unit = self.tensions.iter().fold(f64::MIN_POSITIVE, |largest, tension| largest.max(tension.abs()));
+        let unit = if unit > f64::MIN_POSITIVE { unit } else { self.rate * self.radius * self.viscosities[1] };
+        let (velocities, forces) = (self.velocities.clone(), self.forces.clone());
+        let discs: Vec<Vec2> = self.nuclei.iter().map(|disc| disc.velocity).collect();
+        let concentrations = std::mem::take(&mut self.concentrations);
+        let disturbances = self.flow.disturbances(0)?;
+        let still = vec![Vec2::ZERO; self.nodes()];
+        let moving = |model: &Self| -> Vec<Vec2> {
+            model.velocities.iter().copied().chain(model.nuclei.iter().map(|disc| disc.velocity)).collect()
+        };
+        let mut background = None;
+        if disturbances.is_none() {
+            self.forces.fill(Vec2::ZERO);
+            self.solve_flow()?;
+            background = Some(moving(self)).filter(|flow| flow.iter().any(|v| *v != Vec2::ZERO));
+        }
+        let renewed = resistance.renew(&concentrations, unit, |resistance, unknown| {
+            resistance.set_one(unknown, unit);
+            self.push(resistance, false)?;
+            if let Some(disturbances) = &disturbances {
+                disturbances.velocities_at_points(&still, &self.forces, &mut self.velocities)?;
+            } else {
+                self.solve_flow()?;
+            }
+            let mut all = moving(self);
+            if let Some(background) = &background {
+                all.iter_mut().zip(background).for_each(|(v, at_rest)| *v -= *at_rest);
+            }
+            let nodes = self.nodes();
+            self.velocities.copy_from_slice(&all[..nodes]);
+            Ok((self.strain_rates()?, all))
+        });
+        (self.concentrations, self.velocities, self.forces) = (concentrations, velocities, forces);
+        self.nuclei.iter_mut().zip(discs).for_each(|(disc, velocity)| disc.velocity = velocity);
+        renewed
+    }
+
+    /// Returns the rates at which the interface is stretched (1/time) at the nodes: along it, `tau.dv/ds`, and in three
+    /// dimensions around the axis, `v_y/y`.
+    fn strain_rates(&mut self) -> Result<[Vec<f64>; 2], SteadyError> {
+        self.series.analyse_vectors(&self.velocities)?;
+        self.series.differentiate();
+        let mut slopes = vec![Vec2::ZERO; self.nodes()];
+        self.series.write_vectors(&mut slopes)?;
+        let along = slopes.iter().zip(&self.tangents).map(|(slope, t)| slope.dot(*t) / t.length_squared()).collect();
+        let around = |k: usize| {
+            let at_pole = k == 0 || 2 * k == self.nodes();
+            if at_pole { slopes[k].y / self.tangents[k].y } else { self.velocities[k].y / self.positions[k].y }
+        };
+        let rings = if self.is_axisymmetric() { self.nodes() } else { 0 };
+        Ok([along, (0..rings).map(around).collect()])
     }
 
     /// Returns the force dipoles (force times length) of what keeps the discs rigid in the loaded state.
@@ -409,6 +601,8 @@ impl Model {
     pub(crate) fn sample(&mut self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
         let mut samples = vec![FlowSample::default(); points.len()];
         self.flow.sample(points, &mut samples)?;
+        let uniform = self.resistance.as_ref().map_or(Vec2::ZERO, |resistance| resistance.uniform());
+        samples.iter_mut().for_each(|sample| sample.velocity += uniform);
         Ok(samples)
     }
 

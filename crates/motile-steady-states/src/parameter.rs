@@ -27,6 +27,12 @@ pub enum Parameter {
     ViscosityOutside,
     /// Viscosity of the droplet over the viscosity of the exterior fluid, at a fixed sum of both.
     ViscosityRatio,
+    /// Viscosity of the cortex (force times time, in three dimensions over length).
+    Cortex,
+    /// Shear viscosity of the cortex in three dimensions (force times time per length).
+    CortexShear,
+    /// Friction of the interface with a substrate (force times time per length squared).
+    Friction,
     /// Width of a channel (length).
     Width,
     /// Period of a channel, or side of a square box (length).
@@ -43,7 +49,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 15] = [
+    pub const NAMES: [(&str, Self); 18] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -53,6 +59,9 @@ impl Parameter {
         ("viscosity-in", Self::ViscosityInside),
         ("viscosity-out", Self::ViscosityOutside),
         ("viscosity-ratio", Self::ViscosityRatio),
+        ("cortex", Self::Cortex),
+        ("cortex-shear", Self::CortexShear),
+        ("friction", Self::Friction),
         ("width", Self::Width),
         ("length", Self::Length),
         ("tube-radius", Self::TubeRadius),
@@ -86,6 +95,9 @@ impl Parameter {
             Self::ViscosityInside => Some(inside),
             Self::ViscosityOutside => Some(setup.viscosity),
             Self::ViscosityRatio => Some(inside / setup.viscosity),
+            Self::Cortex => Some(droplet.cortex.viscosity).filter(|viscosity| *viscosity > 0.0),
+            Self::CortexShear => Some(droplet.cortex.shear_viscosity).filter(|viscosity| *viscosity > 0.0),
+            Self::Friction => Some(droplet.friction).filter(|friction| *friction > 0.0),
             Self::Width => match setup.region {
                 Region::Channel { width, .. } => Some(width),
                 _ => None,
@@ -149,6 +161,9 @@ impl Parameter {
                 let sum = inside + setup.viscosity;
                 (setup.viscosity, droplet.viscosity) = (sum / (1.0 + value), Some(sum * value / (1.0 + value)));
             }
+            Self::Cortex => droplet.cortex.viscosity = value,
+            Self::CortexShear => droplet.cortex.shear_viscosity = value,
+            Self::Friction => droplet.friction = value,
             Self::Width => {
                 if let Region::Channel { width, .. } = &mut setup.region {
                     *width = value;

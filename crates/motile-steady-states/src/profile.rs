@@ -273,8 +273,9 @@ impl Profile {
     }
 
     /// Returns the droplet at another number of nodes, of equal spacing or, where `crowding` is positive, crowding
-    /// where the concentration is steep. The density of nodes is then `sqrt(1 + (crowding/c0 dc/ds)^2)` over the arc
-    /// length, smoothed; without particles where the curve is bent, the curvature taking the place of the slope.
+    /// where the concentration is steep. The density of nodes is then `sqrt(1 + (crowding R/c0 dc/ds)^2)` over the arc
+    /// length, R the radius of a circle of this area, smoothed; without particles where the curve is bent, the
+    /// curvature taking the place of the slope.
     pub(crate) fn resampled(&self, nodes: usize, crowding: f64) -> Result<Self, SteadyError> {
         let fine = 4 * self.nodes().max(nodes);
         let sampler = Sampler::new(self)?;
@@ -285,11 +286,14 @@ impl Profile {
             let mut series = PeriodicSeries::new(fine)?;
             let carries = self.density.iter().any(|density| *density != 0.0);
             let densities: Vec<f64> = if carries {
+                // That of the circle of this area.
+                let area = places.iter().map(|place| place.position.perp_dot(place.tangent)).sum::<f64>();
+                let radius = (area.abs() / fine as f64).sqrt();
                 let concentrations: Vec<f64> =
                     places.iter().zip(&weights).map(|(place, g)| place.density / g).collect();
                 let mean = concentrations.iter().sum::<f64>() / fine as f64;
                 let slopes = derivative(&concentrations)?;
-                slopes.iter().zip(&weights).map(|(slope, g)| steep(slope / (g * mean))).collect()
+                slopes.iter().zip(&weights).map(|(slope, g)| steep(radius * slope / (g * mean))).collect()
             } else {
                 let radius = weights.iter().sum::<f64>() / fine as f64;
                 series.analyse_vectors(&places.iter().map(|place| place.tangent).collect::<Vec<_>>())?;

@@ -37,20 +37,25 @@ impl Rings {
     pub(crate) fn divergence<'a>(
         &self,
         series: &mut PeriodicSeries,
-        nodes: impl Iterator<Item = (&'a Vec2, &'a Vec2)>,
+        nodes: impl Iterator<Item = (&'a Vec2, &'a Vec2)> + Clone,
         states: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
         flux: &[f64],
         rates: &mut [f64],
     ) -> Result<(), SteadyError> {
         let half = flux.len() / 2;
+        // Both in one transform, whose round-off is that of the larger: in units of the flux, which is a velocity times
+        // the mean concentration.
+        let (number, length) = (states.clone().map(|(m, _)| m).sum::<f64>(), nodes.clone().map(|(_, t)| t.length()));
+        let mean = number / length.sum::<f64>();
+        let unit = if mean > 0.0 { mean } else { 1.0 };
         let pairs = states.clone().zip(flux);
-        series.analyse(pairs.map(|((_, widening), f)| Complex64::new(*f, widening)))?;
+        series.analyse(pairs.map(|((_, widening), f)| Complex64::new(*f, unit * widening)))?;
         series.differentiate();
         let slopes = series.values();
         for (k, ((x, tangent), (m, widening))) in nodes.zip(states).enumerate() {
             let Complex64 { re: slope, im: widening_slope } = slopes[k];
             rates[k] = if k == 0 || k == half {
-                -2.0 * slope - m * widening_slope / tangent.y
+                -2.0 * slope - m * (widening_slope / unit) / tangent.y
             } else {
                 -slope - (tangent.y * flux[k] + m * widening) / x.y
             };

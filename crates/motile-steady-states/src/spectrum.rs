@@ -178,7 +178,11 @@ impl System {
             let parts = inverse.map(|inverse| inverse * motions.transpose() * &jacobian * &motions);
             // A shift in a linear flow moves apart as that flow has it.
             let [[ux, _], [_, vy]] = self.model.imposed().gradient;
-            let own = |motion: &FrameMotion| ux * motion[0] + vy * motion[1];
+            let own = |motion: &FrameMotion| match motion {
+                [x, ..] if *x != 0.0 => ux,
+                [_, y, _] if *y != 0.0 => vy,
+                _ => 0.0,
+            };
             let parts = parts.map(|parts| parts.diagonal());
             parts.map_or(f64::NAN, |parts| {
                 parts.iter().zip(&motions_of).map(|(part, motion)| (part - own(motion)).abs()).fold(0.0, f64::max)

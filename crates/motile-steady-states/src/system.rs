@@ -83,7 +83,9 @@ impl System {
     /// Returns the system at another value of a parameter.
     pub(crate) fn moved(&self, parameter: Parameter, by: f64) -> Result<Self, SteadyError> {
         let setup = &self.model.setup;
-        Self::new(&parameter.with(setup, parameter.get(setup).unwrap_or(0.0) + by)?)
+        let mut moved = Self::new(&parameter.with(setup, parameter.get(setup).unwrap_or(0.0) + by)?)?;
+        moved.model.adopt(&self.model);
+        Ok(moved)
     }
 
     /// Returns the profile as a point over itself: offsets zero.
@@ -172,7 +174,7 @@ impl System {
         let mut jacobian = DMatrix::zeros(range.len(), range.len());
         self.by_diffusing = DVector::zeros(range.len());
         let inside = self.model.diffusing();
-        if self.model.is_axisymmetric() {
+        if self.model.is_linearised() {
             self.load(point)?;
             self.model.linearise()?;
         }
@@ -212,8 +214,9 @@ impl System {
         all.into_iter().filter(|(_, odd, there)| *there && fits(*odd)).map(|(motion, ..)| motion).collect()
     }
 
-    /// Returns the rigid motions and the derivatives of the coefficients of the loaded state by them; motions without
-    /// effect, such as turns of a circle, are left out.
+    /// Returns the rigid motions, by a radius or a radian in the unit of rates, and the derivatives of the coefficients
+    /// of the loaded state by them (1/time). These are of the size of the rates in any units. It leaves out motions
+    /// without effect, such as turns of a circle.
     pub(crate) fn generators(
         &mut self,
         base: &Base,
@@ -221,10 +224,13 @@ impl System {
     ) -> Result<(Vec<FrameMotion>, Vec<DVector<f64>>), SteadyError> {
         let range = self.modes.part(part);
         let (mut motions, mut generators) = (Vec::new(), Vec::new());
+        let rate = self.model.rate_unit();
+        let unit = [rate * self.model.radius, rate * self.model.radius, rate];
         for motion in self.motions(part) {
+            let motion = std::array::from_fn(|k| unit[k] * motion[k]);
             let (h, m) = self.model.rigid_rates(base, motion)?;
             let generator = self.modes.analyse(h, m)?.rows(range.start, range.len()).into_owned();
-            if generator.norm() > NO_EFFECT {
+            if generator.norm() > NO_EFFECT * rate {
                 motions.push(motion);
                 generators.push(generator);
             }
@@ -273,7 +279,7 @@ impl System {
     /// Returns the derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse
     /// inside by a motion of the frame.
     fn frame_derivative(&mut self, point: &Point, motion: FrameMotion) -> Result<(DVector<f64>, f64), SteadyError> {
-        let step = DIFFERENCE * self.model.rate_unit();
+        let step = DIFFERENCE;
         let mut side = |amount: f64| {
             let frame = std::array::from_fn(|k| point.frame[k] + amount * motion[k]);
             let (h, m) = self.model.rates(&point.base, frame)?;
@@ -309,13 +315,15 @@ impl System {
         let conserved = self.conserved_gradients(&point.base, part)?;
         let (n, frames) = (range.len(), motions.len());
         let size = n + frames + conserved.len() + usize::from(along.is_some());
+        // All unknowns and equations are in the units of the coefficients and their rates.
+        let rate = self.model.rate_unit();
         let mut matrix = DMatrix::zeros(size, size);
         matrix.view_mut((0, 0), (n, n)).copy_from(jacobian);
         // Where nothing flows a disc may be anywhere, which the equations leave open: it stays where it is.
         if self.model.is_at_rest() {
             for (row, _) in range.clone().enumerate().filter(|(_, index)| self.modes.is_of_disc(*index)) {
                 matrix.row_mut(row).fill(0.0);
-                matrix[(row, row)] = self.model.rate_unit();
+                matrix[(row, row)] = rate;
             }
         }
         for (k, generator) in generators.iter().enumerate() {
@@ -327,14 +335,14 @@ impl System {
             for (k, motion) in motions.iter().enumerate() {
                 let (by_motion, diffusing) = self.frame_derivative(point, *motion)?;
                 matrix.view_mut((0, n + k), (n, 1)).copy_from(&by_motion.rows(range.start, n));
-                matrix[(n + frames + 1, n + k)] = diffusing;
+                matrix[(n + frames + 1, n + k)] = diffusing * rate;
             }
             self.model.rates(&point.base, point.frame)?;
         }
         // Uniform sources of area and particles, which vanish in a solution since both are conserved.
         for (k, gradient) in conserved.iter().enumerate() {
-            matrix[(self.modes.index(k == 1, false, 0), n + frames + k)] = 1.0;
-            matrix.view_mut((n + frames + k, 0), (1, n)).copy_from(&gradient.transpose());
+            matrix[(self.modes.index(k == 1, false, 0), n + frames + k)] = rate;
+            matrix.view_mut((n + frames + k, 0), (1, n)).copy_from(&(gradient.transpose() * rate));
         }
         if let Some(Along { parameter, direction }) = along {
             let derivative = self.parameter_derivative(point, *parameter)?;
@@ -352,7 +360,7 @@ impl System {
         let mut right = DVector::zeros(equations.len());
         right.rows_mut(0, range.len()).copy_from(&-residual.rows(range.start, range.len()));
         for (k, lack) in self.model.lacks().into_iter().enumerate().take(equations.conserved) {
-            right[range.len() + equations.motions.len() + k] = lack;
+            right[range.len() + equations.motions.len() + k] = lack * self.model.rate_unit();
         }
         equations.solve(&right).map(|solution| equations.correction(self, &solution))
     }

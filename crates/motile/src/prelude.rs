@@ -3,8 +3,8 @@
 
 pub use crate::SetupError;
 pub use crate::setup::{
-    AnyFlow, Built, DropletSetup, FlowSetup, GridMethod, GridSolver, IntegralMethod, LayersMethod, Method, Particles,
-    Setup,
+    AnyFlow, Built, DropletSetup, FieldEntry, FieldsSetup, FlowSetup, GradientSetup, GridMethod, GridSolver,
+    IntegralMethod, LayersMethod, Method, NoiseSetup, Particles, Setup,
 };
 pub use motile_base::{Drive, Region, Vec2};
 pub use motile_scene::{Every, Handle, Observer, Scene, SceneError, StepSize, System};

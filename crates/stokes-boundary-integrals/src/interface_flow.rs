@@ -137,6 +137,13 @@ impl InterfaceFlow {
         mut self,
         walls: impl Iterator<Item = LayerCurve<'a>> + Clone + Send,
     ) -> Result<Self, LayerError> {
+        if self.region.slip() != [0.0; 2] {
+            let remedy = "Leave one of them out";
+            return Err(LayerError::no_such_flow(
+                "slip along straight walls behind rigid walls of another shape",
+                remedy,
+            ));
+        }
         let Region::Channel { length, width, drive } = self.region else { return Err(LayerError::no_channel()) };
         // The forcing is that of the flow between the walls.
         let region = Region::Channel { length, width, drive: Drive::ZeroGradient };
@@ -159,7 +166,7 @@ impl InterfaceFlow {
         finite("the strain of the images", strain)?;
         let refuse = |flow, remedy| Err(LayerError::no_such_flow(flow, remedy));
         let along = ImposedFlow { velocity: [flow.velocity[0], 0.0], ..ImposedFlow::shear(flow.shear_rate()) };
-        match self.region {
+        match self.region.without_slip() {
             _ if flow.is_none() => {}
             Region::Plane => {}
             Region::Box { .. } if flow != ImposedFlow::shear(flow.shear_rate()) => {

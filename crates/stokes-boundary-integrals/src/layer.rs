@@ -92,8 +92,10 @@ impl Layers {
     pub(crate) fn new(region: Region, tolerance: f64, symmetry: Symmetry) -> Result<Self, InputError> {
         check(&region)?;
         within("the tolerance", tolerance, 1e-15, 1e-3)?;
+        // Only the walls know of slip.
+        let (region, slip) = (region.without_slip(), region.slip());
         let walls = if let Region::Channel { length, width, drive } = region {
-            Some(Walls::new(length, width, drive, tolerance))
+            Some(Walls::new(length, width, drive, slip, tolerance))
         } else {
             None
         };

@@ -32,6 +32,8 @@ use modes::ChannelModes;
 /// **Mean flow.** [`Drive`] prescribes the mean pressure gradient or the flux; [`SolveReport`] has the mean pressure
 /// gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
 ///
+/// **Slip.** Fluid slips along walls with slip lengths ([`WallMotion::with_slip`]), at no cost.
+///
 /// **Friction.** [`ChannelStokes::set_friction`] adds the friction of a thin layer of fluid with its substrate.
 ///
 /// **Sizes.** Any numbers of cells work. Only `nx` is transformed: even values without prime factors other than 2, 3,
@@ -76,8 +78,8 @@ impl ChannelStokes {
             drive: Drive::default(),
             walls: WallMotion::AT_REST,
             wall_spectra: [vec![Complex64::ZERO; width], vec![Complex64::ZERO; width]],
-            modes: ChannelModes::new(nx, ny, 0.0),
-            mean: MeanFlow::new(&grid, viscosity, 0.0),
+            modes: ChannelModes::new(nx, ny, 0.0, [0.0; 2]),
+            mean: MeanFlow::new(&grid, viscosity, 0.0, [1.0; 2]),
             rows,
             spectrum: vec![Complex64::ZERO; width * (ny - 1)],
             below: vec![0.0; nx],
@@ -97,10 +99,18 @@ impl ChannelStokes {
     /// Returns an error if the friction is negative or not finite.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), StokesError> {
         self.friction = not_negative("friction", friction)?;
-        let screening = self.grid.spacing().powi(2) * friction / self.viscosity;
-        self.modes = ChannelModes::new(self.grid.nx(), self.grid.ny(), screening);
-        self.mean = MeanFlow::new(&self.grid, self.viscosity, friction);
+        self.tabulate();
         Ok(())
+    }
+
+    /// Computes the tables of the present friction and slip.
+    fn tabulate(&mut self) {
+        let h = self.grid.spacing();
+        let screening = h.powi(2) * self.friction / self.viscosity;
+        let slip = self.walls.slip().map(|slip| slip / h);
+        let stick = [Wall::Bottom, Wall::Top].map(|wall| self.walls.stick(wall, h));
+        self.modes = ChannelModes::new(self.grid.nx(), self.grid.ny(), screening, slip);
+        self.mean = MeanFlow::new(&self.grid, self.viscosity, self.friction, stick);
     }
 
     /// Prescribes the mean pressure gradient or the flux of the solutions to come.
@@ -113,7 +123,7 @@ impl ChannelStokes {
         Ok(())
     }
 
-    /// Prescribes the velocities of the walls in the solutions to come.
+    /// Prescribes the velocities of the walls in the solutions to come, and slip along them.
     ///
     /// # Errors
     /// Returns an error for walls of a channel with another number of cells.
@@ -122,7 +132,11 @@ impl ChannelStokes {
         for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
             walls.spectrum(wall, &mut self.rows, spectrum);
         }
+        let slip = self.walls.slip();
         self.walls = walls;
+        if self.walls.slip() != slip {
+            self.tabulate();
+        }
         Ok(())
     }
 }
@@ -230,6 +244,7 @@ impl StokesSolver for ChannelStokes {
         let row = &mut self.spectrum[..self.rows.width()];
         let walls = &self.walls;
         let (stress, friction) = (self.viscosity / (h * h), self.friction);
+        let [at_bottom, at_top] = [Wall::Bottom, Wall::Top].map(|wall| 2.0 * walls.stick(wall, h));
         for j in 0..ny {
             if j > 0 {
                 mean += h * sum(&fy[j * nx..][..nx]) / nx as f64;
@@ -238,8 +253,9 @@ impl StokesSolver for ChannelStokes {
             let fx = &fx[j * nx..][..nx];
             let fill = |out: &mut [f64]| {
                 for (i, out) in out.iter_mut().enumerate() {
-                    let below = if j > 0 { u[(j - 1) * nx + i] } else { 2.0 * walls.at(Wall::Bottom, i) - middle[i] };
-                    let above = if j + 1 < ny { u[(j + 1) * nx + i] } else { 2.0 * walls.at(Wall::Top, i) - middle[i] };
+                    let ghost = |wall, factor: f64| factor * walls.at(wall, i) + (1.0 - factor) * middle[i];
+                    let below = if j > 0 { u[(j - 1) * nx + i] } else { ghost(Wall::Bottom, at_bottom) };
+                    let above = if j + 1 < ny { u[(j + 1) * nx + i] } else { ghost(Wall::Top, at_top) };
                     let (left, right) = (stencil::left(i, nx), stencil::right(i, nx));
                     let laplacian = (middle[left] - middle[i])
                         + (middle[right] - middle[i])

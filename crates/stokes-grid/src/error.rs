@@ -78,6 +78,12 @@ impl StokesError {
         Self::refused("this needs a periodic box", "the grid is a channel", "Build the grid with Grid::periodic")
     }
 
+    /// Returns the error for walls with slip, whose sines along y are not known.
+    pub(crate) fn no_slip_only() -> Self {
+        let what = "the projection cannot have walls with slip, because its sine transforms vanish on the walls";
+        Self::refused(what, String::new(), "Use `ChannelStokes`, or walls without slip")
+    }
+
     /// Returns the error for lagged walls where a solution must not depend on the solutions before it.
     pub(crate) fn lagged_walls() -> Self {
         let what = "lagged walls cannot be combined with a viscosity that varies in space, because its iteration needs \

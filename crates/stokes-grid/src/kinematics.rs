@@ -154,8 +154,9 @@ pub fn wall_shear_stress(
         Wall::Bottom => (0, 1.0),
         Wall::Top => (grid.ny() - 1, -1.0),
     };
+    let stick = walls.stick(wall, h);
     for (i, (out, u)) in out.iter_mut().zip(&velocity.x()[row * nx..]).enumerate() {
-        *out = sign * 2.0 * viscosity * (u - walls.at(wall, i)) / h;
+        *out = sign * 2.0 * viscosity * (u - walls.at(wall, i)) / h * stick;
     }
     Ok(())
 }

@@ -12,8 +12,8 @@ struct Lattice<'a> {
     grid: &'a Grid,
     /// Position of entry (0, 0) in cells from the grid's lower left corner.
     shift: [f64; 2],
-    /// Sign of the continuation beyond a wall.
-    parity: f64,
+    /// Factor of the continuation beyond the bottom and the top wall.
+    parity: [f64; 2],
     /// Velocities along the walls, about which a component is continued.
     walls: &'a WallMotion,
 }
@@ -21,7 +21,11 @@ struct Lattice<'a> {
 impl<'a> Lattice<'a> {
     /// Returns the components of a velocity.
     fn of_velocity(velocity: &'a StaggeredField, walls: &'a WallMotion) -> [Self; 2] {
-        let lattice = |values, shift, walls| Lattice { values, grid: velocity.grid(), shift, parity: -1.0, walls };
+        let spacing = velocity.grid().spacing();
+        let lattice = |values, shift, walls: &'a WallMotion| {
+            let parity = [Wall::Bottom, Wall::Top].map(|wall| 1.0 - 2.0 * walls.stick(wall, spacing));
+            Lattice { values, grid: velocity.grid(), shift, parity, walls }
+        };
         [lattice(velocity.x(), [0.0, 0.5], walls), lattice(velocity.y(), [0.5, 0.0], &AT_REST)]
     }
 
@@ -38,8 +42,8 @@ impl<'a> Lattice<'a> {
         if inside <= mirrored {
             return at(inside);
         }
-        let wall = if row < 0 { Wall::Bottom } else { Wall::Top };
-        self.parity * at(mirrored) + 2.0 * self.walls.at(wall, column as usize)
+        let (wall, parity) = if row < 0 { (Wall::Bottom, self.parity[0]) } else { (Wall::Top, self.parity[1]) };
+        parity * at(mirrored) + (1.0 - parity) * self.walls.at(wall, column as usize)
     }
 
     /// Returns the entry below and to the left of a point, and how far beyond it the point is, in cells.
@@ -72,7 +76,7 @@ impl<'a> Lattice<'a> {
 #[must_use]
 pub fn sample_pressure(pressure: &CentreField, point: Vec2) -> f64 {
     let (grid, walls) = (pressure.grid(), &AT_REST);
-    Lattice { values: pressure.values(), grid, shift: [0.5; 2], parity: 1.0, walls }.bilinear(point).0
+    Lattice { values: pressure.values(), grid, shift: [0.5; 2], parity: [1.0; 2], walls }.bilinear(point).0
 }
 
 /// Shifts a pressure (force per length) in a channel so that its mean over both walls is zero, as in an evaluation
@@ -95,7 +99,8 @@ pub fn level_at_walls(pressure: &mut CentreField) {
 /// between grid points, and the gradient of this velocity (1/time).
 ///
 /// Errors are of second order in the spacing where the flow is smooth. `walls` are the velocities of the walls in that
-/// flow ([`crate::StokesSolver::walls`]), about which the velocity continues antisymmetrically beyond a wall.
+/// flow ([`crate::StokesSolver::walls`]), about which the velocity continues antisymmetrically beyond a wall, or as its
+/// slip length demands.
 ///
 /// # Errors
 /// Returns [`StokesError::Input`] if the numbers of samples and points differ or a point is not finite, and

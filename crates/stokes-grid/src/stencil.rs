@@ -43,11 +43,12 @@ pub(crate) fn shear_steps(
     let u_row = |j: usize| &velocity.x()[j * nx..][..nx];
     let (above, below) = (u_row(j.min(ny - 1)), u_row(if j > 0 { j - 1 } else { ny - 1 }));
     let v = &velocity.y()[j * nx..][..nx];
+    let [bottom, top] = [Wall::Bottom, Wall::Top].map(|wall| 2.0 * walls.stick(wall, grid.spacing()));
     for i in 0..nx {
         let u_step = if grid.has_walls() && j == 0 {
-            2.0 * (above[i] - walls.at(Wall::Bottom, i))
+            bottom * (above[i] - walls.at(Wall::Bottom, i))
         } else if grid.has_walls() && j == ny {
-            2.0 * (walls.at(Wall::Top, i) - below[i])
+            top * (walls.at(Wall::Top, i) - below[i])
         } else {
             above[i] - below[i]
         };

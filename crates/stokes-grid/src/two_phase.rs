@@ -247,9 +247,10 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// returns the iterations done.
     fn iterate(&mut self, mut square: f64, goal: f64, scale: f64, mut left: usize) -> Result<usize, StokesError> {
         let mut done = 0;
+        let at_rest = self.solver.walls().at_rest();
         self.direction.copy_from(&self.preconditioned);
         while square > goal && left > 0 {
-            self.force.add(&self.direction, &WallMotion::AT_REST, -1.0, None, &mut self.image);
+            self.force.add(&self.direction, &at_rest, -1.0, None, &mut self.image);
             let curvature = dot(&self.direction, &self.image);
             if !(curvature.is_finite() && curvature > 0.0) {
                 break;

@@ -3,7 +3,7 @@
 use motile_base::Vec2;
 use motile_base::{
     internal::{all_finite, sum},
-    same_length,
+    not_negative, same_length,
 };
 use num_complex::Complex64;
 
@@ -20,18 +20,20 @@ pub enum Wall {
 }
 
 /// Tangential velocities (length per time) of both walls of a channel, uniform or functions of x. Walls never move
-/// along their normal.
+/// along their normal. Fluid can slip along them ([`WallMotion::with_slip`]).
 ///
 /// The default, [`WallMotion::AT_REST`], fits every grid, periodic ones included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WallMotion {
     bottom: Vec<f64>,
     top: Vec<f64>,
+    /// Slip lengths of the bottom and the top wall (length).
+    slip: [f64; 2],
 }
 
 impl WallMotion {
     /// Walls at rest.
-    pub const AT_REST: Self = Self { bottom: Vec::new(), top: Vec::new() };
+    pub const AT_REST: Self = Self { bottom: Vec::new(), top: Vec::new(), slip: [0.0; 2] };
 
     /// Creates walls that slide with uniform velocities (length per time).
     ///
@@ -55,7 +57,38 @@ impl WallMotion {
         let top: Vec<f64> = (0..grid.nx()).map(|i| top(x(i))).collect();
         all_finite("the velocity of the bottom wall", &bottom)?;
         all_finite("the velocity of the top wall", &top)?;
-        Ok(Self { bottom, top })
+        Ok(Self { bottom, top, slip: [0.0; 2] })
+    }
+
+    /// Lets fluid slip along the bottom and the top wall with these slip lengths b (length): at a wall of velocity U it
+    /// moves with `u = U + b du/dn`, n being the normal into the fluid. The ghost velocity behind a wall is then
+    /// `((2 b - h) u + 2 h U)/(2 b + h)`.
+    ///
+    /// # Errors
+    /// Returns an error for a length that is negative or not finite.
+    pub fn with_slip(self, slip: [f64; 2]) -> Result<Self, StokesError> {
+        for length in slip {
+            not_negative("the slip length of a wall", length)?;
+        }
+        Ok(Self { slip, ..self })
+    }
+
+    /// Returns the slip lengths of the bottom and the top wall (length).
+    #[must_use]
+    pub fn slip(&self) -> [f64; 2] {
+        self.slip
+    }
+
+    /// Returns these walls at rest, with the same slip.
+    pub(crate) fn at_rest(&self) -> Self {
+        Self { slip: self.slip, ..Self::AT_REST }
+    }
+
+    /// Returns the velocity gradient at a wall over the one without slip, `h/(h + 2 b)` (no dimension), for the
+    /// velocity half of the spacing h (length) away from the wall.
+    pub(crate) fn stick(&self, wall: Wall, spacing: f64) -> f64 {
+        let slip = self.slip[usize::from(wall == Wall::Top)];
+        spacing / (spacing + 2.0 * slip)
     }
 
     /// Returns the velocities of a wall (length per time) at the columns of nodes; empty for walls at rest.

@@ -17,14 +17,14 @@ use crate::tables::{Measure, Once, all_wanted};
 
 /// The threshold of polarisation along x: where the slowest symmetric mode of the droplet at rest neither grows nor
 /// decays.
-pub(super) fn polarisation(setup: &Setup) -> Result<Critical> {
+pub(crate) fn polarisation(setup: &Setup) -> Result<Critical> {
     let state = SteadyState::uniform(setup)?;
     let spectrum = state.spectrum()?;
     let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).context("no modes")?;
     Ok(state.critical(mode, Parameter::Activity)?)
 }
 
-pub(super) fn activity(critical: &Critical) -> f64 {
+pub(crate) fn activity(critical: &Critical) -> f64 {
     Parameter::Activity.get(critical.state.setup()).unwrap_or(f64::NAN)
 }
 

@@ -4,13 +4,14 @@ use std::f64::consts::TAU;
 
 use motile_base::{Vec2, internal::told_apart};
 use motile_scene::{
-    Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit, Warning, checkpoint::SavedState,
+    Body, BodyError, BodyFlow, FluidView, MarkerKind, Observe, StepInfo, StepLimit, Viscous, Warning,
+    checkpoint::SavedState,
 };
 
 use super::stresslet_error::StressletError;
 use crate::{
-    ActiveDroplet,
-    interface::grid_spacing,
+    ActiveDroplet, ActiveInterface,
+    interface::{Diffusion, grid_spacing},
     observables::{Convention, InterfaceState, Observables, observe},
 };
 
@@ -35,6 +36,9 @@ impl Body for ActiveDroplet {
     }
 
     fn write_forces(&mut self, view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        if let (Some(base), Some(felt)) = (self.felt_rates(), &self.interface.felt) {
+            felt.check_rates(base)?;
+        }
         self.interface.write_forces(view, forces)
     }
 
@@ -65,6 +69,19 @@ impl Body for ActiveDroplet {
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         self.interface.rate(velocities, rate);
+        if let (Some(noise), Some(inside)) =
+            (&self.interface.noise, rate[self.interface.state_len()..].first_mut().filter(|_| self.pool.is_some()))
+        {
+            *inside += noise.inside;
+        }
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.interface.depends_on_time()
+    }
+
+    fn set_time(&mut self, time: f64) {
+        self.interface.set_time(time);
     }
 
     fn mirror(&self, markers: &[usize], state: &[f64], image: &mut [f64]) -> bool {
@@ -79,7 +96,9 @@ impl Body for ActiveDroplet {
     }
 
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
-        self.interface.begin_step(view, step)
+        self.interface.begin_step(view, step)?;
+        self.draw_exchange(step.dt);
+        Ok(())
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
@@ -87,6 +106,17 @@ impl Body for ActiveDroplet {
         let (out, out_inside) = out.split_at_mut(state.len());
         self.interface.add_implicit(state, factor, out);
         let (positions, numbers) = state.split_at(2 * self.interface.marker_count());
+        if let Some(base) = self.felt_rates() {
+            let (Some(pool), [inside], [out_inside]) = (&self.pool, inside, out_inside) else { return };
+            let Some(mut felt) = self.interface.felt.take() else { return };
+            if let Some(Diffusion { cells, .. }) = self.interface.diffusion_at(positions) {
+                let (rates, _) = felt.rates(positions, base);
+                let out = &mut out[positions.len()..];
+                *out_inside += pool.add_at(rates, factor, cells.sizes, numbers, *inside, out);
+            }
+            self.interface.felt = Some(felt);
+            return;
+        }
         if let (Some(pool), [inside], [out_inside]) = (&self.pool, inside, out_inside)
             && let Some(diffusion) = self.interface.diffusion_at(positions)
         {
@@ -100,6 +130,17 @@ impl Body for ActiveDroplet {
             return self.interface.solve_implicit(factor, state);
         };
         let (positions, numbers) = state.split_at_mut(2 * self.interface.marker_count());
+        if let Some(base) = self.felt_rates() {
+            let (Some(pool), Some(mut felt)) = (&self.pool, self.interface.felt.take()) else { return };
+            if let Some(Diffusion { transport, cells, diffusivities }) = self.interface.diffusion_at(positions) {
+                let rates = felt.rates(positions, base);
+                pool.solve_at(rates, factor, cells.sizes, numbers, inside, |losses, numbers| {
+                    transport.solve_loss(cells, diffusivities, factor, losses, numbers);
+                });
+            }
+            self.interface.felt = Some(felt);
+            return;
+        }
         if let Some(diffusion) = self.interface.diffusion_at(positions) {
             let (cells, diffusivities) = (diffusion.cells, diffusion.diffusivities);
             pool.solve(factor, cells.sizes, numbers, inside, |factor, numbers| {
@@ -137,6 +178,10 @@ impl Body for ActiveDroplet {
             properties.push(("the rate of unbinding".to_owned(), pool.exchange.unbinding()));
         }
         properties
+    }
+
+    fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
+        self.interface.as_viscous()
     }
 
     fn warnings(&self, view: &FluidView) -> Vec<Warning> {
@@ -188,6 +233,32 @@ impl Body for ActiveDroplet {
             pool.number = value;
         }
         self.interface.load(view, &saved)
+    }
+}
+
+impl ActiveDroplet {
+    /// Draws the noise of binding and unbinding over a step of `dt` (time).
+    fn draw_exchange(&mut self, dt: f64) {
+        let base = self.felt_rates();
+        let (Some(pool), ActiveInterface { noise: Some(noise), state, felt, .. }) = (&self.pool, &mut self.interface)
+        else {
+            return;
+        };
+        let lengths = state.shape.geometry.cells().sizes;
+        let time = noise.time;
+        let exchange = pool.exchange;
+        let bound = pool.number.max(0.0) / pool.area();
+        let sizes = lengths.iter().zip(&state.numbers).enumerate().map(|(k, (length, number))| {
+            let mut rates = [exchange.binding(), exchange.unbinding()];
+            if let (Some(_), Some(felt)) = (base, &felt) {
+                for (rate, field) in rates.iter_mut().zip([&felt.fields.binding, &felt.fields.unbinding]) {
+                    let field = field.as_ref().map_or(0.0, |field| field.value(felt.middles[k], time));
+                    *rate = (*rate + field).max(0.0);
+                }
+            }
+            rates[0] * length * bound + rates[1] * number.max(0.0)
+        });
+        noise.draw_exchange(dt, sizes);
     }
 }
 

@@ -4,12 +4,22 @@ use std::f64::consts::{PI, TAU};
 
 use motile_base::{Vec2, internal::at_least};
 use motile_scene::{
-    Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Warning, checkpoint::SavedState, points,
+    Body, BodyError, FluidView, MarkerKind, StepInfo, StepLimit, Viscous, Warning, checkpoint::SavedState, points,
 };
 
-use super::{ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, geometry::Geometry, geometry::outward};
-use crate::{InterfaceError, concentration::Repair, curve::polygon::raw_area};
+use super::{
+    ActiveInterface, Interventions, MINIMUM_MARKERS, Motion, Shape, geometry::Geometry, geometry::outward, grid_spacing,
+};
+use crate::{Cortex, InterfaceError, concentration::Repair, curve::polygon::raw_area, field::Felt};
 
+/// Numbers that an interface saves besides its state.
+const NUMBERS: usize = 6;
+/// Largest displacement by which an interface that does not stretch regains its length, over the length.
+const LARGEST_REGAIN: f64 = 1e-3;
+
+/// Error of a random number of particles over the error of their mean: at the tolerance 1e-4 of adaptive steps, a
+/// segment's number is followed to a hundredth of its fluctuations.
+const RANDOM_ERROR: f64 = 100.0;
 /// Multiples of the mean concentration at which the tension is compared to distinguish laws.
 const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
 /// Fraction of all particles in one segment above which they have collapsed: more than the eighth that each segment of
@@ -52,11 +62,21 @@ impl Body for ActiveInterface {
         if self.law.bending.is_some() && uneven {
             return Err(InterfaceError::uneven_bending().into());
         }
+        if let Some(force) = &self.law.body_force {
+            force.check(&self.state.shape, view)?;
+        }
         if let Some(place) = self.derived.tensions.iter().position(|tension| !tension.is_finite()) {
             let (tension, c) = (self.derived.tensions[place], self.derived.concentrations[place]);
+            if let Some(felt) = self.felt.as_ref().filter(|_| self.law.tension.value(c).is_finite()) {
+                return Err(InterfaceError::field_not_finite(felt.middles[place]).into());
+            }
             return Err(InterfaceError::tension_not_finite(tension, c).into());
         }
-        Ok(self.all_forces(view, forces)?)
+        if self.scheme.resistance.is_some() {
+            self.check_resistance(view)?;
+        }
+        self.all_forces(view, forces)?;
+        Ok(self.update_resistance(view, self.mean_viscosity(view))?)
     }
 
     /// Returns two coordinates per marker, and a particle number per segment if there are particles.
@@ -95,7 +115,27 @@ impl Body for ActiveInterface {
         for (number, first) in numbers.iter().zip(markers.iter().cycle().skip(1)) {
             numbers_of_image[*first] = *number;
         }
-        matches!(self.law.motion, Motion::Equidistributed { .. }) && self.advance() == 0.0
+        // Noise and fields that differ from their mirror image have none either.
+        let size = self.radius_at_start();
+        let symmetric = |felt: &Felt| felt.fields.named().all(|(_, field)| field.is_symmetric(size));
+        let alike = self.noise.is_none() && self.felt.as_ref().is_none_or(|felt| symmetric(felt));
+        alike && matches!(self.law.motion, Motion::Equidistributed { .. }) && self.advance() == 0.0
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.noise.is_some() || self.felt.as_ref().is_some_and(|felt| felt.fields.depends_on_time())
+    }
+
+    fn set_time(&mut self, time: f64) {
+        if let Some(noise) = &mut self.noise {
+            noise.time = time;
+        }
+        if let Some(felt) = self.felt.as_mut().filter(|felt| felt.time != time) {
+            felt.time = time;
+            if felt.fields.depends_on_time() {
+                self.update_tensions();
+            }
+        }
     }
 
     fn translate(&self, by: Vec2, state: &mut [f64]) -> bool {
@@ -104,7 +144,12 @@ impl Body for ActiveInterface {
     }
 
     fn begin_step(&mut self, view: &FluidView, step: StepInfo) -> Result<(), BodyError> {
-        Ok(self.prepare_step(view, self.mean_viscosity(view), step.stabilised)?)
+        self.prepare_step(view, self.mean_viscosity(view), step.stabilised)?;
+        if let Some(noise) = &mut self.noise {
+            let (cells, c) = (self.state.shape.geometry.cells(), &self.derived.concentrations);
+            noise.draw(step.dt, c, cells, self.law.diffusion);
+        }
+        Ok(())
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
@@ -144,7 +189,8 @@ impl Body for ActiveInterface {
         let open = self.advance().abs() / TAU;
         positions.fill(if open > 0.0 { open } else { self.radius_at_start() });
         let mean = self.number() / numbers.len().max(1) as f64;
-        numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+        let random = self.noise.as_ref().map_or(0.0, |all| all.noise.deviation(mean));
+        numbers.fill(if mean > 0.0 { mean + RANDOM_ERROR * random } else { 1.0 });
     }
 
     /// Returns the viscosity, tension law, diffusion and bending, and the number of markers at the start.
@@ -166,17 +212,52 @@ impl Body for ActiveInterface {
             push("the bending modulus", bending.modulus);
             push("the reference curvature", bending.reference);
         }
+        let Cortex { viscosity, per_concentration, shear_viscosity, inextensible } = self.law.cortex;
+        for (name, value) in [
+            ("the viscosity of the cortex", viscosity),
+            ("the viscosity of the cortex per concentration", per_concentration),
+            ("the shear viscosity of the cortex", shear_viscosity),
+            ("the friction with the substrate", self.law.friction),
+            ("the constraint on stretching", f64::from(inextensible)),
+        ] {
+            if value != 0.0 {
+                push(name, value);
+            }
+        }
+        if let Some(force) = &self.law.body_force {
+            push("the body force along x", force.density.x);
+            push("the body force along y", force.density.y);
+            push("the force on the inside along x", force.total.x);
+            push("the force on the inside along y", force.total.y);
+        }
         push("the number of markers at the start", self.account.markers as f64);
         let period = self.advance().abs();
         if period > 0.0 {
             push("the period", period);
         }
         let mean = self.mean_concentration();
+        if let Some(felt) = &self.felt {
+            let size = self.radius_at_start().max(self.advance().abs() / TAU);
+            let unit = if felt.fields.highest_frequency() > 0.0 { 1.0 / felt.fields.highest_frequency() } else { 1.0 };
+            for (name, field) in felt.fields.named() {
+                for (number, value) in field.samples(size, unit).enumerate() {
+                    push(&format!("the field of the {name} at the sample {number}"), value);
+                }
+            }
+            push("the highest frequency of the fields", felt.fields.highest_frequency());
+        }
+        if let Some(noise) = &self.noise {
+            noise.noise.properties().into_iter().for_each(|(name, value)| push(name, value));
+        }
         for sample in LAW_SAMPLES {
             let name = format!("the tension at {sample} times the mean concentration at the start");
             push(&name, self.law.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
         }
         properties
+    }
+
+    fn as_viscous(&mut self) -> Option<&mut dyn Viscous> {
+        if self.scheme.resistance.is_some() { Some(self) } else { None }
     }
 
     fn warnings(&self, view: &FluidView) -> Vec<Warning> {
@@ -190,6 +271,8 @@ impl Body for ActiveInterface {
         reals.extend_from_slice(&self.derived.slip);
         let account = &self.account;
         reals.extend([account.spacing, account.area, account.number, repair.moved, self.derived.relaxation]);
+        reals.push(account.length);
+        reals.extend_from_slice(self.stresses());
         let counts = [self.marker_count(), repair.segments, repair.furthest, inserted, removed];
         SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
@@ -199,14 +282,23 @@ impl Body for ActiveInterface {
         let per_marker = self.per_marker() + 1;
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(saved.reals.len());
         at_least("markers of a saved interface", count, MINIMUM_MARKERS)?;
-        let (state, rest) = saved.reals_of(per_marker * count + 5)?.split_at((per_marker - 1) * count);
+        // Stresses come last: another interface may have had others, or none.
+        let own = per_marker * count + NUMBERS;
+        let others = [0, count, 2 * count, 3 * count, 2 * (count / 2 + 1)].map(|stresses| own + stresses);
+        let found = if others.contains(&saved.reals.len()) { saved.reals.len() } else { own };
+        let (state, rest) = saved.reals_of(found)?.split_at((per_marker - 1) * count);
         let (slip, numbers) = rest.split_at(count);
         self.read_state(state)?;
         self.fit(view)?;
+        if self.scheme.resistance.is_some() {
+            self.fit_resistance()?;
+            self.set_stresses(&numbers[NUMBERS..]);
+        }
         self.derived.slip.copy_from_slice(slip);
         self.derived.relaxation = numbers[4];
         let account = &mut self.account;
         (account.spacing, account.area, account.number) = (numbers[0], numbers[1], numbers[2]);
+        account.length = numbers[5];
         let repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
         account.kept = Interventions { repair, inserted: inserted as usize, removed: removed as usize };
         Ok(())
@@ -217,6 +309,22 @@ impl ActiveInterface {
     /// Returns the entries of the state for a marker.
     pub(crate) fn per_marker(&self) -> usize {
         if self.carries() { 3 } else { 2 }
+    }
+
+    /// Refuses a cortex and friction where they have no meaning.
+    fn check_resistance(&self, view: &FluidView) -> Result<(), InterfaceError> {
+        if self.state.shape.axisymmetric && self.law.friction > 0.0 {
+            return Err(InterfaceError::resisting_revolution());
+        }
+        if self.law.cortex.inextensible && grid_spacing(view).is_some() {
+            return Err(InterfaceError::unresolved_membrane());
+        }
+        // Without the mobility correction markers move too easily by as much as the kernel is wide.
+        let corrected = view.second_order && self.law.motion != Motion::WithFluid;
+        if !self.law.cortex.is_none() && grid_spacing(view).is_some() && !corrected {
+            return Err(InterfaceError::cortex_on_plain_grid());
+        }
+        Ok(())
     }
 
     /// Returns the mean of the viscosities on both sides, on which the speed of an interface depends (stress times
@@ -234,6 +342,9 @@ impl ActiveInterface {
     /// interface that are not on it.
     pub(crate) fn finish_step(&mut self, view: &FluidView, dt: f64, elsewhere: f64) -> Result<(), BodyError> {
         self.move_markers(view, self.mean_viscosity(view), dt);
+        if self.law.cortex.inextensible {
+            self.restore_length();
+        }
         if self.law.keeps_area {
             self.restore_area();
         }
@@ -326,6 +437,30 @@ impl ActiveInterface {
     pub(super) fn radius_at_start(&self) -> f64 {
         let size = self.account.area / PI;
         if self.state.shape.axisymmetric { (0.75 * size).cbrt() } else { size.sqrt() }
+    }
+
+    /// Moves the markers along their normals in proportion to the curvature minus its mean, so that the length is the
+    /// initial one and the area stays. The constraint on velocities leaves errors of the time step.
+    fn restore_length(&mut self) {
+        let closed = self.advance() == 0.0;
+        let Shape { geometry, markers, .. } = &mut self.state.shape;
+        if closed && geometry.is_round() {
+            return;
+        }
+        let (count, length) = (markers.len(), geometry.total_weight());
+        let missing = self.account.length - length;
+        let mean = if closed { TAU / length } else { 0.0 };
+        let deviation = |k: usize| geometry.curvature_from(mean, k);
+        let square: f64 = (0..count).map(|k| deviation(k).powi(2) * geometry.weights[k]).sum();
+        let step = missing / square;
+        let largest = (0..count).map(|k| deviation(k).abs()).fold(0.0, f64::max) * step.abs();
+        if largest.is_nan() || largest > LARGEST_REGAIN * length {
+            return;
+        }
+        for (k, marker) in markers.iter_mut().enumerate() {
+            *marker += deviation(k) * step * outward(geometry.tangents[k]);
+        }
+        self.update();
     }
 
     /// Moves all markers along their normals by one distance so that the area is the initial one (twice, the second

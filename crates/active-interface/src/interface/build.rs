@@ -3,17 +3,23 @@
 use std::sync::Arc;
 
 use motile_base::{
-    InputError, Membrane, Vec2, finite, internal::all_finite, not_negative, polygon::CrossingFinder, positive,
-    same_length,
+    InputError, Membrane, Vec2, finite,
+    internal::{all_finite, all_points_finite},
+    not_negative,
+    polygon::CrossingFinder,
+    positive, same_length,
 };
 
 use super::{
-    Account, ActiveInterface, Bending, Derived, Law, Motion, Scheme, Shape, ShortWaveFilter, SpectralCurve, State,
+    Account, ActiveInterface, Bending, BodyForce, Derived, Law, Motion, Resistance, Scheme, Shape, ShortWaveFilter,
+    SpectralCurve, State,
 };
 use crate::{
-    Flux, InterfaceError, Tension,
+    Cortex, Flux, InterfaceError, Tension,
     concentration::{Repair, Transport},
     curve::check_period,
+    field::{Felt, Fields},
+    noise::{Fluctuations, Noise},
 };
 
 impl Account {
@@ -99,6 +105,7 @@ impl ActiveInterface {
             filter: ShortWaveFilter::default(),
             band: None,
             spectral: None,
+            resistance: None,
         };
         let law = Law {
             tension,
@@ -109,12 +116,16 @@ impl ActiveInterface {
             keeps_area: false,
             elasticity: None,
             bending: None,
+            cortex: Cortex::default(),
+            friction: 0.0,
+            body_force: None,
         };
         let account = Account {
             spacing: 0.0,
             markers: count,
             area: 0.0,
             number: numbers.iter().sum(),
+            length: 0.0,
             bounds: Account::BOUNDS,
             kept: Default::default(),
             last: Default::default(),
@@ -127,10 +138,13 @@ impl ActiveInterface {
             account,
             scheme,
             crossing: CrossingFinder::default(),
+            felt: None,
+            noise: None,
         };
         interface.update();
         interface.account.spacing = interface.geometry().mean_length();
         interface.account.area = interface.area();
+        interface.account.length = interface.geometry().total_weight();
         Ok(interface)
     }
 
@@ -251,6 +265,7 @@ impl ActiveInterface {
         let concentrations = self.derived.concentrations.clone();
         self.scheme.spectral = Some(SpectralCurve::new(count)?);
         (self.state.shape.axisymmetric, self.scheme.other.axisymmetric) = (true, true);
+        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), true)?;
         self.law.keeps_area = true;
         self.update();
         let areas = &self.state.shape.geometry.rings.areas;
@@ -292,6 +307,66 @@ impl ActiveInterface {
         Ok(self)
     }
 
+    /// Makes the interface feel fields that are fixed in the laboratory, in place of those that it felt. Those of the
+    /// tension and of the activity are added at the middles of the elements. Those of binding and unbinding need a
+    /// droplet with a well-mixed inside ([`crate::ActiveDroplet::with_fields`]). Call this after
+    /// [`ActiveInterface::axisymmetric`] and [`ActiveInterface::with_motion`].
+    ///
+    /// # Errors
+    /// Returns an error for:
+    /// * a field of the activity without particles, fields of binding or unbinding,
+    /// * a field that is not periodic along an interface that is,
+    /// * a field that is not symmetric about the axis of a body of revolution.
+    pub fn with_fields(self, fields: Fields) -> Result<Self, InterfaceError> {
+        if let Some((name, _)) = fields.named().find(|(name, _)| ["binding", "unbinding"].contains(name)) {
+            return Err(InterfaceError::no_exchange(name));
+        }
+        self.with_all_fields(fields)
+    }
+
+    pub(crate) fn with_all_fields(mut self, fields: Fields) -> Result<Self, InterfaceError> {
+        if fields.activity.is_some() && !self.carries() {
+            return Err(InterfaceError::no_particles_to_feel());
+        }
+        let size = self.geometry().perimeter / std::f64::consts::TAU;
+        for (name, field) in fields.named() {
+            if self.advance() != 0.0 {
+                field.check_along(self.markers(), self.advance())?;
+            }
+            if self.is_axisymmetric() && !field.is_symmetric(size) {
+                return Err(InterfaceError::field_not_axisymmetric(name));
+            }
+        }
+        self.felt = (!fields.is_none()).then(|| Box::new(Felt::new(fields)));
+        self.update_tensions();
+        Ok(self)
+    }
+
+    /// Adds noise to the particles. Call this after [`ActiveInterface::axisymmetric`].
+    ///
+    /// # Errors
+    /// Returns an error for an interface without particles, or whose particles do not diffuse.
+    pub fn with_noise(mut self, noise: Noise) -> Result<Self, InterfaceError> {
+        if !self.carries() {
+            return Err(InterfaceError::nothing_to_shake());
+        }
+        let size = self.geometry().perimeter / std::f64::consts::TAU;
+        self.noise = Some(Box::new(Fluctuations::new(noise, size, self.law.diffusion)?));
+        Ok(self)
+    }
+
+    /// Returns the fields that the interface feels, if there are any.
+    #[must_use]
+    pub fn fields(&self) -> Option<&Fields> {
+        self.felt.as_ref().map(|felt| &felt.fields)
+    }
+
+    /// Returns the noise on the particles, if there is any.
+    #[must_use]
+    pub fn noise(&self) -> Option<Noise> {
+        self.noise.as_ref().map(|noise| noise.noise)
+    }
+
     /// Makes the interface resist bending, with the energy `B/2 INT (kappa - kappa0)^2 ds` over its present length
     /// (Helfrich, "Elastic properties of lipid bilayers: theory and possible experiments"), kappa its curvature
     /// (1/length; positive for a circle). The forces are minus the gradient of this energy by the markers, with the
@@ -309,6 +384,106 @@ impl ActiveInterface {
             _ => Some(Bending::new(modulus, reference_curvature, self.markers().len())?),
         };
         Ok(self)
+    }
+
+    /// Gives the interface a cortex of this viscosity eta_s (force times time), which resists stretching along it:
+    /// [`Cortex`]. Speeds of swimmers fall, and steps stay as long as they are. An interface whose viscosity depends on
+    /// its particles takes [`ActiveInterface::with_cortex`].
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite.
+    pub fn with_cortex_viscosity(self, viscosity: f64) -> Result<Self, InterfaceError> {
+        self.with_cortex(Cortex::new(viscosity))
+    }
+
+    /// Gives the interface a cortex. Call this after [`ActiveInterface::axisymmetric`].
+    ///
+    /// # Errors
+    /// Returns an error for a viscosity that is negative or not finite; a shear viscosity of a line.
+    pub fn with_cortex(mut self, cortex: Cortex) -> Result<Self, InterfaceError> {
+        cortex.check()?;
+        if cortex.shear_viscosity > 0.0 && !self.state.shape.axisymmetric {
+            return Err(InterfaceError::sheared_line());
+        }
+        if cortex.inextensible && self.state.shape.axisymmetric {
+            return Err(InterfaceError::unresolved_membrane());
+        }
+        if cortex.inextensible && self.advance() == 0.0 && self.geometry().is_round() {
+            return Err(InterfaceError::round_membrane());
+        }
+        self.law.cortex = cortex;
+        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), self.state.shape.axisymmetric)?;
+        self.update_tensions();
+        Ok(self)
+    }
+
+    /// Gives the interface friction with a substrate: a force `-xi v` per length on the fluid at the interface, v its
+    /// velocity.
+    ///
+    /// In the unbounded plane nothing takes up the force of a substrate, because the flow of a force does not decay
+    /// there. The substrate then floats: v is relative to its uniform velocity, at which all friction of the scene adds
+    /// up to zero. Around a circle this velocity is zero.
+    ///
+    /// # Errors
+    /// Returns an error for a coefficient xi (force times time per length squared) that is negative or not finite; a
+    /// body of revolution.
+    pub fn with_friction(mut self, coefficient: f64) -> Result<Self, InterfaceError> {
+        if self.state.shape.axisymmetric && coefficient > 0.0 {
+            return Err(InterfaceError::resisting_revolution());
+        }
+        self.law.friction = not_negative("the friction with the substrate", coefficient)?;
+        self.scheme.resistance = Resistance::of(&self.law, self.markers().len(), self.state.shape.axisymmetric)?;
+        self.update_tensions();
+        Ok(self)
+    }
+
+    /// Makes a force act on the fluid inside, uniform over its area: its weight less the weight of as much fluid around
+    /// it, `(rho_in - rho_ext) g` (force per area, in three dimensions per volume). For an interface inside another
+    /// one, this is the difference to the fluid between them. It adds to [`ActiveInterface::with_force`].
+    ///
+    /// In the plane without boundaries, nothing holds a fluid that is pushed: no speed exists there unless the forces
+    /// on all bodies add up to zero.
+    ///
+    /// # Errors
+    /// Returns an error for a force that is not finite, an interface that is periodic along x, and a force across the
+    /// axis of a body of revolution.
+    pub fn with_body_force(mut self, force: Vec2) -> Result<Self, InterfaceError> {
+        self.check_body_force("the body force", force)?;
+        let total = self.law.body_force.unwrap_or_default().total;
+        self.law.body_force = Some(BodyForce { density: force, total }).filter(|force| *force != BodyForce::default());
+        Ok(self)
+    }
+
+    /// Makes a force of this sum (force) act on the fluid inside, uniform over its present area, in three dimensions
+    /// over its volume. It adds to [`ActiveInterface::with_body_force`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`ActiveInterface::with_body_force`].
+    pub fn with_force(mut self, force: Vec2) -> Result<Self, InterfaceError> {
+        self.check_body_force("the force on the inside", force)?;
+        let density = self.law.body_force.unwrap_or_default().density;
+        self.law.body_force = Some(BodyForce { density, total: force }).filter(|force| *force != BodyForce::default());
+        Ok(self)
+    }
+
+    /// Returns the force on the fluid inside per area (force per area, in three dimensions per volume) and the force
+    /// that is spread over the inside (force), both zero by default.
+    #[must_use]
+    pub fn body_force(&self) -> [Vec2; 2] {
+        let BodyForce { density, total } = self.law.body_force.unwrap_or_default();
+        [density, total]
+    }
+
+    /// Refuses a force on the inside that this interface cannot have.
+    fn check_body_force(&self, what: &'static str, force: Vec2) -> Result<(), InterfaceError> {
+        all_points_finite(what, &[force])?;
+        if force != Vec2::ZERO && self.advance() != 0.0 {
+            return Err(InterfaceError::open_body_force());
+        }
+        if force.y != 0.0 && self.is_axisymmetric() {
+            return Err(InterfaceError::force_across_axis(force.y));
+        }
+        Ok(())
     }
 
     /// Returns the energy of bending (force times length), 0 without.
@@ -354,10 +529,11 @@ impl ActiveInterface {
         &self.derived.concentrations
     }
 
-    /// Returns the tensions of the segments (force).
+    /// Returns the tensions of the segments (force) by the tension law at the present state. An interface with a cortex
+    /// adds its viscous tensions of the last evaluation.
     #[must_use]
     pub fn tensions(&self) -> &[f64] {
-        &self.derived.tensions
+        self.scheme.resistance.as_ref().map_or(&self.derived.tensions, |resistance| &resistance.tensions)
     }
 
     /// Returns the lengths of the segments (length).
@@ -384,6 +560,24 @@ impl ActiveInterface {
     #[must_use]
     pub fn diffusion(&self) -> f64 {
         self.law.diffusion
+    }
+
+    /// Returns the cortex; one without viscosity by default.
+    #[must_use]
+    pub fn cortex(&self) -> Cortex {
+        self.law.cortex
+    }
+
+    /// Returns the viscosity eta_s of the cortex without particles (force times time).
+    #[must_use]
+    pub fn cortex_viscosity(&self) -> f64 {
+        self.law.cortex.viscosity
+    }
+
+    /// Returns the coefficient xi of the friction with a substrate (force times time per length squared).
+    #[must_use]
+    pub fn friction(&self) -> f64 {
+        self.law.friction
     }
 
     /// Returns the viscosity of the fluid inside (stress times time), `None` if it is the viscosity of the exterior

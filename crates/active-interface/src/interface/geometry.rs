@@ -18,11 +18,16 @@ pub(crate) struct Geometry {
     pub(crate) tangents: Vec<Vec2>,
     /// |X_alpha| at the markers (length); only of smooth curves, see `SpectralCurve`.
     pub(crate) stretch: Vec<f64>,
+    /// |X_alpha| at the middles of the segments times the step of alpha (length); only of smooth curves.
+    pub(crate) spans: Vec<f64>,
     /// Sum of the lengths of the segments (length).
     pub(crate) perimeter: f64,
     /// Rings of a surface of revolution; empty in the plane.
     pub(crate) rings: Rings,
 }
+
+/// Mean square deviation of the curvature from its mean, over the square of the mean, up to which a curve is round.
+const ROUND: f64 = 1e-4;
 
 /// Halves of the rings that segments and markers of a surface of revolution stand for: its curve is the meridian with
 /// its mirror image.
@@ -67,6 +72,7 @@ impl Geometry {
     pub(crate) fn update(&mut self, markers: &[Vec2], advance: f64) {
         let (count, period) = (markers.len(), Vec2::new(advance, 0.0));
         self.resize(count);
+        self.spans.clear();
         self.perimeter = 0.0;
         for k in 0..count {
             let (before, here) = (if k == 0 { markers[count - 1] - period } else { markers[k - 1] }, markers[k]);
@@ -80,6 +86,18 @@ impl Geometry {
             let weight = chord.length();
             self.weights[k] = weight;
             self.tangents[k] = chord / weight;
+        }
+    }
+
+    /// Writes the differences of the tensions of segments along them (force) at each marker: `T_k t_k - T_{k-1}
+    /// t_{k-1}`.
+    pub(super) fn write_pulls(&self, tensions: &[f64], forces: &mut [Vec2]) {
+        let pull = |k: usize| tensions[k] * self.directions[k];
+        let mut before = pull(self.directions.len() - 1);
+        for (k, force) in forces.iter_mut().enumerate() {
+            let here = pull(k);
+            *force = here - before;
+            before = here;
         }
     }
 
@@ -104,6 +122,22 @@ impl Geometry {
     /// Returns the length of the interface, or area of a surface of revolution by the markers' weights.
     pub(crate) fn total_weight(&self) -> f64 {
         self.all_weights().iter().sum()
+    }
+
+    /// Returns the curvature at marker k minus `mean` (1/length).
+    pub(crate) fn curvature_from(&self, mean: f64, k: usize) -> f64 {
+        let before = if k == 0 { self.directions.len() - 1 } else { k - 1 };
+        let turn = self.directions[before] - self.directions[k];
+        turn.dot(outward(self.tangents[k])) / self.weights[k] - mean
+    }
+
+    /// Returns true if a closed curve is round, up to 1 % of its curvature. A change of its length would then
+    /// change its area.
+    pub(crate) fn is_round(&self) -> bool {
+        let length = self.total_weight();
+        let mean = std::f64::consts::TAU / length;
+        let square = |(k, weight): (usize, &f64)| self.curvature_from(mean, k).powi(2) * weight;
+        self.weights.iter().enumerate().map(square).sum::<f64>() <= ROUND * length * mean * mean
     }
 
     /// Returns the mean length of the segments (length).

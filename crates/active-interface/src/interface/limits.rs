@@ -35,6 +35,12 @@ pub(super) fn finest_response(view: &FluidView) -> f64 {
     grid_spacing(view).unwrap_or(0.5 / view.interface_stiffness)
 }
 
+/// Fewest steps in a period of a field: fewer would see another field.
+const LEAST_STEPS: f64 = 4.0;
+/// Steps in a period of a field that adaptive steps take at least.
+const ACCURATE_STEPS: f64 = 24.0;
+const FIELD_CHANGES: &str = "the changes of a field in time";
+
 /// Multiple of the mean concentration beyond which a tension law is not looked at: the concentration of all particles
 /// on one of a thousand segments.
 const MOST_CONCENTRATED: f64 = 1024.0;
@@ -56,6 +62,23 @@ fn grows_without_bound(tension: &dyn Tension, mean: f64) -> bool {
     last > 0.0 && last >= 0.5 * steepest
 }
 
+/// A law with another activity, as where a field adds to it.
+#[derive(Debug)]
+struct Shifted<'a> {
+    law: &'a dyn Tension,
+    activity: f64,
+}
+
+impl Tension for Shifted<'_> {
+    fn value(&self, c: f64) -> f64 {
+        self.law.value(c) - self.activity * c
+    }
+
+    fn slope(&self, c: f64) -> f64 {
+        self.law.slope(c) - self.activity
+    }
+}
+
 impl ActiveInterface {
     /// Returns the element Peclet number `ds max|V_t - W| / D` of the last evaluation (no dimension): V_t - W the
     /// velocity of the fluid along the interface relative to the markers, ds the length of the segments. 0 without
@@ -71,7 +94,7 @@ impl ActiveInterface {
     }
 
     fn largest_tension(&self) -> f64 {
-        self.derived.tensions.iter().fold(0.0_f64, |a, &b| a.max(b))
+        self.tensions().iter().fold(0.0_f64, |a, &b| a.max(b))
     }
 
     /// Returns the largest wave number of the shape (1/length). It is the largest one of the flow, or on a grid of the
@@ -101,6 +124,9 @@ impl ActiveInterface {
         };
         let stiffness = view.interface_stiffness * (self.largest_tension() + bending);
         limits(StepLimit::decay(2.0 * viscosity / stiffness, reason));
+        if let Some(force) = &self.law.body_force {
+            limits(StepLimit::decay(2.0 / force.rate(&self.state.shape, viscosity), "the body force"));
+        }
         if let Some(elasticity) = &self.law.elasticity {
             let lengths = &self.geometry().lengths;
             let (count, shortest) = (lengths.len() as f64, lengths.iter().copied().fold(f64::INFINITY, f64::min));
@@ -121,10 +147,18 @@ impl ActiveInterface {
             // takes it off the explicit one; with a = dt c |gamma'| q / (4 eta) a step multiplies a wave by
             // `1 - a (1 + a (q h - 1/2)) / (1 + a q h/2)^2`, which exceeds 1 where a (1/2 - q h) > 1 and never falls
             // below -1: waves of q = 1/(4 h) grow first, above 64 h eta / (c |gamma'|). A second interface much closer
-            // than h doubles the mobility, which leaves a quarter of that: on a grid, where droplets come so close,
-            // half of this quarter is kept to (docs/explanation/time-stepping.md).
+            // than h doubles the mobility, which leaves a quarter of that: a scene whose flow resolves modes measures
+            // how close it is. On a grid, where droplets come so close, half of this quarter is kept to
+            // (docs/explanation/time-stepping.md).
             let slope = |c: f64| c * self.law.tension.slope(c).abs();
-            let coupling = self.derived.concentrations.iter().map(|&c| slope(c)).fold(0.0_f64, f64::max);
+            let concentrations = &self.derived.concentrations;
+            let coupling = match self.felt_activities() {
+                [] => concentrations.iter().map(|&c| slope(c)).fold(0.0_f64, f64::max),
+                activities => {
+                    let felt = |(&c, activity): (&f64, &f64)| c * (self.law.tension.slope(c) - activity).abs();
+                    concentrations.iter().zip(activities).map(felt).fold(0.0_f64, f64::max)
+                }
+            };
             let unit = finest_response(view) * viscosity / coupling;
             let (factor, cause) = if self.law.stabilised {
                 let factor = if grid_spacing(view).is_some() { 8.0 } else { 64.0 };
@@ -139,6 +173,15 @@ impl ActiveInterface {
             // about two segments a step.
             let dt = 1.8 * self.geometry().mean_length() / slip;
             limits(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
+        }
+        if let Some(felt) = &self.felt {
+            let frequency = felt.fields.highest_frequency();
+            if frequency > 0.0 {
+                let period = TAU / frequency;
+                let [bound, accurate] = [period / LEAST_STEPS, period / ACCURATE_STEPS];
+                limits(StepLimit { dt: bound, reason: FIELD_CHANGES, cause: StepCause::Transport });
+                limits(StepLimit { dt: accurate, reason: FIELD_CHANGES, cause: StepCause::Accuracy });
+            }
         }
     }
 
@@ -158,7 +201,10 @@ impl ActiveInterface {
     /// Returns the warning of a tension law that lets the particles collapse towards a point: its own, or one of its
     /// values.
     pub(super) fn collapse(&self) -> Option<String> {
-        let tension = self.law.tension.as_ref();
+        let strongest = self.felt_activities().iter().copied().fold(f64::INFINITY, f64::min);
+        let shifted = Shifted { law: self.law.tension.as_ref(), activity: strongest };
+        let felt = strongest.is_finite() && strongest != 0.0;
+        let tension: &dyn Tension = if felt { &shifted } else { self.law.tension.as_ref() };
         tension.warning().or_else(|| {
             let mean = self.mean_concentration();
             (self.carries() && grows_without_bound(tension, mean)).then(|| {
@@ -203,9 +249,8 @@ impl ActiveInterface {
     /// Returns the doubt about a negative tension: waves of an interface under compression grow faster the shorter they
     /// are, unless its bending holds the shortest of them.
     fn negative_tension(&self, view: &FluidView) -> Option<(&'static str, f64, String)> {
-        let tensions = &self.derived.tensions;
-        let count = tensions.len();
-        let mut totals = tensions.clone();
+        let mut totals = self.tensions().to_vec();
+        let count = totals.len();
         if let Some(elasticity) = &self.law.elasticity {
             let stretched: Vec<f64> = elasticity.tensions().collect();
             let middles = stretched.iter().zip(stretched.iter().cycle().skip(1)).map(|(a, b)| 0.5 * (a + b));

@@ -64,6 +64,7 @@ impl SpectralCurve {
     pub(crate) fn update(&mut self, markers: &[Vec2], advance: f64, geometry: &mut Geometry) {
         geometry.resize(self.len());
         geometry.stretch.resize(self.len(), 0.0);
+        geometry.spans.resize(self.len(), 0.0);
         let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
         let relative = markers.iter().map(|x| Complex64::new(x.x - markers[0].x, x.y - markers[0].y));
@@ -82,8 +83,10 @@ impl SpectralCurve {
         }
         self.vectors.multiply_each(&self.to_middles);
         let tangents = self.vectors.values().iter().map(|tangent| tangent + slope);
-        for (direction, tangent) in geometry.directions.iter_mut().zip(tangents) {
-            *direction = vector(tangent / tangent.norm());
+        for ((direction, span), tangent) in geometry.directions.iter_mut().zip(&mut geometry.spans).zip(tangents) {
+            let stretch = tangent.norm();
+            *direction = vector(tangent / stretch);
+            *span = stretch * spacing;
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
         analyse(&mut self.numbers, geometry.stretch.iter().map(|&stretch| stretch.into()));
@@ -95,6 +98,18 @@ impl SpectralCurve {
         for (length, value) in geometry.lengths.iter_mut().zip(self.numbers.values()) {
             *length = value.re;
             geometry.perimeter += value.re;
+        }
+    }
+
+    /// Writes the places of the curve at the middles of the segments (length).
+    pub(crate) fn write_middles(&mut self, markers: &[Vec2], advance: f64, middles: &mut [Vec2]) {
+        let step = advance / self.len() as f64;
+        let along = |k: usize| Vec2::new(step * k as f64, 0.0);
+        let relative = markers.iter().enumerate().map(|(k, x)| *x - markers[0] - along(k));
+        analyse(&mut self.vectors, relative.map(|x| Complex64::new(x.x, x.y)));
+        self.vectors.multiply_each(&self.to_middles);
+        for (k, (middle, value)) in middles.iter_mut().zip(self.vectors.values()).enumerate() {
+            *middle = markers[0] + vector(*value) + along(k) + 0.5 * Vec2::new(step, 0.0);
         }
     }
 
@@ -129,8 +144,9 @@ impl SpectralCurve {
 
     /// Returns the forces of the tensions of segments on a surface of revolution (force), those on halves of rings: `pi
     /// INT g dalpha` over a marker's piece with `g_x = d(gamma y tau_x)/dalpha`, `g_y = d(gamma y tau_y)/dalpha - gamma
-    /// |X_alpha|`, mirrored below the axis, as densities at the markers times the spacing.
-    pub(crate) fn ring_forces(&mut self, geometry: &Geometry, tensions: &[f64], forces: &mut [Vec2]) {
+    /// |X_alpha|`, mirrored below the axis, as densities at the markers times the spacing. The parts `felt` of the
+    /// tensions, which fields add, are values at the middles of segments, and the others are means over segments.
+    pub(crate) fn ring_forces(&mut self, geometry: &Geometry, tensions: &[f64], felt: &[f64], forces: &mut [Vec2]) {
         let (count, spacing) = (self.len(), TAU / self.len() as f64);
         let pull = |k: usize| PI * tensions[k] * geometry.rings.middles[k] * geometry.directions[k];
         let mut before = pull(count - 1);
@@ -147,8 +163,22 @@ impl SpectralCurve {
             let half = 0.5 * wave * spacing;
             Complex64::cis(-half) * if half == 0.0 { 1.0 } else { half / half.sin() }
         });
-        for (k, (force, around)) in forces.iter_mut().zip(self.numbers.values()).enumerate() {
+        for (force, around) in forces.iter_mut().zip(self.numbers.values()) {
             force.y -= around.re;
+        }
+        if !felt.is_empty() {
+            // What the factor above adds to values at the middles.
+            let around = felt.iter().zip(&geometry.lengths).map(|(tension, length)| PI * tension * length);
+            analyse(&mut self.numbers, around.map(Complex64::from));
+            self.numbers.multiply(|wave| {
+                let half = 0.5 * wave * spacing;
+                Complex64::cis(-half) * if half == 0.0 { 0.0 } else { half / half.sin() - 1.0 }
+            });
+            for (force, excess) in forces.iter_mut().zip(self.numbers.values()) {
+                force.y += excess.re;
+            }
+        }
+        for (k, force) in forces.iter_mut().enumerate() {
             *force = if 2 * k > count { -*force } else { *force };
         }
         // Both parts cancel at the poles.

@@ -40,6 +40,13 @@ pub enum StratumEnd {
         /// Thickness of the layer (length).
         thickness: f64,
     },
+    /// A rigid wall along which fluid slips.
+    SlipWall {
+        /// Thickness of the layer (length).
+        thickness: f64,
+        /// Slip length b (length): `u = b du/dn` at the wall, n being the normal into the fluid.
+        slip: f64,
+    },
     /// Another such interface, with the same concentration above every place: the mirror image in the middle of the
     /// layer, so that the shape of one is minus the shape of the other.
     Same {
@@ -61,6 +68,8 @@ impl Stratum {
     /// ```text
     /// none   A = B = 1, C = 0
     /// wall   A, B = (sinh s cosh s -+ s)/(sinh^2 s - s^2),  C = s^2/(sinh^2 s - s^2)
+    /// slip   A = (sinh s cosh s - s + 2 b k sinh^2 s)/Q,  B = (sinh s cosh s + s + 2 b k cosh^2 s)/Q,
+    ///        C = (s^2 + 2 b k s)/Q,  Q = sinh^2 s - s^2 + 2 b k (sinh s cosh s - s)
     /// ```
     /// and for another interface, with t = s/2, `2 k eta/(sinh t cosh t - t) [[sinh^2 t, t], [t, cosh^2 t]]` (same) or
     /// `2 k eta/(sinh t cosh t + t) [[cosh^2 t, -t], [-t, sinh^2 t]]` (opposite). The off-diagonal entries of the fluid
@@ -80,6 +89,14 @@ impl Stratum {
                 let (coth, part) = (1.0 / s.tanh(), s / s.sinh());
                 let rest = s / s.sinh().powi(2);
                 matrix([coth - rest, part * part, coth + rest], 1.0 - part * part)
+            }
+            StratumEnd::SlipWall { thickness, slip } => {
+                let s = scaled(thickness)?;
+                let twice = 2.0 * wave_number * not_negative("the slip length", slip)?;
+                let (coth, part) = (1.0 / s.tanh(), s / s.sinh());
+                let rest = s / s.sinh().powi(2);
+                let over = 1.0 - part * part + twice * (coth - rest);
+                matrix([coth - rest + twice, part * part + twice * rest, coth + rest + twice * coth * coth], over)
             }
             StratumEnd::Same { thickness } => {
                 let t = 0.5 * scaled(thickness)?;
@@ -102,9 +119,26 @@ impl FlatInterface {
     /// # Errors
     /// Returns an error for a wave number, viscosity or thickness that is not positive and finite.
     pub fn mobility(&self, below: Stratum, above: Stratum) -> Result<[[f64; 2]; 2], InterfaceError> {
+        self.resisted_mobility(below, above, [0.0; 2])
+    }
+
+    /// Returns the mobility of an interface that resists its motion: with a cortex of viscosity eta_s (force times
+    /// time) and a friction xi with a substrate (force times time per length squared), as `[eta_s, xi]`. They add
+    /// `eta_s k^2 + xi` and xi to the resistance along the interface and across it.
+    ///
+    /// # Errors
+    /// Returns the errors of [`FlatInterface::mobility`]; a viscosity or friction that is negative or not finite.
+    pub fn resisted_mobility(
+        &self,
+        below: Stratum,
+        above: Stratum,
+        [cortex, friction]: [f64; 2],
+    ) -> Result<[[f64; 2]; 2], InterfaceError> {
         let k = positive("the wave number", self.wave_number)?;
+        not_negative("the viscosity of the cortex", cortex)?;
+        not_negative("the friction", friction)?;
         let ([[a, b], [_, d]], [[e, f], [_, h]]) = (below.resistance(k)?, above.resistance(k)?);
-        let [xx, xy, yy] = [a + e, b - f, d + h];
+        let [xx, xy, yy] = [a + e + cortex * k * k + friction, b - f, d + h + friction];
         let determinant = xx * yy - xy * xy;
         let off = -xy / determinant;
         Ok([[yy / determinant, off], [off, xx / determinant]])
@@ -137,7 +171,21 @@ impl FlatInterface {
     /// Returns the errors of [`FlatInterface::mobility`]; a concentration that is not positive, a negative diffusivity,
     /// numbers that are not finite.
     pub fn growth_matrix(&self, below: Stratum, above: Stratum) -> Result<[[f64; 2]; 2], InterfaceError> {
-        let [[xx, xy], [_, yy]] = self.mobility(below, above)?;
+        self.resisted_growth_matrix(below, above, [0.0; 2])
+    }
+
+    /// Returns the matrix of [`FlatInterface::growth_matrix`] of an interface that resists its motion, with the
+    /// mobility of [`FlatInterface::resisted_mobility`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`FlatInterface::growth_matrix`] and [`FlatInterface::resisted_mobility`].
+    pub fn resisted_growth_matrix(
+        &self,
+        below: Stratum,
+        above: Stratum,
+        resistance: [f64; 2],
+    ) -> Result<[[f64; 2]; 2], InterfaceError> {
+        let [[xx, xy], [_, yy]] = self.resisted_mobility(below, above, resistance)?;
         let Self { wave_number: k, tension, activity, concentration: c0, diffusivity } = *self;
         positive("the mean concentration", c0)?;
         not_negative("the diffusivity", diffusivity)?;

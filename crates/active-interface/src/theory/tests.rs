@@ -277,3 +277,40 @@ fn spheres_have_the_rates_of_the_reference() {
     }
     assert!(tube_drag(0.7).is_err() && sphere(1.0, 1.0, -1.0).growth_matrix(0).is_err());
 }
+
+/// Growth matrices beside walls with slip, from the film's matrix by computer algebra (closed form).
+#[test]
+fn flat_interfaces_beside_walls_with_slip() {
+    let cases = [
+        (
+            1.0,
+            0.6,
+            1.4,
+            [100.0, 100.0],
+            0.1,
+            [0.042_890_821_951_4, -3.405_553_905_33, 3.095_958_095_76e-4, -0.029_958_780_652],
+        ),
+        (
+            2.0,
+            0.4,
+            1.1,
+            [50.0, 100.0],
+            0.3,
+            [0.108_231_341_051, -26.388_948_112_8, 5.997_488_207_45e-4, -0.267_238_268_891],
+        ),
+    ];
+    for (wave_number, below, above, [low, high], slip, expected) in cases {
+        let interface =
+            FlatInterface { wave_number, tension: 110.0, activity: -1.0, concentration: 100.0, diffusivity: 0.1 };
+        let wall = |viscosity, thickness| Stratum { viscosity, end: StratumEnd::SlipWall { thickness, slip } };
+        let [[cc, ch], [hc, hh]] = interface.growth_matrix(wall(low, below), wall(high, above)).unwrap();
+        for (found, expected) in [cc, ch, hc, hh].into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
+        }
+        let stuck = |thickness, end: fn(f64) -> StratumEnd| Stratum { viscosity: high, end: end(thickness) };
+        let no_slip = interface.mobility(stuck(below, |thickness| StratumEnd::Wall { thickness }), wall(high, above));
+        let zero = interface
+            .mobility(stuck(below, |thickness| StratumEnd::SlipWall { thickness, slip: 0.0 }), wall(high, above));
+        assert_eq!(no_slip.unwrap(), zero.unwrap());
+    }
+}

@@ -9,7 +9,13 @@ fn forces_dissipate_the_power_of_the_stress_and_are_symmetric() {
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| Vec2::new(1.2 * s.x + 0.3 * s.y, 0.9 * s.y)).collect();
     let mut damping = Damping::new(&mesh, 3.0);
     let mut power = |one: &dyn Fn(Vec2) -> Vec2, other: &dyn Fn(Vec2) -> Vec2| {
-        let forces = damping.forces(&positions, positions.iter().map(|x| one(*x)).enumerate());
+        let mut stresses = vec![0.0; damping.stresses.len()];
+        let mut compliances = stresses.clone();
+        damping.update(&positions);
+        damping.write_rates(&positions, positions.iter().map(|x| one(*x)).enumerate(), &mut stresses);
+        damping.write_compliances(&mut compliances);
+        stresses.iter_mut().zip(compliances).for_each(|(stress, compliance)| *stress /= compliance);
+        let forces = damping.forces(&positions, &stresses);
         -forces.iter().zip(&positions).map(|(force, x)| force.dot(other(*x))).sum::<f64>()
     };
     let area = mesh.area() * 1.2 * 0.9;

@@ -48,6 +48,9 @@ impl Body for Solid {
 
     fn write_forces(&mut self, _view: &FluidView, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
+        if let Some(damping) = &mut self.damping {
+            damping.update(&self.positions);
+        }
         if let Some(spreading) = &mut self.spreading {
             forces.fill(Vec2::ZERO);
             spreading.add_forces(&self.forces, forces);
@@ -222,7 +225,12 @@ impl Body for Solid {
         });
         let active = self.bonds.iter().flat_map(Bonds::properties);
         let damping = self.damping.iter().map(|damping| ("its viscosity above that of the fluid", damping.viscosity()));
-        let properties = properties.into_iter().chain(surface).chain(relaxing).chain(active).chain(damping);
+        let weight = self.body_force.iter().flat_map(|force| {
+            let [x, y] = force.density().to_array();
+            [("the body force along x", x), ("the body force along y", y)]
+        });
+        let properties =
+            properties.into_iter().chain(surface).chain(relaxing).chain(active).chain(damping).chain(weight);
         let spread =
             self.spreading.as_ref().map(|spreading| ("the number of markers", spreading.marker_count() as f64));
         properties.chain(spread).map(|(name, value)| (name.to_owned(), value)).collect()
@@ -236,6 +244,7 @@ impl Body for Solid {
         let first = reals.len();
         reals.resize(first + self.state_len() - 2 * self.free.len(), 0.0);
         self.write_internal(&mut reals[first..]);
+        reals.extend_from_slice(Viscous::stresses(self));
         let mut counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
         counts.extend(self.bonds.iter().map(Bonds::steps));
         SavedState { reals, counts }
@@ -253,9 +262,12 @@ impl Body for Solid {
         same_length("a saved solid", self.positions.len(), points as usize)?;
         let split = 2 * self.positions.len();
         let inner = self.state_len() - 2 * self.free.len();
-        let (positions, numbers) = saved.reals_of(split + 3 * self.tethers.len() + inner)?.split_at(split);
-        let (numbers, inner) = numbers.split_at(3 * self.tethers.len());
+        let all = split + 3 * self.tethers.len() + inner + self.stress_count();
+        let (positions, numbers) = saved.reals_of(all)?.split_at(split);
+        let (numbers, rest) = numbers.split_at(3 * self.tethers.len());
+        let (inner, stresses) = rest.split_at(inner);
         self.read_internal(inner);
+        self.set_stresses(stresses);
         for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
             *place = Vec2::new(pair[0], pair[1]);
         }
@@ -295,16 +307,53 @@ impl Body for Solid {
     }
 }
 
+/// With the stresses xx, yy and xy of each triangle (force per length).
 impl Viscous for Solid {
-    fn add_viscous_forces(&mut self, velocities: &[Vec2], forces: &mut [Vec2]) {
+    fn stress_count(&self) -> usize {
+        Viscous::stresses(self).len()
+    }
+
+    fn write_rates(&mut self, velocities: &[Vec2], rates: &mut [f64]) {
         let Some(damping) = &mut self.damping else { return };
         if let Some(spreading) = &mut self.spreading {
             let moving = spreading.velocities(velocities).iter().copied().enumerate();
-            let on_points = damping.forces(&self.positions, moving);
+            return damping.write_rates(&self.positions, moving, rates);
+        }
+        let moving = self.free.iter().copied().zip(velocities.iter().copied());
+        damping.write_rates(&self.positions, moving, rates);
+    }
+
+    fn add_stress_forces(&mut self, stresses: &[f64], forces: &mut [Vec2]) {
+        let Some(damping) = &mut self.damping else { return };
+        let on_points = damping.forces(&self.positions, stresses);
+        if let Some(spreading) = &mut self.spreading {
             return spreading.add_forces(on_points, forces);
         }
-        let on_points = damping.forces(&self.positions, self.free.iter().copied().zip(velocities.iter().copied()));
         forces.iter_mut().zip(&self.free).for_each(|(force, &point)| *force += on_points[point]);
+    }
+
+    fn write_compliances(&self, compliances: &mut [f64]) {
+        if let Some(damping) = &self.damping {
+            damping.write_compliances(compliances);
+        }
+    }
+
+    /// By the compliances alone: the number of iterations then grows with the ratio of viscosities, and not with the
+    /// number of triangles.
+    fn precondition(&mut self, rates: &mut [f64]) {
+        if let Some(damping) = &self.damping {
+            damping.divide_by_compliances(rates);
+        }
+    }
+
+    fn stresses(&self) -> &[f64] {
+        self.damping.as_ref().map_or(&[], |damping| &damping.stresses)
+    }
+
+    fn set_stresses(&mut self, stresses: &[f64]) {
+        if let Some(damping) = &mut self.damping {
+            damping.stresses.copy_from_slice(stresses);
+        }
     }
 }
 

@@ -13,5 +13,6 @@ mod refusals;
 mod relaxation;
 mod sampling;
 mod scenes;
+mod slip;
 mod steady_state;
 mod symmetries;

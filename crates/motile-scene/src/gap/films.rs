@@ -151,6 +151,19 @@ impl Films {
         let (time, corner) = times.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some((time, surfaces.firsts.partition_point(|&first| first <= corner).checked_sub(1)?))
     }
+
+    /// Returns the narrowest film between fluid interfaces (length), if there is one.
+    pub(crate) fn thinnest_between_fluids(&self, surfaces: &Surfaces) -> Option<f64> {
+        let holds_fluid = |corner: usize| {
+            let body = surfaces.firsts.partition_point(|&first| first <= corner).checked_sub(1);
+            body.is_some_and(|body| surfaces.kinds[body].holds_fluid())
+        };
+        self.contacts().fold(None, |least: Option<f64>, contact| {
+            let narrower = least.is_none_or(|least| contact.gap < least);
+            let between = |[other, _]: [usize; 2]| holds_fluid(other) && holds_fluid(contact.corner);
+            if narrower && contact.ends.is_some_and(between) { Some(contact.gap) } else { least }
+        })
+    }
 }
 
 impl Piece {

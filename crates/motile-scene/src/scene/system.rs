@@ -13,7 +13,7 @@ mod state;
 
 use crate::{
     Body, Handle, Hydrodynamics, Markers, SceneError,
-    body::{StepInfo, StepLimit},
+    body::{StepCause, StepInfo, StepLimit},
     gap::Boundary,
     hydrodynamics::FlowWork,
     saved_state::{Record, SavedState},
@@ -108,6 +108,7 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
         let handle = self.bodies.push(body);
         self.clock.first_step = true;
+        self.bodies.find_timed(self.clock.time);
         self.forget_flow();
         self.record_wall_gap();
         handle
@@ -134,6 +135,10 @@ impl<H: Hydrodynamics> System<H> {
     /// Records that a step has ended and is accepted.
     pub(crate) fn commit(&mut self, dt: f64) {
         self.clock.advance(dt);
+        if self.bodies.timed {
+            // As a run that is resumed here.
+            self.follow_clock();
+        }
         self.bodies.list.iter_mut().for_each(|body| body.keep_step());
         self.record_wall_gap();
         self.record_gap();
@@ -247,6 +252,7 @@ impl<H: Hydrodynamics> System<H> {
         // to the tolerance of its iterations, so those that were found take their place, and so does what the next
         // iteration starts from.
         self.hydrodynamics.rewind();
+        let stresses = Resistance::save(&mut self.bodies);
         self.compute_flow()?;
         let here = &self.bodies.markers.velocities;
         let fastest = here.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
@@ -255,6 +261,7 @@ impl<H: Hydrodynamics> System<H> {
             self.hydrodynamics.load(flow);
             self.bodies.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
             self.report = report;
+            self.resistance.restore(&mut self.bodies, &stresses);
         }
         self.take_films();
         Ok(())
@@ -300,8 +307,12 @@ impl<H: Hydrodynamics> System<H> {
     /// Reports to `each` all bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn each_limit<'a>(&'a self, each: &mut dyn FnMut(StepLimit, &'a str)) {
         let view = self.hydrodynamics.fluid_view();
+        let part = self.contacts.stabilised_part(&view);
         for (body, &outside) in self.bodies.list.iter().zip(&self.bodies.viscosity_around) {
-            body.step_limits(&view.in_fluid(outside), &mut |limit| each(limit, body.name()));
+            body.step_limits(&view.in_fluid(outside), &mut |limit| {
+                let stabilised = matches!(limit.cause, StepCause::Stabilised { .. });
+                each(if stabilised { StepLimit { dt: part * limit.dt, ..limit } } else { limit }, body.name());
+            });
         }
         self.contacts.each_limit(&self.bodies, view.viscosity, each);
     }

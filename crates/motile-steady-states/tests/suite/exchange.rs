@@ -152,6 +152,13 @@ fn what_cannot_be_solved_for_is_refused() {
         assert!(text.contains(word), "{text}");
     };
     refused(&|droplet| droplet.bending = 0.1, "bending");
+    let gradient = Some(GradientSetup { slope: [0.1, 0.0], origin: [0.0; 2] });
+    let entry = FieldEntry { gradient, ..FieldEntry::default() };
+    refused(&|droplet| droplet.fields.tension = vec![entry.clone()], "fields that are fixed in the laboratory");
+    let noisy = |droplet: &mut DropletSetup| {
+        droplet.particles.as_mut().unwrap().noise = Some(NoiseSetup::default());
+    };
+    refused(&noisy, "noise on the particles");
     let diffusing = |change: fn(&mut ExchangeSetup)| {
         move |droplet: &mut DropletSetup| {
             let exchange = droplet.particles.as_mut().and_then(|particles| particles.exchange.as_mut()).unwrap();

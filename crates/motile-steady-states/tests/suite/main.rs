@@ -1,6 +1,8 @@
 //! Steady states, their growth rates and branches against exact values and runs.
 
 mod branches;
+mod cortex;
+mod cortex_runs;
 mod cycles;
 mod exchange;
 mod imposed_flows;
@@ -8,4 +10,5 @@ mod linear_theory;
 mod nucleus;
 mod reference;
 mod revolution;
+mod units;
 mod verdicts;

@@ -9,7 +9,7 @@ use motile_base::{Region, Vec2, internal::spectrum::is_product, polygon};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
 use motile_interior::{GelInBox, ParticlesInDroplet};
 use motile_scene::{Body, Deformation, Handle, Hydrodynamics, Scene};
-use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesSolver, WallTreatment};
+use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, StokesSolver, WallMotion, WallTreatment};
 
 use super::{
     DropletSetup, DropletShape, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind, Setup, SolidSetup,
@@ -160,7 +160,10 @@ impl Setup {
         let curve = placed(curve, turned);
         // The energy of bending is no polynomial of the shape either.
         let count = if droplet.bending > 0.0 { Self::membrane_count } else { Self::marker_count };
-        let markers = self.outline(&curve, count(self, &curve, &droplet.name)?)?;
+        let count = count(self, &curve, &droplet.name)?;
+        // Fields are known as precisely as imposed flows.
+        let markers =
+            if droplet.fields.is_none() { self.outline(&curve, count)? } else { self.true_outline(&curve, count)? };
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -195,6 +198,16 @@ impl Setup {
         let made = made.with_area_constraint(droplet.area_constraint);
         let made = if self.region.is_axisymmetric() { made.axisymmetric()? } else { made };
         let made = made.with_bending(droplet.bending, droplet.reference_curvature)?;
+        let made = match droplet.fields.is_none() {
+            true => made,
+            false => made.with_fields(droplet.fields.fields(self.region.periods())?)?,
+        };
+        let made = match droplet.particles.and_then(|particles| particles.noise) {
+            Some(noise) => made.with_noise(noise.noise()?)?,
+            None => made,
+        };
+        let made = made.with_cortex(droplet.cortex)?.with_friction(droplet.friction)?;
+        let made = made.with_body_force(droplet.body_force.into())?.with_force(droplet.force.into())?;
         Ok(match droplet.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
@@ -307,12 +320,23 @@ impl Setup {
     /// Returns a solver on a grid; boxed, so that methods are compiled once, not once for each kind.
     fn streamfunction(&self, spacing: f64) -> Result<Box<dyn StokesSolver>, SetupError> {
         let [nx, ny] = self.cells(spacing, self.region.lengths())?;
-        if let Region::Channel { drive, .. } = self.region {
+        if let Some(drive) = self.region.drive() {
             let mut solver = ChannelStokes::new(Grid::channel(nx, ny, spacing)?, self.viscosity)?;
             solver.set_drive(drive)?;
+            let slip = self.region.slip();
+            if slip != [0.0; 2] {
+                solver.set_walls(WallMotion::AT_REST.with_slip(slip)?)?;
+            }
+            if self.friction != 0.0 {
+                solver.set_friction(self.friction)?;
+            }
             Ok(Box::new(solver))
         } else {
-            Ok(Box::new(PeriodicStokes::new(Grid::periodic(nx, ny, spacing)?, self.viscosity)?))
+            let mut solver = PeriodicStokes::new(Grid::periodic(nx, ny, spacing)?, self.viscosity)?;
+            if self.friction != 0.0 {
+                solver.set_friction(self.friction)?;
+            }
+            Ok(Box::new(solver))
         }
     }
 
@@ -371,7 +395,9 @@ impl Setup {
         let beside = sides().map(|side| if side < 0.0 { y - side } else { side - y });
         let (room, to) = match (beside.reduce(f64::min), self.region) {
             (Some(room), _) => (room, Squeezed::Stadium),
-            (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), Squeezed::Ellipse),
+            (None, Region::Channel { .. } | Region::SlipChannel { .. }) if exact => {
+                (0.5 * width - y.abs(), Squeezed::Ellipse)
+            }
             (None, Region::Tube { radius, shape, .. }) => {
                 let half = self.region.half_length().unwrap_or(f64::INFINITY);
                 (shape.radius(radius, half, droplet.centre[0]), Squeezed::Ellipse)

@@ -7,7 +7,7 @@ use motile_boundary_integrals::Settings;
 use motile_scene::{StepSize, integrator::IntegratorKind};
 
 use super::{
-    DropletSetup, GridMethod, IntegralMethod, LayersMethod, Method, MethodKind, Setup,
+    DropletSetup, GridMethod, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind, Setup,
     body::BodySetup,
     checked::{Checked, short},
 };
@@ -35,6 +35,7 @@ impl Setup {
     pub fn check(&self) -> Result<(), SetupError> {
         let top = Checked { place: "" };
         top.positive("viscosity", self.viscosity)?;
+        self.check_friction()?;
         match self.region {
             Region::Tube { radius, .. } => {
                 top.length("region.tube.radius", radius)?;
@@ -45,9 +46,10 @@ impl Setup {
                 top.length("region.box.lengths[1]", lengths[1])?;
                 self.check_sides(lengths)?;
             }
-            Region::Channel { length, width, drive } => {
+            Region::Channel { length, width, drive } | Region::SlipChannel { length, width, drive, .. } => {
                 top.length("region.channel.length", length)?;
                 top.length("region.channel.width", width)?;
+                self.check_slip()?;
                 let remedy = "the length is less than a hundredth of the width. Use a longer channel";
                 let wide = self.method.kind() == MethodKind::Integral && width > WIDEST * length;
                 top.require(!wide, "region.channel.length", length, remedy)?;
@@ -112,27 +114,82 @@ impl Setup {
         self.check_correction()
     }
 
+    /// Refuses friction of the fluid that is out of its range, or that the method does not have.
+    fn check_friction(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        top.not_negative("friction", self.friction)?;
+        if self.friction == 0.0 {
+            return Ok(());
+        }
+        match self.method {
+            Method::Grid(GridMethod { solver: GridSolver::Streamfunction, .. }) => Ok(()),
+            Method::Grid(_) => {
+                let remedy = "it has no friction of the fluid. Use \"streamfunction\", or leave the friction out";
+                Checked { place: "method.grid" }.refuse("solver", &"projection", remedy)
+            }
+            _ => self.computed("friction of the fluid, because its Green's functions have none", &[MethodKind::Grid]),
+        }
+    }
+
+    /// Refuses slip lengths out of their range, and slip where it is not computed.
+    fn check_slip(&self) -> Result<(), SetupError> {
+        let slip = self.region.slip();
+        if slip == [0.0; 2] {
+            return Ok(());
+        }
+        let checked = Checked { place: "region.channel" };
+        for (number, length) in slip.into_iter().enumerate() {
+            checked.not_negative(&format!("slip[{number}]"), length)?;
+        }
+        self.computed("walls with slip", &[MethodKind::Integral, MethodKind::Grid])?;
+        if let Method::Grid(GridMethod { solver: GridSolver::Projection | GridSolver::LaggedProjection, .. }) =
+            self.method
+        {
+            let remedy = "it has no walls with slip, because its sines vanish on the walls. Use \"streamfunction\"";
+            return Checked { place: "method.grid" }.refuse("solver", &"projection", remedy);
+        }
+        let remedy = "solids next to a wall would feel it without slip. Set it to 0, or remove the solids";
+        checked.refuse_if(!self.solids.is_empty(), "slip", format!("{slip:?}"), remedy)?;
+        let remedy = "slip exists along straight walls only: behind curved rigid walls the forces that hold the fluid \
+                      would not be those on them. Set it to 0, or remove the walls";
+        checked.refuse_if(!self.walls.is_empty(), "slip", format!("{slip:?}"), remedy)
+    }
+
     /// Refuses forces in the plane that do not add up to zero: nothing holds a fluid that is pushed.
     fn check_balance(&self) -> Result<(), SetupError> {
         if self.region != Region::Plane {
             return Ok(());
         }
         for axis in 0..2 {
-            let forces = || self.rigid_bodies.iter().map(|body| body.force[axis]);
-            let (sum, most) = (forces().sum::<f64>(), forces().map(f64::abs).sum::<f64>());
-            let pushed = forces().rposition(|force| force != 0.0);
+            let bodies = self.droplets.iter().map(|droplet| droplet.force[axis]);
+            let first = self.droplets.len();
+            let all: Vec<f64> = bodies.chain(self.rigid_bodies.iter().map(|body| body.force[axis])).collect();
+            let (sum, most) = (all.iter().sum::<f64>(), all.iter().copied().map(f64::abs).sum::<f64>());
+            let pushed = all.iter().rposition(|force| *force != 0.0);
             if let Some(last) = pushed.filter(|_| sum.abs() > BALANCED * most) {
                 let remedy = format!(
                     "in the plane nothing holds a fluid that is pushed, and the forces on all bodies add up to {}: \
                      set this force to {}, or use a box or a channel",
                     short(sum),
-                    short(self.rigid_bodies[last].force[axis] - sum)
+                    short(all[last] - sum)
                 );
-                let (place, force) = (format!("rigid-bodies[{last}]"), self.rigid_bodies[last].force[axis]);
-                return Checked { place: &place }.refuse("force", &force, remedy);
+                let place = match last.checked_sub(first) {
+                    Some(body) => format!("rigid-bodies[{body}]"),
+                    None => format!("droplets[{last}]"),
+                };
+                return Checked { place: &place }.refuse("force", &all[last], remedy);
             }
         }
         Ok(())
+    }
+
+    /// Refuses a force per area where no speed follows from it.
+    pub(super) fn check_body_force(&self, checked: &Checked<'_>, force: [f64; 2]) -> Result<(), SetupError> {
+        let Some(axis) = force.iter().position(|part| *part != 0.0) else { return Ok(()) };
+        let key = format!("body-force[{axis}]");
+        let remedy = "in the plane nothing holds a fluid that is pushed, so that no speed exists (Stokes' paradox). Use \
+                      a box or a channel";
+        checked.require(self.region != Region::Plane, &key, force[axis], remedy)
     }
 
     /// Refuses a box that is too narrow for the sums over its images.
@@ -185,7 +242,8 @@ impl Setup {
         for (key, count) in planar {
             refuse_if(count > 0, "", key, &count, "these bodies exist in two dimensions only. Remove them")?;
         }
-        for (number, DropletSetup { centre, angle, motion, gel, particles, .. }) in self.droplets.iter().enumerate() {
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            let DropletSetup { centre, angle, motion, gel, particles, body_force, force, .. } = droplet;
             let refuse_if = |wrong: bool, key: &str, value: &dyn std::fmt::Display, remedy: &str| {
                 refuse_if(wrong, &format!("droplets[{number}]"), key, value, remedy)
             };
@@ -193,6 +251,9 @@ impl Setup {
             refuse_if(centre[1] != 0.0, "centre[1]", &centre[1], remedy)?;
             let remedy = "an axisymmetric droplet swims along the x axis. Use 0, or pi for backwards";
             refuse_if(angle.sin().abs() > 1e-12, "angle", angle, remedy)?;
+            let remedy = "a force across the axis would push the droplet off it. Use 0";
+            refuse_if(body_force[1] != 0.0, "body-force[1]", &body_force[1], remedy)?;
+            refuse_if(force[1] != 0.0, "force[1]", &force[1], remedy)?;
             let remedy = "markers that move with the fluid lose their mirror images. Use equidistributed";
             refuse_if(*motion == Motion::WithFluid, "motion", &"with-fluid", remedy)?;
             refuse_if(gel.is_some(), "gel", &"given", "gels exist in two dimensions only. Remove the gel")?;

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use active_interface::{ContractileTension, Curve, Exchange, ExcludedVolume, Flux, InterfaceError, Motion};
+use active_interface::{ContractileTension, Cortex, Curve, Exchange, ExcludedVolume, Flux, InterfaceError, Motion};
 use motile_base::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    GelSetup, MethodKind, Setup,
+    FieldsSetup, GelSetup, Method, MethodKind, NoiseSetup, Setup,
     body::{BodySetup, Planned},
     checked::Checked,
     method::MARKERS,
@@ -44,6 +44,19 @@ pub struct DropletSetup {
     pub bending: f64,
     /// Curvature kappa0 (1/length; positive for a circle) at which bending is at rest.
     pub reference_curvature: f64,
+    /// Viscosity of the cortex, which resists stretching of the interface.
+    pub cortex: Cortex,
+    /// Friction xi of the interface with a substrate, of the force `-xi v` per length (force times time per length
+    /// squared), v the velocity of the fluid on it.
+    pub friction: f64,
+    /// Force on the fluid inside per area (force per length squared), in three dimensions per volume. For example, it is
+    /// the weight: density minus density of the fluid around it, times g. In the plane it is refused, because nothing
+    /// holds a fluid that is pushed.
+    #[doc(alias("gravity", "buoyancy", "sedimentation"))]
+    pub body_force: [f64; 2],
+    /// Force on the fluid inside in all (force), uniform over its area. It adds to `body_force`. In the plane, the
+    /// forces on all bodies have to add up to zero.
+    pub force: [f64; 2],
     /// Motion of the markers along the interface; across it they move with the fluid.
     pub motion: Motion,
     /// Area restored to the initial one after each step.
@@ -56,6 +69,9 @@ pub struct DropletSetup {
     /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
     #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
+    /// Fields in the laboratory that it feels.
+    #[serde(skip_serializing_if = "FieldsSetup::is_none")]
+    pub fields: FieldsSetup,
     /// The gel that fills it, if there is one.
     pub gel: Option<GelSetup>,
 }
@@ -71,11 +87,16 @@ impl Default for DropletSetup {
             tension: 10.0,
             bending: 0.0,
             reference_curvature: 0.0,
+            cortex: Cortex::default(),
+            friction: 0.0,
+            body_force: [0.0; 2],
+            force: [0.0; 2],
             motion: Motion::default(),
             area_constraint: false,
             shape: DropletShape::default(),
             squeezed: false,
             particles: Some(Particles::default()),
+            fields: FieldsSetup::default(),
             gel: None,
         }
     }
@@ -171,6 +192,8 @@ pub struct Particles {
     pub flux: Flux,
     /// Their exchange with the inside of the droplet; `None` for particles that stay on the interface.
     pub exchange: Option<ExchangeSetup>,
+    /// Noise on them; `None` for none.
+    pub noise: Option<NoiseSetup>,
 }
 
 impl Default for Particles {
@@ -183,6 +206,7 @@ impl Default for Particles {
             start: Start::Polarised,
             flux: Flux::Weno5,
             exchange: None,
+            noise: None,
         }
     }
 }
@@ -211,6 +235,7 @@ impl Particles {
             }
             other => other.check().map_err(|error| SetupError::from(error).of("particles.excluded-volume"))?,
         }
+        self.noise.map_or(Ok(()), |noise| noise.check(checked, self))?;
         let Start::Perturbed { amplitude, .. } = self.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
         checked.require(holds, key, amplitude, "use a number from 0 to below 1")
@@ -401,7 +426,13 @@ impl BodySetup for DropletSetup {
     }
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
-        Ok(Planned::of(setup.droplet(self)?))
+        let made = setup.droplet(self)?;
+        // Droplets of the same seed have noise of their own.
+        let number = setup.droplets.iter().position(|droplet| std::ptr::eq(droplet, self)).unwrap_or(0);
+        Ok(Planned::of(match made.noise() {
+            Some(noise) => made.with_noise(noise.with_stream(number as u64))?,
+            None => made,
+        }))
     }
 
     fn check(&self, checked: &Checked<'_>, setup: &Setup) -> Result<(), SetupError> {
@@ -411,10 +442,23 @@ impl BodySetup for DropletSetup {
         checked.not_negative("tension", self.tension)?;
         checked.not_negative("bending", self.bending)?;
         checked.finite("reference-curvature", self.reference_curvature)?;
+        checked.all_finite("body-force", &self.body_force)?;
+        checked.all_finite("force", &self.force)?;
+        setup.check_body_force(checked, self.body_force)?;
         let remedy = "bending stiffness exists in two dimensions only. Remove the key";
         let plane = self.bending == 0.0 || !setup.region.is_axisymmetric();
         checked.require(plane, "bending", self.bending, remedy)?;
+        check_resistance(self.cortex, self.friction, self.particles.is_some(), checked, setup)?;
         let carried = self.motion == Motion::WithFluid;
+        if !self.cortex.is_none()
+            && let Method::Grid(grid) = &setup.method
+        {
+            let remedy = "a cortex needs the mobility correction on a grid, without it speeds are off by several per \
+                          cent. Use true, or the method layers or integral";
+            Checked { place: "method.grid" }.refuse_if(!grid.corrected, "corrected", false, remedy)?;
+            let remedy = "a cortex on a grid needs equally spaced markers. Use equidistributed";
+            checked.refuse_if(carried, "motion", "with-fluid", remedy)?;
+        }
         let remedy = "bending needs a fixed number of markers. Use equidistributed";
         checked.refuse_if(self.bending > 0.0 && carried, "motion", "with-fluid", remedy)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
@@ -422,6 +466,7 @@ impl BodySetup for DropletSetup {
         }
         self.shape.check(checked, "shape")?;
         self.gel.map_or(Ok(()), |gel| gel.check(checked, self))?;
+        self.fields.check(checked, self.particles.as_ref(), setup)?;
         let Some(particles) = &self.particles else { return Ok(()) };
         particles.check(checked)?;
         if let Some(ExchangeSetup { binding, unbinding, number_inside, diffusion_inside, spacing_inside }) =
@@ -468,6 +513,33 @@ impl DropletShape {
             Self::Points(points) => check_points(points, checked, &key("points")),
         }
     }
+}
+
+/// Refuses a cortex and friction of an interface, with particles or without, that cannot be.
+pub(super) fn check_resistance(
+    cortex: Cortex,
+    friction: f64,
+    carries: bool,
+    checked: &Checked<'_>,
+    setup: &Setup,
+) -> Result<(), SetupError> {
+    let Cortex { viscosity, per_concentration, shear_viscosity, inextensible } = cortex;
+    checked.not_negative("cortex.viscosity", viscosity)?;
+    checked.not_negative("cortex.per-concentration", per_concentration)?;
+    checked.not_negative("cortex.shear-viscosity", shear_viscosity)?;
+    checked.not_negative("friction", friction)?;
+    let remedy = "there are no particles on this interface. Use 0, or set the viscosity";
+    checked.require(carries || per_concentration == 0.0, "cortex.per-concentration", per_concentration, remedy)?;
+    let plane = !setup.region.is_axisymmetric();
+    let remedy = "a membrane that does not stretch exists in two dimensions only. Remove the key";
+    checked.refuse_if(!plane && inextensible, "cortex.inextensible", true, remedy)?;
+    let remedy = "on a grid, a membrane that does not stretch is not resolved. Use the method integral or layers";
+    let grid = matches!(setup.method, Method::Grid(_));
+    checked.refuse_if(grid && inextensible, "cortex.inextensible", true, remedy)?;
+    let remedy = "a line in two dimensions has no shear along itself. Remove the key, or use the region space or tube";
+    checked.require(!plane || shear_viscosity == 0.0, "cortex.shear-viscosity", shear_viscosity, remedy)?;
+    let remedy = "friction with a substrate exists in two dimensions only. Remove the key";
+    checked.require(plane || friction == 0.0, "friction", friction, remedy)
 }
 
 /// Refuses points of a shape under that key.

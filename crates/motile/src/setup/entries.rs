@@ -15,6 +15,9 @@ impl Setup {
     fn kept(&self) -> Self {
         let region = match self.region {
             Region::Channel { length, width, drive } => Region::Channel { length, width, drive: zero_drive(drive) },
+            Region::SlipChannel { length, width, drive, slip } => {
+                Region::SlipChannel { length, width, drive: zero_drive(drive), slip }
+            }
             Region::Tube { radius, shape, drive, length } => {
                 Region::Tube { radius, shape, drive: zero_drive(drive), length }
             }

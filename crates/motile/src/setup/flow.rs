@@ -83,8 +83,12 @@ impl FlowSetup {
         if let Some(PoiseuilleSetup { speed, half_width }) = self.poiseuille {
             flow = flow + ImposedFlow::poiseuille(speed, half_width).map_err(FlowError::from)?;
         }
-        if let (Some(walls), &Region::Channel { width, .. }) = (self.wall_velocity, region) {
-            flow = flow + ImposedFlow::couette(walls, width);
+        match (self.wall_velocity, *region) {
+            (Some(walls), Region::Channel { width, .. }) => flow = flow + ImposedFlow::couette(walls, width),
+            (Some(walls), Region::SlipChannel { width, slip, .. }) => {
+                flow = flow + ImposedFlow::couette_with_slip(walls, width, slip);
+            }
+            _ => {}
         }
         Ok(flow)
     }
@@ -116,16 +120,19 @@ impl FlowSetup {
             (Region::Box { .. }, _) => {
                 Some("the images of a box can be sheared along x only. Use shear, or the region \"plane\"".to_owned())
             }
-            (Region::Channel { width, .. }, "shear") => {
-                let slide = 0.5 * value * width;
-                let [below, above] = [-slide, slide].map(short);
+            (Region::Channel { width, .. } | Region::SlipChannel { width, .. }, "shear") => {
+                let [below, above] = setup.region.slip().map(|slip| value * (0.5 * width + slip));
+                let [below, above] = [-below, above].map(short);
                 Some(format!("the walls of a channel hold the fluid. Use wall-velocity = [{below}, {above}] instead"))
+            }
+            (Region::SlipChannel { .. }, "poiseuille.speed") => {
+                Some("use a flux or a gradient as region.channel.drive in its place".to_owned())
             }
             (Region::Channel { width, .. }, "poiseuille.speed") => {
                 let flux = short(2.0 / 3.0 * value * width);
                 Some(format!("use region.channel.drive = {{ flux = {flux} }} in its place"))
             }
-            (Region::Channel { .. }, _) => Some(
+            (Region::Channel { .. } | Region::SlipChannel { .. }, _) => Some(
                 "this flow does not fit between the straight walls of a channel. Use the region \"plane\"".to_owned(),
             ),
             _ => Some(IN_THE_PLANE.to_owned()),
@@ -134,7 +141,7 @@ impl FlowSetup {
         for (key, value) in linear.into_iter().filter(|(_, value)| *value != 0.0).chain(poiseuille) {
             remedy(key, value).map_or(Ok(()), |remedy| checked.refuse(key, &value, remedy))?;
         }
-        if let (Some([below, above]), false) = (self.wall_velocity, matches!(setup.region, Region::Channel { .. })) {
+        if let (Some([below, above]), None) = (self.wall_velocity, setup.region.drive()) {
             let remedy = "only a channel has walls that can slide. Use shear instead, or the region channel";
             return checked.refuse("wall-velocity", &format!("[{below}, {above}]"), remedy);
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, ActiveInterface, Motion};
-use motile_base::{Region, internal::decimals, polygon::contains};
+use motile_base::{internal::decimals, polygon::contains};
 use motile_interior::{Anchoring, DirectorStart, DiscMesh, GelInDroplet, GelInLayer, GelMaterial};
 use motile_scene::Handle;
 use serde::{Deserialize, Serialize};
@@ -103,7 +103,7 @@ impl GelSetup {
         let remedy = "a gel in a layer has the viscosity of the fluid on both sides. Remove the key";
         checked.require(interface.viscosity.is_none(), "viscosity", interface.viscosity.unwrap_or(0.0), remedy)?;
         let remedy = "a gel lies between the interface and a rigid wall. Use a channel";
-        let channel = matches!(setup.region, Region::Channel { .. });
+        let channel = setup.region.drive().is_some();
         Checked { place: "" }.refuse_if(!channel, "region", "box", remedy)
     }
 }

@@ -2,16 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveInterface, InitialConcentration, InterfaceError, Motion, line_through, wave};
+use active_interface::{ActiveInterface, Cortex, InitialConcentration, InterfaceError, Motion, line_through, wave};
 use motile_base::{Drive, Region, Vec2};
 use motile_scene::{Body, Scene, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AnyFlow, GelSetup, MethodKind, Particles, Setup, Start,
+    AnyFlow, FieldsSetup, GelSetup, MethodKind, Particles, Setup, Start,
     body::{BodySetup, Planned},
     checked::Checked,
-    droplet::check_points,
+    droplet::{check_points, check_resistance},
     strays::points_along,
 };
 use crate::SetupError;
@@ -54,6 +54,11 @@ pub struct InterfaceSetup {
     pub viscosity: Option<f64>,
     /// Tension gamma0 of the interface without particles (force).
     pub tension: f64,
+    /// Viscosity of the cortex, which resists stretching of the interface.
+    pub cortex: Cortex,
+    /// Friction xi of the interface with a substrate, of the force `-xi v` per length (force times time per length
+    /// squared), v the velocity of the fluid on it.
+    pub friction: f64,
     /// Motion of the markers along the interface; across it they move with the fluid.
     pub motion: Motion,
     /// Area between the interface and a horizontal line restored to the initial one after each step.
@@ -67,10 +72,16 @@ pub struct InterfaceSetup {
     /// start is `(1 - cos(2 pi x/L)) c0`, L the length of the region.
     #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
+    /// Fields in the laboratory that it feels.
+    #[serde(skip_serializing_if = "FieldsSetup::is_none")]
+    pub fields: FieldsSetup,
     /// Active polar gel between the interface and the rigid wall on its inside, with the method
     /// [`crate::setup::Method::Layers`]; `None` for fluid.
     pub gel: Option<GelSetup>,
 }
+
+/// Number of the first stream of noise of interfaces.
+const INTERFACES: u64 = 1 << 32;
 
 /// Elasticity of an interface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -124,11 +135,14 @@ impl Default for InterfaceSetup {
             inside: Side::default(),
             viscosity: None,
             tension: 10.0,
+            cortex: Cortex::default(),
+            friction: 0.0,
             motion: Motion::default(),
             area_constraint: true,
             shape: InterfaceShape::default(),
             elasticity: None,
             particles: Some(Particles::default()),
+            fields: FieldsSetup::default(),
             gel: None,
         }
     }
@@ -199,6 +213,15 @@ impl Setup {
         if let Some(ElasticitySetup { stretching, bending }) = interface.elasticity {
             made = made.with_elasticity(stretching, bending)?;
         }
+        if !interface.fields.is_none() {
+            made = made.with_fields(interface.fields.fields(self.region.periods())?)?;
+        }
+        if let Some(noise) = interface.particles.and_then(|particles| particles.noise) {
+            let number = self.interfaces.iter().position(|other| std::ptr::eq(other, interface)).unwrap_or(0);
+            // Beyond all droplets.
+            made = made.with_noise(noise.noise()?.with_stream(INTERFACES + number as u64))?;
+        }
+        let made = made.with_cortex(interface.cortex)?.with_friction(interface.friction)?;
         Ok(match interface.viscosity {
             Some(inside) => made.with_viscosity_inside(inside)?,
             None => made,
@@ -224,7 +247,7 @@ impl BodySetup for InterfaceSetup {
 
     fn plan<'a>(&'a self, setup: &'a Setup) -> Result<Planned<'a>, SetupError> {
         let body = setup.interface(self)?;
-        if let Region::Channel { length, width, .. } = setup.region
+        if let Region::Channel { length, width, .. } | Region::SlipChannel { length, width, .. } = setup.region
             && body.markers().iter().any(|marker| marker.y.abs() >= 0.5 * width)
         {
             return Err(SetupError::NoRoom { length, width, hint: String::new() });
@@ -256,6 +279,7 @@ impl BodySetup for InterfaceSetup {
             }
         }
         checked.not_negative("tension", self.tension)?;
+        check_resistance(self.cortex, self.friction, self.particles.is_some(), checked, setup)?;
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
@@ -274,6 +298,13 @@ impl BodySetup for InterfaceSetup {
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
         }
         self.gel.map_or(Ok(()), |gel| gel.check_in_layer(checked, self, setup))?;
+        self.fields.check(checked, self.particles.as_ref(), setup)?;
+        for (name, entries) in [("tension", &self.fields.tension), ("activity", &self.fields.activity)] {
+            let steep = entries.iter().position(|entry| entry.gradient.is_some_and(|it| it.slope[0] != 0.0));
+            let remedy = "a slope along an interface across the period would jump at its end. Use a wave, or 0";
+            let key = format!("fields.{name}[{}].gradient.slope[0]", steep.unwrap_or(0));
+            checked.refuse_if(steep.is_some(), &key, "not zero", remedy)?;
+        }
         let Some(particles) = &self.particles else { return Ok(()) };
         let remedy = "nothing holds the particles that leave it. Use \"none\", or a droplet";
         checked.refuse_if(particles.exchange.is_some(), "particles.exchange", "given", remedy)?;

@@ -22,6 +22,8 @@ pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_ELEMENTS as f64]
 /// | rigid walls of any shape | spectral | | |
 /// | elastic solids | | surface exact, second order | first order, uncorrected |
 /// | gels | | second order | second order, uncorrected first |
+/// | slip along straight walls | spectral | | as droplets, some cells away |
+/// | friction of the fluid | | | second order, uncorrected first |
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]

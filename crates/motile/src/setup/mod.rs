@@ -6,6 +6,7 @@ mod check;
 mod checked;
 mod droplet;
 mod entries;
+mod fields;
 #[cfg(feature = "toml")]
 mod file;
 mod flow;
@@ -27,6 +28,9 @@ mod wall;
 
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Particles, Squeezed, Start};
+pub use fields::{
+    FieldEntry, FieldsSetup, GradientSetup, ModulationSetup, NoiseSetup, SpotSetup, TableSetup, WaveSetup,
+};
 pub use flow::{FlowSetup, PoiseuilleSetup};
 pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
@@ -94,6 +98,12 @@ pub struct Setup {
     /// Viscosity of the exterior fluid (stress times time).
     #[doc(alias("viscosity ratio"))]
     pub viscosity: f64,
+    /// Friction alpha of the fluid with plates below and above it (stress times time per length squared), the same
+    /// inside and outside of droplets. The flow obeys `eta lap(v) - alpha v = grad p`, with `alpha = 12 eta/H^2` for a
+    /// gap of height H (a Hele-Shaw cell). Zero without plates; on a grid only.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[doc(alias("Brinkman", "Hele-Shaw", "screening", "confinement"))]
+    pub friction: f64,
     /// A flow that is imposed from outside.
     #[serde(skip_serializing_if = "FlowSetup::is_none")]
     pub flow: FlowSetup,
@@ -136,6 +146,12 @@ pub struct Setup {
     pub walls: Vec<WallSetup>,
 }
 
+/// Returns true for zero, so that no key is written for it.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 impl Default for Setup {
     /// Describes one droplet of activity -2 in a box of 6 x 6 with viscosity 100, computed by boundary integrals.
     fn default() -> Self {
@@ -144,6 +160,7 @@ impl Default for Setup {
             method: Method::default(),
             tolerance: None,
             viscosity: 100.0,
+            friction: 0.0,
             flow: FlowSetup::default(),
             step: StepSize::default(),
             integrator: IntegratorKind::default(),

@@ -87,7 +87,9 @@ impl Setup {
                 low.x > -half && high.x < half && corners.iter().all(fits)
             }
             Region::Box { .. } => extent.x < APART * length && extent.y < APART * width,
-            Region::Channel { .. } => extent.x < APART * length && high.y.max(-low.y) <= 0.5 * width + slack,
+            Region::Channel { .. } | Region::SlipChannel { .. } => {
+                extent.x < APART * length && high.y.max(-low.y) <= 0.5 * width + slack
+            }
             _ => true,
         };
         if fits {

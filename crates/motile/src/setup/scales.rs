@@ -37,7 +37,12 @@ impl Setup {
         let tensions = tensions.chain(self.interfaces.iter().map(|interface| interface.tension));
         let relaxation = tensions.map(|tension| self.viscosity * length / tension);
         let flow = self.flow.imposed(&self.region).ok().map(|flow| 10.0 / (flow.rate() + flow.bend.abs() * length));
-        let times = diffusion.chain(relaxation).chain(flow);
+        let weight = |droplet: &super::DropletSetup| {
+            let area = std::f64::consts::PI * length * length;
+            let [x, y] = [0, 1].map(|axis| droplet.body_force[axis] + droplet.force[axis] / area);
+            10.0 * self.viscosity / (x.hypot(y) * length)
+        };
+        let times = diffusion.chain(relaxation).chain(flow).chain(self.droplets.iter().map(weight));
         times.map(|time| 0.1 * time).find(|time| time.is_finite() && *time > 0.0).unwrap_or(1.0)
     }
 }

@@ -93,6 +93,12 @@ pub struct SolidSetup {
     /// Viscosity (stress times time) if it is above the viscosity of the exterior fluid: a Kelvin-Voigt solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<f64>,
+    /// Force on it per area at rest (force per length squared), such as its weight in the fluid.
+    #[serde(default)]
+    pub body_force: [f64; 2],
+    /// Force on it in all (force), uniform over its area at rest. It adds to `body_force`.
+    #[serde(default)]
+    pub force: [f64; 2],
     /// Active springs along the edges of its mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub active_springs: Option<ActiveSpringsSetup>,
@@ -290,6 +296,8 @@ impl SolidSetup {
             surface_elasticity: None,
             relaxation: Vec::new(),
             relaxation_time_grading: Grading::default(),
+            body_force: [0.0; 2],
+            force: [0.0; 2],
             viscosity: None,
             active_springs: None,
             tension_grading: Grading::default(),
@@ -362,6 +370,8 @@ impl SolidSetup {
         if let Some(excess) = self.viscosity.map(|own| own - setup.viscosity).filter(|excess| *excess > 0.0) {
             solid = solid.with_excess_viscosity(excess)?;
         }
+        let density = Vec2::from(self.body_force) + Vec2::from(self.force) / solid.mesh().area();
+        solid = solid.with_body_force(density)?;
         if let Some(active) = &self.active_springs {
             solid = solid.with_active_springs_graded(active.law()?, |s| self.tension_grading.factor(s))?;
         }
@@ -578,6 +588,9 @@ impl BodySetup for SolidSetup {
             checked.not_negative("surface_elasticity.stretching", stretching)?;
             checked.not_negative("surface_elasticity.bending", bending)?;
         }
+        checked.all_finite("body-force", &self.body_force)?;
+        checked.all_finite("force", &self.force)?;
+        setup.check_body_force(checked, self.body_force)?;
         let spacing = self.spacing(setup);
         let across = |key: &str, length: f64| {
             let remedy = format!(
@@ -585,7 +598,7 @@ impl BodySetup for SolidSetup {
             );
             checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
         };
-        let no_channel = !matches!(setup.region, Region::Channel { .. });
+        let no_channel = setup.region.drive().is_none();
         let part = self.outline.is_wall() || matches!(self.outline, SolidOutline::Island { .. });
         let remedy = "use a region that is a channel";
         checked.refuse_if(no_channel && part, "outline", "a wall or an island", remedy)?;

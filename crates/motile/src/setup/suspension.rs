@@ -203,7 +203,7 @@ impl Setup {
     /// Refuses suspensions of values out of their range, and if there is no area to fill.
     pub(super) fn check_suspensions(&self) -> Result<(), SetupError> {
         for (number, suspension) in self.suspension.iter().enumerate() {
-            if !matches!(self.region, Region::Box { .. } | Region::Channel { .. }) {
+            if !matches!(self.region, Region::Box { .. } | Region::Channel { .. } | Region::SlipChannel { .. }) {
                 let remedy = "a suspension needs a box or a channel to fill. Use one of these";
                 let region = if self.region == Region::Plane { "plane" } else { "three-dimensional" };
                 return Checked { place: "" }.refuse("region", &region, remedy);

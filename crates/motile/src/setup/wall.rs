@@ -147,7 +147,7 @@ impl WallSetup {
         let remedy = format!("use a number from 1, for equal distances, to {MOST_GRADING}");
         checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
         let region = match setup.region {
-            Region::Channel { .. } => return Ok(()),
+            Region::Channel { .. } | Region::SlipChannel { .. } => return Ok(()),
             Region::Box { .. } => "a box",
             Region::Plane => "the plane",
             _ => "axisymmetric",

@@ -1,11 +1,15 @@
 //! Scenes that are built from descriptions.
 
+mod body_forces;
 mod channel_flux;
+mod cortex;
 #[cfg(feature = "toml")]
 mod dimensions;
+mod friction_and_slip;
 mod gel_in_layer;
 mod living_walls;
 mod revolution;
 mod solid_gap;
 #[cfg(feature = "toml")]
 mod units;
+mod vesicles;

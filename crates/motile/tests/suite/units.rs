@@ -20,6 +20,13 @@ const STEPS: usize = 3;
 /// Scenes for the keys that neither the annotated scene nor the examples have, or have as zero.
 const SCENES: &[&str] = &[
     r#"
+region.channel = { length = 6.0, width = 3.0, drive = { gradient = -0.5 }, slip = [0.1, 0.3] }
+friction = 30.0
+method.grid = { spacing = 0.1 }
+[[droplets]]
+particles = { activity = -3.0 }
+"#,
+    r#"
 region = "plane"
 viscosity = 1.0
 least-gap = 0.001
@@ -31,6 +38,8 @@ tension = 5.0
 bending = 0.1
 reference-curvature = 0.5
 viscosity = 3.0
+cortex.viscosity = 2.0
+friction = 0.5
 area-constraint = true
 shape.modes = { radius = 0.9, cosines = [0.0, 0.1], sines = [0.0, 0.0, 0.05] }
 particles = "none"
@@ -55,6 +64,7 @@ flow.wall-velocity = [-0.3, 0.2]
 [[droplets]]
 centre = [0.2, 0.3]
 tension = 8.0
+cortex = { viscosity = 3.0, per-concentration = 0.25 }
 particles = { activity = -3.0, excluded-volume.step-at = { strength = 9.0, threshold = 220.0, steepness = 15.0 } }
 [[rigid-bodies]]
 centre = [3.5, 0.8]
@@ -134,6 +144,69 @@ elasticity = { stretching = 10.0, bending = 0.1 }
 particles = "none"
 "#,
     r#"
+region.box.lengths = [8.0, 6.0]
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [-1.5, 0.2]
+force = [3.0, -2.0]
+"#,
+    r#"
+region.box.lengths = [8.0, 6.0]
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [-1.5, 0.2]
+[[droplets.fields.activity]]
+uniform = 0.1
+modulation = { mean = 0.5, amplitude = 0.4, frequency = 3.0, phase = 0.2 }
+"#,
+    r#"
+region.box.lengths = [8.0, 6.0]
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [-1.5, 0.2]
+[[droplets.fields.activity]]
+spot = { amplitude = -0.2, centre = [-1.0, 0.5], radius = 1.2 }
+"#,
+    r#"
+region.box.lengths = [8.0, 6.0]
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [-1.5, 0.2]
+[[droplets.fields.tension]]
+uniform = 1.5
+[[droplets.fields.tension]]
+wave = { amplitude = 0.7, wave-vector = [0.7853981633974483, 0.0], frequency = 2.0, phase = 0.3 }
+"#,
+    r#"
+region.box.lengths = [8.0, 6.0]
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [-1.5, 0.2]
+[[droplets.fields.tension]]
+gradient = { slope = [0.5, 0.2], origin = [0.3, 0.1] }
+"#,
+    r#"
+region = "plane"
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+[[droplets.fields.tension]]
+table = { origin = [-2.0, -2.5], spacing = [2.0, 2.5], values = [[1.0, 2.0, 1.5], [0.5, 1.0, 2.0], [1.0, 0.5, 1.0]] }
+"#,
+    r#"
+region = "space"
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+cortex = { viscosity = 20.0, shear-viscosity = 10.0 }
+"#,
+    r#"
+region.channel = { length = 6.0, width = 4.0 }
+method.integral = { nodes = 24, elements = 96 }
+[[interfaces]]
+height = 0.3
+[[interfaces.fields.tension]]
+gradient = { slope = [0.0, 0.4] }
+"#,
+    r#"
 region.box.lengths = [12.0, 12.0]
 method.integral = { nodes = 16, elements = 32 }
 suspension = [{ count = 4, radius = [0.8, 1.0], gap = 0.2, activity.normal = { mean = -2.5, deviation = 0.2 }, viscosity = [80.0, 120.0], droplet.tension = 8.0 }]
@@ -156,6 +229,7 @@ material.mooney-rivlin = { shear = 900.0, bulk = 1500.0, fraction = 0.4 }
 grading.stripes = { axis = "x", width = 2.0, from = -3.0, factors = [1.0, 2.0] }
 [[solids]]
 hold = "free"
+force = [2.0, 1.0]
 outline.disc = { centre = [2.2, 0.0], radius = 0.6 }
 mesh-spacing = 0.25
 material = "fluid-like"

@@ -53,9 +53,26 @@ impl MeridianCalculus {
         placement: TensionPlacement,
         forces: &mut [Vec2],
     ) -> Result<(), LayerError> {
+        self.stress_forces(positions, [tension; 2], placement, forces)
+    }
+
+    /// Writes the forces on the fluid (force) at the points, of stresses along the meridian and around the axis (force
+    /// per length). They follow from [`MeridianCalculus::tension_forces`], with the stress along in `gamma r tau`, and
+    /// the stress around in the pull around the axis. Both are equal at the poles of a smooth surface.
+    ///
+    /// # Errors
+    /// Returns an error for slices of another length than planned for.
+    pub fn stress_forces(
+        &mut self,
+        positions: &[Vec2],
+        [tension, around]: [&[f64]; 2],
+        placement: TensionPlacement,
+        forces: &mut [Vec2],
+    ) -> Result<(), LayerError> {
         let len = self.curve.len();
         same_length("values", len, positions.len())?;
         same_length("tension", len, tension.len())?;
+        same_length("the stress around the axis", len, around.len())?;
         same_length("out", len, forces.len())?;
         let shift = placement.shift(len);
         self.curve.analyse_vectors(positions)?;
@@ -78,7 +95,7 @@ impl MeridianCalculus {
         self.pull.shift(-shift);
         self.slope.resample(&self.pull);
         self.slope.differentiate();
-        let hoop = self.tangents.iter().zip(tension).map(|(tangent, tension)| tension * tangent.length());
+        let hoop = self.tangents.iter().zip(around).map(|(tangent, around)| around * tangent.length());
         self.hoop.analyse(hoop.map(|value| Complex64::new(0.0, value)))?;
         self.hoop.shift(-shift);
         let factor = 2.0 * PI * PI / len as f64;

@@ -13,9 +13,11 @@ use crate::shares;
 
 mod flow;
 mod points;
+mod slip;
 
 pub(crate) use points::WallPoints;
 use points::{LANES, Lanes};
+pub(crate) use slip::Slipping;
 
 /// Largest number of modes, whose memory is about 100 MB: at a tolerance of 1e-8 they resolve gaps down to 1/160,000 of
 /// the period.
@@ -93,6 +95,8 @@ pub(crate) struct WallModes {
     pub(crate) rise: f64,
     uncorrected: Uncorrected,
     modes: usize,
+    /// Walls along which fluid slips; `None` for no slip at both.
+    slipping: Option<Slipping>,
 }
 
 impl WallModes {
@@ -115,7 +119,13 @@ impl WallModes {
             rise,
             uncorrected,
             modes,
+            slipping: None,
         }
+    }
+
+    /// Lets fluid slip along the walls.
+    pub(crate) fn with_slip(self, slipping: Option<Slipping>) -> Self {
+        Self { slipping, ..self }
     }
 
     /// Removes all sources and counts the modes for targets no closer to a wall than `target_gap` and sources no closer
@@ -126,7 +136,7 @@ impl WallModes {
         self.source_gap = source_gap;
         self.modes = self.count(source_gap + target_gap);
         let chunks = self.modes.div_ceil(LANES);
-        while self.factors.len() < chunks * LANES {
+        while self.slipping.is_none() && self.factors.len() < chunks * LANES {
             let n = self.factors.len() + 1;
             self.factors.push(factors(self.k * n as f64, self.half));
         }
@@ -224,8 +234,17 @@ impl WallModes {
             s1 += y * fx;
             s2 += (h * h - y * y) * fx;
         }
-        self.mean[0] += (c * h - 1.0) * s0;
-        self.mean[1] -= c / h * s1;
+        match &self.slipping {
+            None => {
+                self.mean[0] += (c * h - 1.0) * s0;
+                self.mean[1] -= c / h * s1;
+            }
+            Some(slipping) => {
+                let [along, slope] = slipping.between([s0, s1]);
+                self.mean[0] += c * along - s0;
+                self.mean[1] += c * slope;
+            }
+        }
         if let Uncorrected::Box { reach } = self.uncorrected {
             // The mean over x of a row, 1 - c |y|, less that of the box, c (H/6 - |y| + y^2/H).
             let height = 2.0 * h + reach;
@@ -235,7 +254,10 @@ impl WallModes {
             self.mean[2] += bend * s0;
         }
         if self.zero_flux {
-            self.mean[2] -= 0.75 * c / (h * h * h) * s2;
+            match &self.slipping {
+                None => self.mean[2] -= 0.75 * c / (h * h * h) * s2,
+                Some(slipping) => slipping.take_flux(c * (s2 + slipping.moment([s0, s1])), &mut self.mean),
+            }
         }
     }
 
@@ -263,7 +285,14 @@ impl WallModes {
             growth += y * (xx + yy);
             moment += y * mixed - x(j) * (xx + yy);
         }
-        self.mean[1] -= c / h * shear;
+        match &self.slipping {
+            None => self.mean[1] -= c / h * shear,
+            Some(slipping) => {
+                let [along, slope] = slipping.between([0.0, shear]);
+                self.mean[0] += c * along;
+                self.mean[1] += c * slope;
+            }
+        }
         if let Uncorrected::Box { reach } = self.uncorrected {
             // The mean over x of a row, c sign(y), less that of the box, c (sign(y) - 2 y/H).
             let slope = 2.0 * c / (2.0 * h + reach);
@@ -272,7 +301,12 @@ impl WallModes {
             self.rise -= slope * growth;
         }
         if self.zero_flux {
-            self.mean[2] += 1.5 * c / (h * h * h) * moment;
+            match &self.slipping {
+                None => self.mean[2] += 1.5 * c / (h * h * h) * moment,
+                Some(slipping) => {
+                    slipping.take_flux(c * (slipping.moment([0.0, shear]) - 2.0 * moment), &mut self.mean);
+                }
+            }
         }
     }
 
@@ -280,6 +314,7 @@ impl WallModes {
     /// for those below.
     fn add_slips(&mut self, slip: impl Fn([Complex64; 2], f64, f64) -> [Complex64; 2]) {
         for (wall, side) in [(0, 1.0), (1, -1.0)] {
+            let length = self.slipping.as_ref().map_or(0.0, |slipping| slipping.lengths[wall]);
             for n in 0..self.modes {
                 let [own, other] = self.sums_of(wall, n);
                 let mode = (n + 1) as f64;
@@ -291,6 +326,18 @@ impl WallModes {
                     let [u, v] = slip(other, -side, mode);
                     slips.u += u;
                     slips.v += v;
+                }
+                if length > 0.0 {
+                    // The derivative outwards, along the distance from the sources on the own side of the wall.
+                    let k = self.k * mode;
+                    let slope = |[plain, mixed]: [Complex64; 2], side: f64| {
+                        slip([plain * -k, (mixed + plain) * -k], side, mode)[0]
+                    };
+                    let mut outwards = slope(own, side);
+                    if self.uncorrected != Uncorrected::Row {
+                        outwards -= slope(other, -side);
+                    }
+                    self.slips[wall][n].u += outwards * length;
                 }
             }
         }
@@ -310,9 +357,15 @@ impl WallModes {
             let (slope_upper, slope_lower) = (-upper.u, -lower.u);
             let (pe, po) = (0.5 * (psi_upper + psi_lower), 0.5 * (psi_upper - psi_lower));
             let (qe, qo) = (0.5 * (slope_upper - slope_lower), 0.5 * (slope_upper + slope_lower));
-            let Factors { even, odd } = self.factors[n];
-            let (a, b) = (pe * even[0] + qe * even[1], qe * even[2] - pe * even[3]);
-            let (c, d) = (po * odd[0] - qo * odd[1], qo * odd[2] - po * odd[3]);
+            let [a, b, c, d] = match &self.slipping {
+                Some(slipping) => slipping.solve(k, [pe, po], [qe, qo]),
+                None => {
+                    let Factors { even, odd } = self.factors[n];
+                    let (a, b) = (pe * even[0] + qe * even[1], qe * even[2] - pe * even[3]);
+                    let (c, d) = (po * odd[0] - qo * odd[1], qo * odd[2] - po * odd[3]);
+                    [a, b, c, d]
+                }
+            };
             for (side, sign) in [(0, 0.5), (1, -0.5)] {
                 let (r, b) = ((0.5 * a + sign * c) * k, 0.5 * b + sign * d);
                 let slot = &mut self.coefficients[side][n / LANES];
@@ -384,6 +437,16 @@ fn factors(k: f64, half: f64) -> Factors {
     let kh = k * half;
     let decay = (-2.0 * kh).exp();
     let (sinh, cosh) = (0.5 * (1.0 - decay), 0.5 * (1.0 + decay));
+    let [even, odd] = determinants(kh);
+    Factors {
+        even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
+        odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
+    }
+}
+
+/// Returns `sinh(kh) cosh(kh) + kh` and the same minus kh, scaled by `exp(-2 kh)` (no dimension).
+fn determinants(kh: f64) -> [f64; 2] {
+    let decay = (-2.0 * kh).exp();
     let even = 0.25 * (1.0 - decay * decay) + kh * decay;
     let z = 2.0 * kh;
     let odd = if z < 0.5 {
@@ -398,10 +461,7 @@ fn factors(k: f64, half: f64) -> Factors {
     } else {
         0.25 * (1.0 - decay * decay) - kh * decay
     };
-    Factors {
-        even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
-        odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
-    }
+    [even, odd]
 }
 
 #[cfg(test)]

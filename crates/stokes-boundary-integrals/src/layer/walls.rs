@@ -11,7 +11,7 @@ use crate::{
     density::Density,
     greens::{
         Flow, Vectors,
-        walls::{Uncorrected, WallModes, WallPoints},
+        walls::{Slipping, Uncorrected, WallModes, WallPoints},
     },
     plan::Plans,
     shares,
@@ -59,6 +59,8 @@ pub(crate) struct Walls {
     length: f64,
     half: f64,
     pub(crate) drive: Drive,
+    /// Walls along which fluid slips; `None` for no slip at both.
+    slipping: Option<Slipping>,
     tolerance: f64,
     modes: WallModes,
     nodes: WallPoints,
@@ -79,15 +81,18 @@ pub(crate) struct Walls {
 }
 
 impl Walls {
-    pub(crate) fn new(length: f64, width: f64, drive: Drive, tolerance: f64) -> Self {
+    /// Walls of a channel with slip lengths of the lower and the upper one.
+    pub(crate) fn new(length: f64, width: f64, drive: Drive, slip: [f64; 2], tolerance: f64) -> Self {
         let half = 0.5 * width;
+        let slipping = Slipping::new(half, slip);
         let points = WallPoints::new(length, half);
         Self {
             length,
             half,
             drive,
+            slipping,
             tolerance,
-            modes: WallModes::new(length, half, drive.flux().is_some()),
+            modes: WallModes::new(length, half, drive.flux().is_some()).with_slip(slipping),
             nodes: points.clone(),
             owners: Vec::new(),
             sources: points.clone(),
@@ -304,7 +309,14 @@ impl Walls {
     /// Returns the Couette flow of walls that slide, the lower and the upper one faster by these factors.
     pub(crate) fn sliding(&self, imposed: &ImposedFlow, factors: [f64; 2]) -> ImposedFlow {
         let at = |wall: usize, y: f64| factors[wall] * imposed.velocity_at(Vec2::new(0.0, y)).x;
-        ImposedFlow::couette([at(0, -self.half), at(1, self.half)], 2.0 * self.half)
+        let width = 2.0 * self.half;
+        match self.slipping {
+            None => ImposedFlow::couette([at(0, -self.half), at(1, self.half)], width),
+            // The flow has the velocity of a wall at the slip length behind it.
+            Some(Slipping { ends: [a, b], lengths: [upper, lower], .. }) => {
+                ImposedFlow::couette_with_slip([at(0, -b), at(1, a)], width, [lower, upper])
+            }
+        }
     }
 
     /// Returns the parabolic flow that the drive drives besides an imposed one.
@@ -312,9 +324,21 @@ impl Walls {
         let h = self.half;
         let factor = match self.drive.flux() {
             None => -self.drive.gradient() / (2.0 * viscosity),
-            Some(flux) => 0.75 * (flux - self.flux(imposed)) / (h * h * h),
+            Some(flux) => match self.slipping {
+                None => 0.75 * (flux - self.flux(imposed)) / (h * h * h),
+                Some(slipping) => (flux - self.flux(imposed)) / slipping.flux(),
+            },
         };
-        ImposedFlow { velocity: [factor * (h * h), 0.0], bend: -2.0 * factor, ..ImposedFlow::NONE }
+        let parabola = ImposedFlow { velocity: [factor * (h * h), 0.0], bend: -2.0 * factor, ..ImposedFlow::NONE };
+        self.slipping.map_or(parabola, |Slipping { profile: [constant, slope], .. }| {
+            let along = ImposedFlow { velocity: [factor * constant, 0.0], ..ImposedFlow::shear(factor * slope) };
+            parabola + along
+        })
+    }
+
+    /// Returns one over the flux of the profile h^2 - y^2, or of that with slip (1/length cubed).
+    fn per_flux(&self) -> f64 {
+        self.slipping.map_or(0.75 / (self.half * self.half * self.half), |slipping| 1.0 / slipping.flux())
     }
 
     /// Returns the flux of the imposed flow through the channel (area per time), which walls that slide have.
@@ -330,16 +354,16 @@ impl Walls {
         imposed: &ImposedFlow,
         viscosity: f64,
     ) -> f64 {
-        let h = self.half;
         let Some(flux) = self.drive.flux() else { return self.drive.gradient() };
         let sum = self.force_moment(curves) - self.dipole_moment(curves, density);
-        1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * (flux - self.flux(imposed)))
+        2.0 * self.per_flux() * (sum / (2.0 * self.length) - viscosity * (flux - self.flux(imposed)))
     }
 
-    /// Returns the sum of (h^2 - y^2) F_x (force times area): 2 l eta times the flux of the forces at zero mean
-    /// pressure gradient.
+    /// Returns the sum of (h^2 - y^2) F_x, or of the profile with slip (force times area): 2 l eta times the flux of
+    /// the forces at zero mean pressure gradient.
     pub(crate) fn force_moment(&self, curves: &[Curve]) -> f64 {
-        let parabola = |y: f64| self.half * self.half - y * y;
+        let [constant, slope] = self.slipping.map_or([0.0; 2], |slipping| slipping.profile);
+        let parabola = |y: f64| self.half * self.half - y * y + (constant + slope * y);
         let nodes = |curve: &Curve| -> f64 {
             let terms = curve.nodes.position.iter().zip(&curve.nodes.force);
             terms.map(|(z, force)| parabola(z.im + curve.centre.im) * force.re).sum()
@@ -347,9 +371,11 @@ impl Walls {
         curves.iter().map(nodes).sum()
     }
 
-    /// Returns the moment of the double layer, `-2 sum [y (v_x n_y + v_y n_x) - x v.n]`: 2 l eta times its flux.
+    /// Returns the moment of the double layer, `-2 sum [y (v_x n_y + v_y n_x) - x v.n]`, with the slope of the profile
+    /// with slip in place of -2 y: 2 l eta times its flux.
     pub(crate) fn dipole_moment(&self, curves: &[Curve], density: Density<'_>) -> f64 {
         let mut sum = 0.0;
+        let middle = self.slipping.map_or(0.0, |slipping| 0.5 * slipping.profile[1]);
         for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {
             let (vx, vy) = density.of(index);
             let contrast = contrast * curve.weight();
@@ -358,7 +384,7 @@ impl Walls {
                 let (nx, ny) = (t.im * contrast, -t.re * contrast);
                 let shear = vx[i] * ny + vy[i] * nx;
                 let flux = vx[i] * nx + vy[i] * ny;
-                sum -= 2.0 * (y * shear - z.re * flux);
+                sum -= 2.0 * ((y - middle) * shear - z.re * flux);
             }
         }
         sum

@@ -16,25 +16,29 @@ pub(crate) struct MeanFlow {
     poiseuille: Vec<f64>,
     /// Flux of that flow.
     flux: f64,
+    /// Velocity gradients at the bottom and the top wall over those without slip.
+    stick: [f64; 2],
 }
 
 impl MeanFlow {
-    pub(crate) fn new(grid: &Grid, viscosity: f64, friction: f64) -> Self {
+    pub(crate) fn new(grid: &Grid, viscosity: f64, friction: f64, stick: [f64; 2]) -> Self {
         let (ny, h) = (grid.ny(), grid.spacing());
         let screening = h * h * friction / viscosity;
         let mut pivots = Vec::with_capacity(ny);
         let mut pivot = 0.0;
         for j in 0..ny {
-            // The ghost behind a wall is 2 U - u.
-            let diagonal = if j == 0 || j + 1 == ny { -3.0 } else { -2.0 };
+            // The ghost behind a wall is 2 U - u without slip, 2 s U + (1 - 2 s) u for a gradient of s times that.
+            let bottom = if j == 0 { stick[0] } else { 0.5 };
+            let top = if j + 1 == ny { stick[1] } else { 0.5 };
+            let diagonal = -2.0 - (2.0 * bottom - 1.0) - (2.0 * top - 1.0);
             pivot = 1.0 / (diagonal - screening - pivot);
             pivots.push(pivot);
         }
         let width = grid.lengths()[1];
         let at = |y: f64| (0.5 * y * (width - y) + 0.125 * h * h) / viscosity;
         let parabola = (0..ny).map(|j| at((j as f64 + 0.5) * h)).collect();
-        let mut mean = Self { scale: h * h / viscosity, pivots, h, poiseuille: parabola, flux: 0.0 };
-        if friction > 0.0 {
+        let mut mean = Self { scale: h * h / viscosity, pivots, h, poiseuille: parabola, flux: 0.0, stick };
+        if friction > 0.0 || stick != [1.0; 2] {
             let mut flow = vec![1.0; ny];
             mean.substitute([0.0; 2], &mut flow);
             mean.poiseuille = flow;
@@ -64,8 +68,8 @@ impl MeanFlow {
             *u *= -self.scale;
         }
         let last = u.len() - 1;
-        u[0] -= 2.0 * walls[0];
-        u[last] -= 2.0 * walls[1];
+        u[0] -= 2.0 * self.stick[0] * walls[0];
+        u[last] -= 2.0 * self.stick[1] * walls[1];
         let mut below = 0.0;
         for (u, pivot) in u.iter_mut().zip(&self.pivots) {
             *u = (*u - below) * pivot;

@@ -14,7 +14,8 @@ const NEGLIGIBLE: f64 = 1e-20;
 /// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
 ///
 /// s is the friction times h^2 over the viscosity, and the no-slip condition gives the wall values
-/// `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)` (lengths in cells).
+/// `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)` (lengths in cells). Along a wall with the slip
+/// length b it is `1/(1 + 2 b)` of that.
 ///
 /// The first problem is eliminated upwards and substituted downwards; in the same downward sweep the second one is
 /// eliminated, to be substituted upwards. So the spectrum is passed three times, twice of them together with a
@@ -39,6 +40,9 @@ pub(crate) struct ChannelModes {
     /// Factors of the sum and of the difference of the two wall values.
     sum_factor: Vec<f64>,
     difference_factor: Vec<f64>,
+    /// With slip the inverse of the symmetric matrix of the two wall values, in place of these factors: of the bottom,
+    /// of both, of the top.
+    slipping: Option<Vec<[f64; 3]>>,
     wall_bottom: Vec<Complex64>,
     wall_top: Vec<Complex64>,
     carried: Vec<Complex64>,
@@ -46,7 +50,8 @@ pub(crate) struct ChannelModes {
 }
 
 impl ChannelModes {
-    pub(crate) fn new(nx: usize, ny: usize, screening: f64) -> Self {
+    /// Tables for a screening s and the slip lengths of the bottom and the top wall over the spacing.
+    pub(crate) fn new(nx: usize, ny: usize, screening: f64, slip: [f64; 2]) -> Self {
         let width = nx / 2 + 1;
         let n = ny as f64;
         let mut modes = Self {
@@ -60,6 +65,7 @@ impl ChannelModes {
             limits: vec![0.0; width],
             sum_factor: vec![0.0; width],
             difference_factor: vec![0.0; width],
+            slipping: (slip != [0.0; 2]).then(|| vec![[0.0; 3]; width]),
             wall_bottom: vec![Complex64::ZERO; width],
             wall_top: vec![Complex64::ZERO; width],
             carried: vec![Complex64::ZERO; width],
@@ -110,6 +116,11 @@ impl ChannelModes {
             let (near, far) = (modes.influence[at(1)], modes.influence[at(ny - 1)]);
             modes.sum_factor[m] = 1.0 / (0.5 - near - far);
             modes.difference_factor[m] = 1.0 / (0.5 - near + far);
+            if let Some(slipping) = &mut modes.slipping {
+                let [bottom, top] = slip.map(|slip| 0.5 + slip - near);
+                let determinant = bottom * top - far * far;
+                slipping[m] = [top, far, bottom].map(|entry| entry / determinant);
+            }
         }
         modes
     }
@@ -166,7 +177,13 @@ impl ChannelModes {
             sweep.row(row, above, &mut carried, &mut near_top);
         }
         let near_bottom = &spectrum[..width];
-        for m in 0..width {
+        let matrices = self.slipping.iter().flatten();
+        for (m, [on_bottom, on_both, on_top]) in matrices.enumerate() {
+            let (below, above) = (near_bottom[m] - bottom[m], top[m] - near_top[m]);
+            self.wall_bottom[m] = below * on_bottom + above * on_both;
+            self.wall_top[m] = below * on_both + above * on_top;
+        }
+        for m in 0..if self.slipping.is_some() { 0 } else { width } {
             // near_top has minus psi[N-1] without wall values, the first row has psi[1].
             let sum = (near_bottom[m] - near_top[m] - bottom[m] + top[m]) * self.sum_factor[m];
             let difference = (near_bottom[m] + near_top[m] - bottom[m] - top[m]) * self.difference_factor[m];

@@ -79,7 +79,7 @@ impl ChannelProjection {
             rows,
             across: Across::new(n)?,
             responses: (1..width).map(|m| WallResponse::new(second_difference(m, nx), n)).collect(),
-            mean: MeanFlow::new(&grid, viscosity, 0.0),
+            mean: MeanFlow::new(&grid, viscosity, 0.0, [1.0; 2]),
             mean_u: vec![0.0; n],
             parts: [0, 1].map(|_| Part { u: vec![0.0; n], v: vec![0.0; n - 1] }),
             u: spectrum(width * n),
@@ -93,6 +93,9 @@ impl ChannelProjection {
 
     pub(crate) fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
         walls.check(&self.grid)?;
+        if walls.slip() != [0.0; 2] {
+            return Err(StokesError::no_slip_only());
+        }
         let before = self.wall_spectra.clone();
         for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
             walls.spectrum(wall, &mut self.rows, spectrum);

@@ -97,9 +97,13 @@ fn force_of(
     let (u, v, p) = (velocity.x(), velocity.y(), pressure.values());
     let (right, left) = (|i: usize| (i + 1) % nx, |i: usize| (i + nx - 1) % nx);
     // Rows beyond the ends: periodic images or ghosts behind the walls.
+    // Navier's condition between the wall's two rows: (u + ghost)/2 = U + b (u - ghost)/h.
+    let ghost = |b: f64, u: f64, wall: f64| ((2.0 * b - h) * u + 2.0 * h * wall) / (2.0 * b + h);
     let u_at = |i: usize, j: isize| match j {
-        -1 if grid.has_walls() => 2.0 * walls.at(Wall::Bottom, i) - u[i],
-        j if grid.has_walls() && j == ny as isize => 2.0 * walls.at(Wall::Top, i) - u[(ny - 1) * nx + i],
+        -1 if grid.has_walls() => ghost(walls.slip()[0], u[i], walls.at(Wall::Bottom, i)),
+        j if grid.has_walls() && j == ny as isize => {
+            ghost(walls.slip()[1], u[(ny - 1) * nx + i], walls.at(Wall::Top, i))
+        }
         j => u[j.rem_euclid(ny as isize) as usize * nx + i],
     };
     let mut force = StaggeredField::zeros(grid);

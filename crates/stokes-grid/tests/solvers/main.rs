@@ -21,4 +21,6 @@ mod projection;
 #[cfg(test)]
 mod properties;
 #[cfg(test)]
+mod slip;
+#[cfg(test)]
 mod two_phase;

@@ -27,7 +27,11 @@ impl View {
     pub fn of(setup: &Setup) -> Self {
         let spacing = setup.method.spacing().unwrap_or(GridMethod::default().spacing * setup.length_scale());
         let region = match setup.region {
-            Region::Channel { length, width, .. } if setup.solids.is_empty() => format!("w = {width},  l = {length}"),
+            Region::Channel { length, width, .. } | Region::SlipChannel { length, width, .. }
+                if setup.solids.is_empty() =>
+            {
+                format!("w = {width},  l = {length}")
+            }
             Region::Tube { radius, .. } => format!("W = {radius}"),
             Region::Space => "three dimensions".to_owned(),
             _ => String::new(),

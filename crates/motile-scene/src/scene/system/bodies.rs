@@ -22,6 +22,8 @@ pub(in crate::scene) struct Bodies {
     enclosing_before: Vec<Option<usize>>,
     /// Viscosity around each body (stress times time) where that is not the exterior fluid's.
     pub(super) viscosity_around: Vec<Option<f64>>,
+    /// Some body depends on time.
+    pub(super) timed: bool,
 }
 
 impl Bodies {
@@ -35,7 +37,21 @@ impl Bodies {
             enclosing: Vec::new(),
             enclosing_before: Vec::new(),
             viscosity_around: Vec::new(),
+            timed: false,
         }
+    }
+
+    /// Tells the bodies that depend on time the time of the present state (time).
+    pub(super) fn set_time(&mut self, time: f64) {
+        if self.timed {
+            self.list.iter_mut().filter(|body| body.depends_on_time()).for_each(|body| body.set_time(time));
+        }
+    }
+
+    /// Looks again which bodies depend on time, and gives them the time (time).
+    pub(super) fn find_timed(&mut self, time: f64) {
+        self.timed = self.list.iter().any(|body| body.depends_on_time());
+        self.set_time(time);
     }
 
     pub(super) fn push<B: Body>(&mut self, mut body: B) -> Handle<B> {

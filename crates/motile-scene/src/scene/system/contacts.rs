@@ -26,6 +26,8 @@ pub(in crate::scene) struct Contacts {
     pub(super) nearest_wall: Option<Option<(f64, usize, Vec2)>>,
     /// Time until the first film closes at its present velocity (time), and the number of its body.
     closing: Option<(f64, usize)>,
+    /// Narrowest film between fluid interfaces that is near enough to be looked for (length).
+    thinnest: Option<f64>,
     /// Fastest rate at which a repulsion opens the present films (1/time).
     opening: f64,
     /// Narrowest gap that a run continues with (length).
@@ -57,19 +59,37 @@ impl Contacts {
 
     /// Finds how fast films close, and how fast a repulsion opens them.
     pub(super) fn measure_films(&mut self, bodies: &Bodies, flow: &impl Hydrodynamics) {
-        (self.closing, self.opening) = (None, 0.0);
+        (self.closing, self.opening, self.thinnest) = (None, 0.0, None);
         if !bodies.have_curves() {
             return;
         }
         let view = flow.fluid_view();
         let scale = self.surfaces.contact_scale(&view);
         self.find_films(bodies, flow, self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale));
+        self.thinnest = self.films.thinnest_between_fluids(&self.surfaces);
         self.closing = self.films.closing(&self.surfaces, bodies.markers.velocities(), THINNEST * scale);
         if let Some(repulsion) = &self.repulsion {
             let mean = |group: &MarkerGroup| 0.5 * group.viscosities(view.viscosity).iter().sum::<f64>();
             let least = bodies.markers.groups().iter().map(mean).fold(f64::INFINITY, f64::min);
             self.opening = self.films.relaxation(repulsion, view.viscosity, view.interface_stiffness / least);
         }
+    }
+
+    /// Returns the part of the bound on the step by a stabilised tension that a second interface leaves, in a flow that
+    /// resolves interfaces by modes.
+    ///
+    /// Tensions that vary in the same way along two interfaces at the distance d move each of them `N = 1 + (1 - q d)
+    /// exp(-q d)` times as fast at the wave number q. A step of the midpoint rule amplifies such a wave where `dt c
+    /// |gamma'| q (N/2 - q h) > 4 eta`. Below the length h, the flow no longer responds to forces
+    /// (docs/explanation/time-stepping.md). On one interface, waves of q h = 1/4 grow first.
+    pub(super) fn stabilised_part(&self, view: &FluidView) -> f64 {
+        let Some(gap) = self.thinnest.filter(|_| view.shape_modes.is_some()) else { return 1.0 };
+        let distance = 2.0 * view.interface_stiffness * gap.max(0.0);
+        let fastest = (1..64).map(|k| f64::from(k) / 64.0).map(|wave| {
+            let mobility = 1.0 + (1.0 - wave * distance) * (-wave * distance).exp();
+            wave * (0.5 * mobility - wave)
+        });
+        (0.0625 / fastest.fold(0.0625, f64::max)).min(1.0)
     }
 
     /// Returns the load of the repulsion in the present films.

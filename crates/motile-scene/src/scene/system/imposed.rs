@@ -108,7 +108,7 @@ impl<H: Hydrodynamics> System<H> {
 
     /// Returns the length of the part of the state that is the clock of the imposed flow.
     pub(super) fn clock_len(&self) -> usize {
-        if self.background.moves { CLOCK } else { 0 }
+        if self.background.moves || self.bodies.timed { CLOCK } else { 0 }
     }
 
     pub(super) fn write_clock(&self, state: &mut [f64]) {
@@ -121,6 +121,7 @@ impl<H: Hydrodynamics> System<H> {
         let &[time, strain] = state else { return Ok(()) };
         if time != self.background.time || strain != self.hydrodynamics.strain() {
             self.background.time = time;
+            self.bodies.set_time(time);
             self.set_flow(self.background.imposed.at(time), strain)?;
         }
         Ok(())
@@ -140,9 +141,15 @@ impl<H: Hydrodynamics> System<H> {
 
     /// Takes the time of the clock over for the imposed flow.
     pub(super) fn set_flow_time(&mut self) -> Result<(), SceneError> {
-        self.background.time = self.clock.time;
+        self.follow_clock();
         let flow = self.background.imposed.at(self.clock.time);
         if flow == self.imposed() { Ok(()) } else { self.set_flow(flow, self.hydrodynamics.strain()) }
+    }
+
+    /// Takes the time of the clock over for the state and the bodies.
+    pub(super) fn follow_clock(&mut self) {
+        self.background.time = self.clock.time;
+        self.bodies.set_time(self.clock.time);
     }
 
     /// Returns the imposed flow at another time (time) than the present one; a steady one is what the flow has.

@@ -105,3 +105,82 @@ fn long_waves_keep_their_digits() {
         assert!((found * odd / 0.5 - 1.0).abs() < 1e-13, "{z}: {found}");
     }
 }
+
+/// The whole flow at a target by a unit force at a source, times 4 pi viscosity, between walls with slip.
+fn slipping_flow(
+    [period, half]: [f64; 2],
+    slip: [f64; 2],
+    zero_flux: bool,
+    target: [f64; 2],
+    source: [f64; 2],
+    force: Complex64,
+) -> Flow {
+    let mut modes = WallModes::new(period, half, zero_flux).with_slip(Slipping::new(half, slip));
+    let (_, walls) = greens_function(&mut modes, target, source, force);
+    let mut flow = Flow::default();
+    let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
+    flow.add_force(&GreensFunction::Row { k: modes.k }.at(d), force, 1.0);
+    flow += walls;
+    flow
+}
+
+const SLIPS: [[f64; 2]; 6] = [[0.1, 0.1], [0.3, 0.0], [0.0, 2.0], [0.05, 0.7], [4e3, 0.2], [1e4, 1e4]];
+
+/// Navier's condition at both walls, narrow and wide channels, and no flux where none is wanted.
+#[test]
+fn fluid_slips_along_the_walls() {
+    for (period, half) in [(4.0, 1.0), (6.0, 1.5), (12.0, 0.6), (2.0, 3.0)] {
+        for slip in SLIPS {
+            for (zero_flux, force) in [(false, I), (false, Complex64::new(1.0, 0.0)), (true, Complex64::new(0.6, 0.8))]
+            {
+                let source = [0.3, 0.4 * half];
+                for (wall, out) in [-1.0, 1.0].into_iter().enumerate() {
+                    for x in [0.2, -0.9, 1.7] {
+                        let at = [x, out * half];
+                        let flow = slipping_flow([period, half], slip, zero_flux, at, source, force);
+                        let slope = out * flow.gradient()[0][1];
+                        let error = (flow.velocity.re + slip[wall] * slope).abs() / (1.0 + slip[wall]);
+                        assert!(error < 1e-11, "{period} {half} {slip:?} wall {wall}: {error:e}");
+                        assert!(flow.velocity.im.abs() < 1e-11, "{:e}", flow.velocity.im);
+                    }
+                }
+                if zero_flux {
+                    // Simpson's rule far from the source, where the flow is smooth.
+                    let (n, x) = (200, 0.3 + 0.5 * period);
+                    let u = |j: usize| {
+                        let y = half * (2.0 * j as f64 / n as f64 - 1.0);
+                        slipping_flow([period, half], slip, true, [x, y], source, force).velocity.re
+                    };
+                    let inner = |from: usize| (from..n).step_by(2).map(u).sum::<f64>();
+                    let flux = (u(0) + u(n) + 4.0 * inner(1) + 2.0 * inner(2)) * 2.0 * half / n as f64 / 3.0;
+                    assert!(flux.abs() < 1e-6 * half, "{period} {half} {slip:?}: flux {flux:e}");
+                }
+            }
+        }
+    }
+}
+
+/// G(x, y) is the transpose of G(y, x), and the pressure of the walls balances the stresses.
+#[test]
+fn slipping_walls_are_reciprocal() {
+    let (a, b) = ([0.3, 0.5], [-0.4, -0.8]);
+    for slip in SLIPS {
+        for zero_flux in [false, true] {
+            let flow = |to, from, force| slipping_flow([5.0, 1.2], slip, zero_flux, to, from, force).velocity;
+            let one = Complex64::new(1.0, 0.0);
+            // The mean flow of a force is as large as that, with a given flux less the same.
+            let scale = 1.0 + slip[0].min(slip[1]);
+            let diagonal =
+                (flow(a, b, one).re - flow(b, a, one).re).abs().max((flow(a, b, I).im - flow(b, a, I).im).abs());
+            let across = (flow(a, b, one).im - flow(b, a, I).re).abs();
+            assert!(diagonal.max(across) < 1e-12 * scale, "{slip:?}: {diagonal:e} {across:e}");
+        }
+    }
+}
+
+/// With no slip length at either wall, the general formulas give the flow of no slip.
+#[test]
+fn slip_lengths_of_nothing_are_no_slip() {
+    let tiny = slipping_flow([4.0, 1.0], [1e-14, 1e-15], true, [0.5, 0.3], [0.0, 0.0], Complex64::new(1.0, 0.0));
+    assert!((tiny.velocity - Complex64::new(0.10641764625007, 0.2745808454774)).norm() < 1e-12, "{tiny:?}");
+}

@@ -1,0 +1,72 @@
+//! Steady states in other units: SI numbers of a droplet of a micrometre.
+
+use motile::prelude::*;
+use motile::setup::{DropletShape, ExcludedVolume};
+use motile_steady_states::{SteadyState, Symmetry};
+
+/// Sizes of the units of length, time and force.
+#[derive(Debug, Clone, Copy)]
+struct Units {
+    length: f64,
+    time: f64,
+    force: f64,
+}
+
+/// A droplet in a region, in units.
+fn scene(activity: f64, region: Region, cortex: f64, nodes: usize, units: Units) -> Setup {
+    let Units { length, time, force } = units;
+    let space = matches!(region, Region::Space | Region::Tube { .. });
+    // Tensions are forces in two dimensions, and forces per length in three.
+    let tension = if space { force / length } else { force };
+    let concentration = if space { length.powi(-2) } else { length.recip() };
+    let method = Method::Integral(IntegralMethod { nodes, elements: 4 * nodes });
+    let mut setup = Setup { method, region, ..Setup::default() };
+    setup.viscosity *= tension * time / length;
+    let droplet = &mut setup.droplets[0];
+    droplet.tension *= tension;
+    droplet.cortex.viscosity = cortex * tension * time;
+    droplet.shape = DropletShape::Round { radius: length };
+    let particles = droplet.particles.as_mut().expect("a good scene");
+    particles.activity = activity * tension / concentration;
+    particles.concentration *= concentration;
+    particles.diffusion *= length * length / time;
+    particles.excluded_volume = ExcludedVolume::Step(if space { 2.0 } else { 10.0 } * tension / concentration);
+    setup
+}
+
+const ONE: Units = Units { length: 1.0, time: 1.0, force: 1.0 };
+const SI: Units = Units { length: 1e-6, time: 37.0, force: 3.1e-13 };
+
+/// Speed and growth rates at rest and swimming, in units of the scene.
+fn values(activity: f64, region: Region, cortex: f64, units: Units) -> Vec<f64> {
+    let setup = scene(activity, region, cortex, 64, units);
+    let rest = SteadyState::uniform(&setup).expect("a good scene").spectrum().expect("a good scene");
+    let mut values: Vec<f64> = rest.of(Symmetry::Symmetric).map(|z| z.re * units.time).take(4).collect();
+    let found = SteadyState::find(&setup);
+    let state = found.unwrap_or_else(|error| panic!("{region:?} in {units:?}: {error}"));
+    // Once more from the state itself.
+    let near = SteadyState::near(&setup, state.profile(), state.velocity(), true).expect("a good scene");
+    values
+        .extend([&state, &near].map(|state| state.measured().expect("a good scene").speed * units.time / units.length));
+    let spectrum = near.spectrum().expect("a good scene");
+    values.extend(spectrum.of(Symmetry::Symmetric).take(4).flat_map(|z| [z.re, z.im]).map(|part| part * units.time));
+    let measured = near.measured().expect("a good scene");
+    values.extend([measured.aspect_ratio, measured.concentration[0]]);
+    values
+}
+
+#[test]
+fn states_are_the_same_in_other_units() {
+    for (region, si, activity, cortex) in [
+        (Region::Plane, Region::Plane, -2.0, 50.0),
+        (Region::Box { lengths: [6.0; 2] }, Region::Box { lengths: [6e-6; 2] }, -2.0, 0.0),
+        (Region::Space, Region::Space, -1.5, 0.0),
+        (Region::Space, Region::Space, -1.5, 50.0),
+    ] {
+        let (here, there) = (values(activity, region, cortex, ONE), values(activity, si, cortex, SI));
+        let errors: Vec<f64> = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).collect();
+        let worst = errors.iter().copied().fold(0.0, f64::max);
+        println!("{region:?} {cortex}: {worst:.1e}");
+        assert!(worst < 1e-8, "{region:?}: {errors:?}");
+    }
+}

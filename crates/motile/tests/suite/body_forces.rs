@@ -1,0 +1,94 @@
+//! Droplets that sink or are pushed, against closed forms and an independent boundary-integral program.
+
+use std::f64::consts::PI;
+
+use motile::prelude::*;
+use motile::setup::DropletShape;
+
+/// Centroid's velocity over the force, times the viscosity outside, of a round droplet that is pushed along an axis.
+fn mobility(
+    region: Region,
+    method: Method,
+    at: [f64; 2],
+    ratio: f64,
+    (axis, radius): (usize, f64),
+    whole: bool,
+) -> f64 {
+    let (viscosity, push) = (3.0, 2.0);
+    let mut force = [0.0; 2];
+    force[axis] = push;
+    let volume = if region.is_axisymmetric() { 4.0 / 3.0 * PI * radius.powi(3) } else { PI * radius * radius };
+    let density = force.map(|part| part / volume);
+    let (body_force, force) = if whole { ([0.0; 2], force) } else { (density, [0.0; 2]) };
+    let droplet = DropletSetup {
+        centre: at,
+        viscosity: Some(ratio * viscosity),
+        shape: DropletShape::Round { radius },
+        body_force,
+        force,
+        ..DropletSetup::passive(1.0)
+    };
+    let setup = Setup { region, viscosity, method, droplets: vec![droplet], ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build().expect("a good scene");
+    let velocity = scene.observe(droplets[0]).expect("a good state").velocity;
+    viscosity * [velocity.x, velocity.y][axis] / push
+}
+
+fn nodes(nodes: usize) -> Method {
+    Method::Integral(IntegralMethod { nodes, elements: nodes })
+}
+
+#[test]
+fn droplets_in_a_box_sink_as_they_should() {
+    // Closed form at equal viscosities, boundary integrals at others.
+    for (side, ratio, exact) in [(4.0, 1.0, 0.033735771342), (8.0, 1.0, 0.0830352963801), (6.0, 0.1, 0.0755079898387)] {
+        let region = Region::Box { lengths: [side; 2] };
+        for (axis, whole) in [(0, false), (1, true)] {
+            let found = mobility(region, nodes(192), [0.3, -0.2], ratio, (axis, 1.0), whole);
+            // The polygon has the area of the circle, its nodes lie outside by a part of 1.8e-4.
+            assert!((found / exact - 1.0).abs() < 1e-3, "{side} {ratio} {axis}: {found} {exact}");
+        }
+    }
+}
+
+#[test]
+fn droplets_in_a_channel_sink_as_they_should() {
+    for (drive, [y, ratio], axis, exact) in [
+        (Drive::ZeroGradient, [0.0, 1.0], 0, 0.080855427649),
+        (Drive::ZeroGradient, [0.0, 0.1], 1, 0.027597420997),
+        (Drive::ZeroGradient, [0.3, 10.0], 0, 0.053483647346),
+        (Drive::ZeroFlux, [0.3, 0.1], 0, 0.012186006477),
+        (Drive::ZeroFlux, [0.3, 1.0], 1, 0.01808971946),
+    ] {
+        let region = Region::Channel { length: 6.0, width: 3.0, drive };
+        let found = mobility(region, nodes(192), [0.7, y], ratio, (axis, 1.0), false);
+        assert!((found / exact - 1.0).abs() < 2e-3, "{drive:?} {y} {ratio} {axis}: {found} {exact}");
+    }
+}
+
+#[test]
+fn drops_rise_as_hadamard_and_rybczynski_found() {
+    for (ratio, radius) in [(0.1, 1.0), (1.0, 1e-6), (10.0, 1.0)] {
+        let exact = (3.0 + 3.0 * ratio) / (2.0 + 3.0 * ratio) / (6.0 * PI * radius);
+        for whole in [false, true] {
+            let found = mobility(Region::Space, nodes(64), [0.0; 2], ratio, (0, radius), whole);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{ratio} {radius}: {found} {exact}");
+        }
+    }
+}
+
+#[test]
+fn the_methods_agree() {
+    let region = Region::Box { lengths: [6.0; 2] };
+    let by_grid = Method::Grid(GridMethod { spacing: 0.05, ..GridMethod::default() });
+    let [first, second] = [nodes(96), by_grid].map(|method| mobility(region, method, [0.0; 2], 1.0, (1, 1.0), false));
+    assert!((first / second - 1.0).abs() < 5e-3, "{first} {second}");
+}
+
+#[test]
+fn a_weight_in_the_plane_is_refused() {
+    let droplet = DropletSetup { body_force: [0.0, -1.0], ..DropletSetup::passive(1.0) };
+    let setup = Setup { region: Region::Plane, droplets: vec![droplet], ..Setup::default() };
+    let error = setup.build().expect_err("no speed exists").to_string();
+    assert!(error.contains("no speed exists"), "{error}");
+}
