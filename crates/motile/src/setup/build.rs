@@ -163,7 +163,7 @@ impl Setup {
         let count = count(self, &curve, &droplet.name)?;
         // Fields are known as precisely as imposed flows.
         let markers =
-            if droplet.fields.is_none() { self.outline(&curve, count)? } else { self.true_outline(&curve, count)? };
+            if droplet.is_pushed() { self.true_outline(&curve, count)? } else { self.outline(&curve, count)? };
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {

@@ -412,6 +412,13 @@ fn straight(radius: f64, half: f64) -> f64 {
     0.25 * PI * (radius * radius - half * half) / half
 }
 
+impl DropletSetup {
+    /// Returns true if fields or forces act on the droplet, whose speed is then known as precisely as its outline.
+    pub(super) fn is_pushed(&self) -> bool {
+        !self.fields.is_none() || [self.body_force, self.force] != [[0.0; 2]; 2]
+    }
+}
+
 impl BodySetup for DropletSetup {
     fn kind(&self) -> [&'static str; 2] {
         ["droplets", "droplet"]
