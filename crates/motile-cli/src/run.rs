@@ -7,7 +7,7 @@
 //! | results | [`Summary`] (`summary.json` and a table), [`write_results`] of many |
 //! | settings, as flags of a command line | [`OutputFlags`], [`CheckpointFlags`] |
 //!
-//! [`explained`] puts an error and its causes in one line.
+//! [`command`] is the command line that results name as their origin; [`explained`] puts an error and its causes in one line.
 
 mod flags;
 mod job;
@@ -21,6 +21,6 @@ pub use flags::{CheckpointFlags, LookFlags, OutputFlags};
 pub use job::{Decided, Job, Taken, Watch};
 pub use scene_run::{SceneRun, View};
 pub use steady::Steadiness;
-pub(crate) use summary::VERSION_KEY;
+pub(crate) use summary::{ORIGIN_KEY, VERSION_KEY};
 pub use summary::{Summary, make_directory, write_results};
-pub use words::{explained, say};
+pub use words::{command, explained, say};

@@ -25,7 +25,7 @@ pub use plan::Plan;
 pub use run_pool::RunPool;
 pub use trial::{State, Trial};
 
-use crate::run::{Summary, Taken, VERSION_KEY, explained, say, write_results};
+use crate::run::{ORIGIN_KEY, Summary, Taken, VERSION_KEY, explained, say, write_results};
 
 /// Options of a sweep: a plan, and what to do with its runs.
 #[derive(Debug, Args)]
@@ -153,7 +153,7 @@ fn is_stop(error: &anyhow::Error) -> bool {
 const COST: [&str; 14] = [
     "run",
     VERSION_KEY,
-    trial::FINGERPRINT,
+    ORIGIN_KEY,
     "seconds",
     "evaluations",
     "stokes_solves",

@@ -83,7 +83,8 @@ impl Animation {
         for seen in &self.frames {
             frames.push(&self.look.draw(seen, &legends, tracks, &self.format)?.pixels(1.0)?);
         }
-        frames.write(path.as_ref())
+        let origin = self.frames.first().map_or("", |seen| &seen.origin);
+        frames.write(path.as_ref(), origin)
     }
 }
 
@@ -107,24 +108,34 @@ impl Frames {
         self.size = [image.width(), image.height()].map(|side| side as usize);
     }
 
-    /// Writes a GIF that repeats forever.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
+    /// Writes a GIF that repeats forever, with the origin of the results as its comment.
+    pub(crate) fn write(&self, path: &Path, origin: &str) -> Result<(), OutputError> {
         OutputError::check_format(path, &["gif"])?;
         if self.frames.is_empty() {
             return Err(OutputError::Empty("an animation without frames"));
         }
-        let written = encode(path, self.size, &self.frames, &self.histogram).map_err(io::Error::other);
+        let written = encode(path, self.size, &self.frames, &self.histogram, origin).map_err(io::Error::other);
         written.map_err(OutputError::writing(path))
     }
 }
 
 /// Writes frames of colour codes; each frame holds only the rectangle that differs from the one before.
-fn encode(path: &Path, size: [usize; 2], frames: &[Vec<u16>], histogram: &Histogram) -> Result<(), gif::EncodingError> {
+fn encode(
+    path: &Path,
+    size: [usize; 2],
+    frames: &[Vec<u16>],
+    histogram: &Histogram,
+    origin: &str,
+) -> Result<(), gif::EncodingError> {
     let (palette, index) = histogram.palette(usize::from(UNCHANGED));
     let palette: Vec<u8> = palette.into_iter().flat_map(|c| c.0).collect();
     let [width, height] = size.map(|side| side as u16);
     let mut encoder = gif::Encoder::new(BufWriter::new(File::create(path)?), width, height, &palette)?;
     encoder.set_repeat(gif::Repeat::Infinite)?;
+    if !origin.is_empty() {
+        let blocks: Vec<&[u8]> = origin.as_bytes().chunks(255).collect();
+        encoder.write_raw_extension(gif::Extension::Comment.into(), &blocks)?;
+    }
     let mut before: Vec<u8> = Vec::new();
     for (k, codes) in frames.iter().enumerate() {
         let now: Vec<u8> = codes.iter().map(|&c| index[usize::from(c)]).collect();

@@ -94,9 +94,9 @@ impl ParaView {
             .cell_scalars("pressure", seen.pressure())
             .cell_vectors("velocity", seen.velocity())
             .cell_scalars("vorticity", seen.flow.iter().map(|sample| sample.gradient[1][0] - sample.gradient[0][1]));
-        self.fields.push(seen.time, &file)?;
-
-        self.interface.push(seen.time, &interfaces(system, &seen)?)?;
+        let put = |series: &mut VtkSeries, file: VtkFile| series.push(seen.time, &file.of_origin(&seen.origin));
+        put(&mut self.fields, file)?;
+        put(&mut self.interface, interfaces(system, &seen)?)?;
         let present = [
             (&mut self.curves, curve_lines(system)?),
             (&mut self.points, marker_points(system)?),
@@ -106,7 +106,7 @@ impl ParaView {
             (&mut self.gels, meshes::gels(system)),
         ];
         let files = present.into_iter().filter_map(|(series, file)| Some((series, file?)));
-        files.into_iter().try_for_each(|(series, file)| series.push(seen.time, &file))
+        files.into_iter().try_for_each(|(series, file)| put(series, file))
     }
 }
 

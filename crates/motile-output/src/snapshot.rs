@@ -84,6 +84,8 @@ pub struct Snapshot {
     pub walls: Option<[f64; 2]>,
     /// Distance over which the flow smears the forces of interfaces (length): two grid spacings, 0 without a grid.
     pub smear: f64,
+    /// Origin of the results ([`System::origin`]), which pictures carry.
+    pub origin: String,
 }
 
 impl Snapshot {
@@ -138,6 +140,7 @@ impl Snapshot {
                 .collect(),
             walls,
             smear,
+            origin: system.origin().to_owned(),
         })
     }
 

@@ -31,6 +31,7 @@ pub struct CsvTable {
     file: LineWriter<File>,
     path: PathBuf,
     kept: Option<Kept>,
+    origin: String,
 }
 
 /// Record of the rows in the system whose run the table is of, which checkpoints hold.
@@ -48,6 +49,15 @@ impl CsvTable {
     /// Returns [`OutputError::Name`] for an empty name, one given twice, or one with a comma, a quotation mark or the
     /// end of a line. [`OutputError::Write`].
     pub fn create(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
+        Self::with_origin(path, names, "")
+    }
+
+    /// Creates a table as [`CsvTable::create`] does. The file holds the origin of the results ([`System::origin`]) in the
+    /// first row of a last column `origin`, unless the origin is empty.
+    ///
+    /// # Errors
+    /// Returns the errors of [`CsvTable::create`].
+    pub fn with_origin(path: impl AsRef<Path>, names: &[&str], origin: &str) -> Result<Self, OutputError> {
         for (k, name) in names.iter().enumerate() {
             if name.is_empty() || name.contains([',', '"', '\n', '\r']) || names[..k].contains(name) {
                 return Err(OutputError::Name { name: (*name).to_string(), what: "a column" });
@@ -56,25 +66,27 @@ impl CsvTable {
         let path = path.as_ref().to_path_buf();
         let open = || -> io::Result<LineWriter<File>> {
             let mut file = LineWriter::new(File::create(&path)?);
-            writeln!(file, "{}", names.join(","))?;
+            writeln!(file, "{}{}", names.join(","), if origin.is_empty() { "" } else { ",origin" })?;
             Ok(file)
         };
         let file = open().map_err(OutputError::writing(&path))?;
-        Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path, kept: None })
+        let (names, origin) = (names.iter().map(ToString::to_string).collect(), origin.to_owned());
+        Ok(Self { names, rows: Vec::new(), file, path, kept: None, origin })
     }
 
     /// Creates a table as by [`CsvTable::create`], with the rows that the file has if it is a table of the same
-    /// columns.
+    /// columns. The file gets the origin that [`CsvTable::with_origin`] writes.
     ///
     /// # Errors
     /// Returns the errors of [`CsvTable::create`].
-    pub fn resume(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, OutputError> {
+    pub fn resume(path: impl AsRef<Path>, names: &[&str], origin: &str) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let mut lines = text.lines();
-        let same = lines.next() == Some(names.join(",").as_str());
+        let head = names.join(",");
+        let same = lines.next().is_some_and(|line| line.strip_suffix(",origin").unwrap_or(line) == head);
         let number = |field: &str| field.parse().unwrap_or(f64::NAN);
-        let rows = lines.map(|line| line.split(',').map(number).collect::<Vec<f64>>());
-        let mut table = Self::create(path, names)?;
+        let rows = lines.map(|line| line.split(',').take(names.len()).map(number).collect::<Vec<f64>>());
+        let mut table = Self::with_origin(path, names, origin)?;
         for row in rows.filter(|row| same && row.len() == names.len()) {
             table.push(&row)?;
         }
@@ -83,7 +95,8 @@ impl CsvTable {
 
     /// Creates a table as by [`CsvTable::create`] for a run of `system`, the first column being the time. The system
     /// keeps the rows as the record `name`, and so do checkpoints. The table of a resumed run begins with the rows so
-    /// far, and the others follow as if the run had not been interrupted.
+    /// far, and the others follow as if the run had not been interrupted. A last column `origin` holds the origin of the
+    /// results ([`System::origin`]) in its first row, unless it is empty.
     ///
     /// # Errors
     /// Returns the errors of [`CsvTable::create`].
@@ -93,8 +106,9 @@ impl CsvTable {
         system: &mut System<H>,
         name: &str,
     ) -> Result<Self, OutputError> {
-        let (time, record) = (system.time(), system.record_mut(name));
-        let mut table = Self::create(path, names)?;
+        let (time, origin) = (system.time(), system.origin().to_owned());
+        let record = system.record_mut(name);
+        let mut table = Self::with_origin(path, names, &origin)?;
         if time > 0.0 && record.texts == table.names {
             for row in record.numbers.chunks_exact(names.len()).filter(|row| row[0] <= time) {
                 table.push(row)?;
@@ -146,7 +160,13 @@ impl CsvTable {
     /// Returns [`OutputError::Count`], [`OutputError::Write`].
     pub fn push(&mut self, row: &[f64]) -> Result<(), OutputError> {
         OutputError::check_count("values of a row", row.len(), self.names.len())?;
-        writeln!(self.file, "{}", Self::line(row)).map_err(OutputError::writing(&self.path))?;
+        // The text is a quoted field (RFC 4180).
+        let origin = match (self.origin.as_str(), self.rows.len()) {
+            ("", _) => String::new(),
+            (text, 0) => format!(",\"{}\"", text.replace('"', "\"\"")),
+            _ => ",".to_owned(),
+        };
+        writeln!(self.file, "{}{origin}", Self::line(row)).map_err(OutputError::writing(&self.path))?;
         self.rows.push(row.to_vec());
         Ok(())
     }
@@ -174,6 +194,12 @@ impl CsvTable {
     pub fn line(row: &[f64]) -> String {
         let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
         row.iter().map(field).collect::<Vec<String>>().join(",")
+    }
+
+    /// Returns the origin of the results that the file holds; empty if it holds none.
+    #[must_use]
+    pub fn origin(&self) -> &str {
+        &self.origin
     }
 
     /// Returns the rows so far.

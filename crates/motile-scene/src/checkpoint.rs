@@ -54,6 +54,8 @@ pub struct Checkpoint {
     /// Of the program that wrote it ([`crate::VERSION`]).
     version: String,
     description: String,
+    /// Of the results ([`crate::System::origin`]).
+    origin: String,
     /// Of the description that the scene was built from.
     entries: BTreeMap<String, String>,
     time: f64,
@@ -225,6 +227,12 @@ impl Checkpoint {
         &self.description
     }
 
+    /// Returns the origin of the run that wrote it ([`crate::System::origin`]).
+    #[must_use]
+    pub fn origin(&self) -> &str {
+        &self.origin
+    }
+
     /// Returns the time of the state (time).
     #[must_use]
     pub fn time(&self) -> f64 {
@@ -251,6 +259,7 @@ impl<H: Hydrodynamics> Scene<H> {
         Checkpoint {
             version: crate::VERSION.to_owned(),
             description: description.into(),
+            origin: system.origin().to_owned(),
             entries: self.entries.clone(),
             time: system.time(),
             steps: system.steps() as u64,

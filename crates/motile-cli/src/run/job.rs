@@ -4,7 +4,7 @@ use std::fs::{File, TryLockError};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use super::{flags::OutputFlags, summary::Summary, words::say};
+use super::{ORIGIN_KEY, command, flags::OutputFlags, say, summary::Summary};
 use anyhow::{Result, ensure};
 use motile::base::internal::decimals;
 use motile::scene::{Every, Observer, Scene, SceneError, StepSize, System};
@@ -75,6 +75,7 @@ impl Job {
         // The time step may change on the way.
         let description = format!("{name}: scene {}", setup.fingerprint());
         output.checkpoints.resume(scene, &description, end)?;
+        scene.system_mut().set_origin(format!("{}, command: {}", setup.origin(), command()));
         let (directory, output) = (output.directory(name)?, output.clone());
         let lock = File::open(&directory)?;
         if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
@@ -212,6 +213,7 @@ impl Job {
         summary.put("solver_iterations_max", work.most_iterations, "");
         summary.put("seconds", self.seconds, "of computation");
         summary.put("warnings", self.warnings.clone(), "");
+        summary.put(ORIGIN_KEY, scene.system().origin(), "of the results");
         let failure = self.failure();
         summary.put("finished", failure.is_none(), "");
         if let Some(failure) = failure {

@@ -302,6 +302,7 @@ impl SceneRun {
                 let frame = last.observables.frame();
                 let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
                 concentration_plot(start, &profile, scene.time(), particles.concentration)
+                    .of_origin(scene.system().origin())
                     .write(&directory, "concentration_profile")?;
                 tracks.push(recorder.track());
             }

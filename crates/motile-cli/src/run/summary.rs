@@ -8,6 +8,9 @@ use serde_json::{Map, Value};
 /// Entry of a written summary with the version of the program.
 pub(crate) const VERSION_KEY: &str = "motile_version";
 
+/// Entry of a written summary with the origin of its results; the table leaves it out.
+pub(crate) const ORIGIN_KEY: &str = "origin";
+
 /// Named results in the order they are put in, written as `summary.json` and printed as a table.
 ///
 /// ```
@@ -49,7 +52,8 @@ impl Summary {
     /// Returns the table of the results: names, values to six figures, remarks.
     #[must_use]
     pub fn table(&self) -> String {
-        let rows = || self.values.iter().map(|(name, value)| (name, shown(value), self.about.get(name)));
+        let shown_rows = self.values.iter().filter(|(name, _)| *name != ORIGIN_KEY);
+        let rows = || shown_rows.clone().map(|(name, value)| (name, shown(value), self.about.get(name)));
         let names = rows().map(|(name, ..)| name.chars().count()).max().unwrap_or(0);
         // A long value, such as a list, would push all remarks to the right.
         let values = rows().map(|(_, value, _)| value.chars().count()).max().unwrap_or(0).min(14);

@@ -12,7 +12,7 @@ use motile_steady_states::{
     SteadyError, SteadyState, Symmetry,
 };
 
-use crate::run::{Summary, make_directory, say};
+use crate::run::{ORIGIN_KEY, Summary, command, make_directory, say};
 
 /// Settings of a diagram of steady states over a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +85,7 @@ pub fn draw(scene: &Setup, flags: &DiagramSettings) -> Result<()> {
     let setup = parameter.with(scene, from)?;
     make_directory(out)?;
     keep_scene(flags, &setup)?;
-    let mut diagram = Diagram::new(flags)?;
+    let mut diagram = Diagram::new(flags, &setup)?;
     let settings = Continuation { largest_step: step, ..Continuation::new(parameter, from, to) };
     // A diagram that was broken off on its first branch begins anew, which takes no longer.
     if diagram.branch > 0 {
@@ -149,6 +149,8 @@ fn keep_scene(flags: &DiagramSettings, setup: &Setup) -> Result<()> {
 /// Files of a diagram.
 struct Diagram<'a> {
     flags: &'a DiagramSettings,
+    /// Of the results, for all files.
+    origin: String,
     branch: usize,
     table: CsvTable,
     /// Kind, value and speed of special points, and frequency and symmetry of their modes.
@@ -160,11 +162,12 @@ struct Diagram<'a> {
 }
 
 impl<'a> Diagram<'a> {
-    fn new(flags: &'a DiagramSettings) -> Result<Self> {
+    fn new(flags: &'a DiagramSettings, setup: &Setup) -> Result<Self> {
+        let origin = format!("{}, command: {}", setup.origin(), command());
         let names: Vec<&str> = COLUMNS.into_iter().chain(flags.observables.iter().map(String::as_str)).collect();
         let open = |name: &str, names: &[&str], resume: bool| {
             let path = flags.out.join(name);
-            if resume { CsvTable::resume(path, names) } else { CsvTable::create(path, names) }
+            if resume { CsvTable::resume(path, names, &origin) } else { CsvTable::with_origin(path, names, &origin) }
         };
         let table = open("branches.csv", &names, flags.resume)?;
         let branch = table.rows().last().map_or(0, |row| row[0] as usize);
@@ -174,6 +177,7 @@ impl<'a> Diagram<'a> {
         let progress = Progress::new(flags.quiet);
         Ok(Self {
             flags,
+            origin,
             branch: if resume { branch } else { 0 },
             table,
             special,
@@ -258,7 +262,7 @@ impl<'a> Diagram<'a> {
     fn keep(&self, point: &BranchPoint) -> Result<()> {
         let path = self.flags.out.join("last.csv");
         let partial = path.with_extension("part");
-        let mut table = CsvTable::create(&partial, &["x", "y", "density"])?;
+        let mut table = CsvTable::with_origin(&partial, &["x", "y", "density"], &self.origin)?;
         let velocity = point.state.velocity();
         table.push(&[point.value, f64::from(u8::from(point.value > self.before)), 0.0])?;
         table.push(&[velocity.x, velocity.y, f64::from(u8::from(point.state.is_mirror_symmetric()))])?;
@@ -275,7 +279,7 @@ impl<'a> Diagram<'a> {
 
     /// Returns the last point that was written, and whether the parameter grew there.
     fn last(&mut self, setup: &Setup) -> Result<(SteadyState, bool)> {
-        let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"])?;
+        let table = CsvTable::resume(self.flags.out.join("last.csv"), &["x", "y", "density"], &self.origin)?;
         let parts = table.rows().split_at_checked(2 + setup.rigid_bodies.len());
         let Some(([place, velocity, nuclei @ ..], nodes)) = parts else {
             anyhow::bail!("last.csv is incomplete, so the run cannot continue. Leave --resume out")
@@ -328,9 +332,11 @@ impl<'a> Diagram<'a> {
                 speeds = speeds.series(Series::points(kind.name(), points).marker(Marker::Diamond));
             }
         }
-        let figure = Figure::new(1).panel(speeds).panel(panel("growth_rate", "leading growth rate (1/T)"));
+        let figure = Figure::new(1).of_origin(&self.origin).panel(speeds);
+        let figure = figure.panel(panel("growth_rate", "leading growth rate (1/T)"));
         figure.write(out, "diagram")?;
         let mut summary = Summary::default();
+        summary.put(ORIGIN_KEY, self.origin, "of the results");
         summary.put("points", rows.len(), "of all branches");
         let special = self.special.rows().iter().filter(|row| row[0] != END).count();
         summary.put("special_points", special, "folds, branch points, Hopf points");

@@ -9,7 +9,7 @@ use motile_output::CsvTable;
 use motile_output::plot::{AxisScale, Figure, Plot, Series};
 use motile_steady_states::{Eigenmode, Measured, Spectrum, SteadyState, Symmetry};
 
-use crate::run::{Summary, make_directory, say};
+use crate::run::{ORIGIN_KEY, Summary, command, make_directory, say};
 
 /// Growth rates in the summary.
 const LEADING: usize = 5;
@@ -50,6 +50,8 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     summary.put("growth_rates", rates, "of the leading modes (1/T); all are in spectrum.csv");
     summary.put("unstable_modes", spectrum.unstable(), "growing disturbances");
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
+    let origin = format!("{}, command: {}", setup.origin(), command());
+    summary.put(ORIGIN_KEY, origin.as_str(), "of the results");
     summary.put("iterations", state.iterations(), "of Newton's method");
     summary.put("condition", state.condition(), "number of the linear equations");
     summary.put(
@@ -61,7 +63,8 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     summary.put("tail", state.tail(), "of Fourier modes: if above 1e-3, use more nodes");
     summary.put("seconds", seconds, "on one core");
     make_directory(out)?;
-    let mut table = CsvTable::create(out.join("spectrum.csv"), &["growth_rate", "frequency", "antisymmetric"])?;
+    let columns = ["growth_rate", "frequency", "antisymmetric"];
+    let mut table = CsvTable::with_origin(out.join("spectrum.csv"), &columns, &origin)?;
     for Eigenmode { value, symmetry, .. } in &spectrum.modes {
         table.push(&[value.re, value.im, f64::from(u8::from(*symmetry == Symmetry::Antisymmetric))])?;
     }
@@ -69,7 +72,7 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     summary.write(&out.join("summary.json"))?;
     say(summary.table().trim_end());
     if pictures {
-        figure(&state, &spectrum)?.write(out, "steady_state")?;
+        figure(&state, &spectrum)?.of_origin(origin).write(out, "steady_state")?;
     }
     let rate = leading.map_or(f64::NAN, |mode| mode.value.re);
     let verdict = spectrum.stability().name();

@@ -14,7 +14,7 @@ fn frames_come_back_from_the_file() {
         (0..40 * 30).map(pixel).inspect(|&pixel| histogram.add(pixel)).map(code).collect()
     };
     let frames = [frame(red, 5), frame(blue, 15), frame(blue, 15)];
-    encode(&path, [40, 30], &frames, &histogram).unwrap();
+    encode(&path, [40, 30], &frames, &histogram, "").unwrap();
 
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);

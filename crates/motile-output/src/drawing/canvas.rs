@@ -13,12 +13,14 @@ pub(crate) struct Drawing {
     /// Pixels per centimetre on paper; `None` for a drawing without a size there.
     pub(crate) per_cm: Option<f64>,
     pub(crate) shapes: Vec<Shape>,
+    /// Origin of the results that it shows, which its files carry; empty for none.
+    pub(crate) origin: String,
 }
 
 impl Drawing {
     /// Returns the white drawing of a width and height (pixels).
     pub(crate) fn new(size: [f64; 2]) -> Self {
-        Self { size, per_cm: None, shapes: Vec::new() }
+        Self { size, per_cm: None, shapes: Vec::new(), origin: String::new() }
     }
 
     /// Restricts the elements that follow to a rectangle, or (`None`) lifts the restriction.

@@ -75,7 +75,15 @@ impl Drawing {
             return fs::write(path, self.svg()).map_err(OutputError::writing(path));
         }
         let per_metre = self.per_cm.map(|per_cm| (100.0 * per_cm * scale).round() as u32);
-        fs::write(path, with_size(png(&self.pixels(scale)?), per_metre)).map_err(OutputError::writing(path))
+        let mut file = png(&self.pixels(scale)?);
+        if !self.origin.is_empty() {
+            // Keyword, no compression, no language, no translated keyword.
+            insert(&mut file, b"iTXt", &[b"Comment\0\0\0\0\0", self.origin.as_bytes()].concat());
+        }
+        if let Some(per_metre) = per_metre.map(u32::to_be_bytes) {
+            insert(&mut file, b"pHYs", &[per_metre.as_slice(), &per_metre, &[1]].concat());
+        }
+        fs::write(path, file).map_err(OutputError::writing(path))
     }
 }
 
@@ -85,19 +93,18 @@ pub(crate) fn png(image: &Pixmap) -> Vec<u8> {
     image.encode_png().unwrap_or_default()
 }
 
-/// Bytes of a PNG file with the size of its pixels, if they have one (per metre), as a chunk `pHYs` after the header
-/// (ISO/IEC 15948).
-fn with_size(mut file: Vec<u8>, per_metre: Option<u32>) -> Vec<u8> {
+/// Inserts a chunk into a PNG file after its header (ISO/IEC 15948).
+fn insert(file: &mut Vec<u8>, kind: &[u8; 4], contents: &[u8]) {
     const HEADER_END: usize = 33;
-    let Some(per_metre) = per_metre.filter(|_| file.len() > HEADER_END) else { return file };
-    let per_metre = per_metre.to_be_bytes();
-    let chunk = [b"pHYs".as_slice(), &per_metre, &per_metre, &[1]].concat();
+    if file.len() <= HEADER_END {
+        return;
+    }
+    let chunk = [kind.as_slice(), contents].concat();
     let sum = !chunk.iter().fold(u32::MAX, |sum, &byte| {
         (0..8).fold(sum ^ u32::from(byte), |sum, _| (sum >> 1) ^ (0xedb8_8320 & (sum & 1).wrapping_neg()))
     });
-    let chunk = [9_u32.to_be_bytes().as_slice(), &chunk, &sum.to_be_bytes()].concat();
-    file.splice(HEADER_END..HEADER_END, chunk);
-    file
+    let length = (contents.len() as u32).to_be_bytes();
+    file.splice(HEADER_END..HEADER_END, [length.as_slice(), &chunk, &sum.to_be_bytes()].concat());
 }
 
 /// Colours of the pixels of an image without transparency, row after row from the top.

@@ -57,10 +57,14 @@ impl Drawing {
         let [width, height] = self.size.map(short);
         let close = if clipped { "</g>\n" } else { "" };
         let shown = self.size.map(|side| self.per_cm.map_or(short(side), |per_cm| short(side / per_cm) + "cm"));
+        let origin = match self.origin.as_str() {
+            "" => String::new(),
+            text => format!("<metadata>{}</metadata>\n", escape(text)),
+        };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" \
              viewBox=\"0 0 {width} {height}\" fill-rule=\"evenodd\" stroke-linejoin=\"round\" \
-             stroke-linecap=\"round\">\n\
+             stroke-linecap=\"round\">\n{origin}\
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}{close}</svg>\n",
             shown[0], shown[1]
         )

@@ -59,13 +59,15 @@ pub struct VtkFile {
     needed: usize,
     point_data: Vec<Array>,
     cell_data: Vec<Array>,
+    origin: String,
 }
 
 impl VtkFile {
     fn new(kind: &'static str, extension: &'static str, points: usize, cells: usize) -> Self {
         let (attributes, piece, geometry) = Default::default();
-        let (point_data, cell_data) = Default::default();
-        Self { kind, extension, attributes, piece, geometry, points, cells, needed: points, point_data, cell_data }
+        let (point_data, cell_data, origin) = Default::default();
+        let needed = points;
+        Self { kind, extension, attributes, piece, geometry, points, cells, needed, point_data, cell_data, origin }
     }
 
     /// Creates cells of a raster (ImageData, `.vti`): samples at the points of the raster are cell data.
@@ -206,20 +208,29 @@ impl VtkFile {
         self
     }
 
+    /// Sets the origin of the results ([`motile::scene::System::origin`]), which the file holds as a comment.
+    #[must_use]
+    pub fn of_origin(mut self, origin: &str) -> Self {
+        // Two hyphens end a comment of XML.
+        self.origin = origin.replace("--", "- -");
+        self
+    }
+
     /// Returns the text of the file.
     ///
     /// # Errors
     /// Returns [`OutputError::Count`] for arrays of the wrong length, corners of triangles that are not points.
     /// [`OutputError::Name`] for names with other characters than letters, digits, `_`, `-` and space.
     pub fn document(&self) -> Result<String, OutputError> {
-        let Self { kind, attributes, piece, geometry, points, cells, .. } = self;
+        let Self { kind, attributes, piece, geometry, points, cells, origin, .. } = self;
         if self.needed > *points {
             OutputError::check_count("points of triangles", *points, self.needed)?;
         }
         let point_data = data("PointData", &self.point_data, *points)?;
         let cell_data = data("CellData", &self.cell_data, *cells)?;
+        let origin = if origin.is_empty() { String::new() } else { format!("<!-- {origin} -->\n") };
         Ok(format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+            "<?xml version=\"1.0\"?>\n{origin}<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
              header_type=\"UInt64\">\n<{kind}{attributes}>\n\
              <Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
              </{kind}>\n</VTKFile>\n"

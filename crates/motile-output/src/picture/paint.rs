@@ -42,6 +42,7 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, OutputError> {
     let layout = Layout::new(picture);
     let mut drawing = Drawing::new([picture.format.width, layout.height]);
     drawing.per_cm = picture.format.per_cm;
+    drawing.origin.clone_from(&picture.seen.origin);
     let mut painter = Painter { picture, drawing, layout };
     painter.drawing.clip(Some(painter.layout.frame.area));
     painter.pressure()?;

@@ -31,6 +31,7 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, OutputError> {
                 .horizontal(0.0, "pushers above, pullers below"),
         )
         .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral"));
+    let figure = figure.of_origin(table.origin());
     if table.curve("time", "gap").is_err() {
         return Ok(figure);
     }

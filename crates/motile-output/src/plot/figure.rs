@@ -12,13 +12,14 @@ pub struct Figure {
     columns: usize,
     panels: Vec<Plot>,
     panel_size: [f64; 2],
+    origin: String,
 }
 
 impl Figure {
     /// Creates a figure without plots so far, in rows of `columns` plots.
     #[must_use]
     pub fn new(columns: usize) -> Self {
-        Self { columns: columns.max(1), panels: Vec::new(), panel_size: [540.0, 340.0] }
+        Self { columns: columns.max(1), panels: Vec::new(), panel_size: [540.0, 340.0], origin: String::new() }
     }
 
     /// Adds a plot.
@@ -35,8 +36,15 @@ impl Figure {
         self
     }
 
+    /// Sets the origin of the results that the figure shows ([`motile::scene::System::origin`]): its files carry this
+    /// text.
+    #[must_use]
+    pub fn of_origin(self, origin: impl Into<String>) -> Self {
+        Self { origin: origin.into(), ..self }
+    }
+
     fn draw(&self) -> Result<Drawing, OutputError> {
-        draw(&self.panels, self.columns, self.panel_size)
+        Ok(Drawing { origin: self.origin.clone(), ..draw(&self.panels, self.columns, self.panel_size)? })
     }
 
     /// Returns the text of an SVG file of the figure.

@@ -64,6 +64,7 @@ pub struct SuspensionPicture {
     corner: Vec2,
     size: Vec2,
     periodic: [bool; 2],
+    origin: String,
 }
 
 /// Droplet of a crowd.
@@ -110,7 +111,8 @@ impl SuspensionPicture {
         if let Some([below, above]) = domain.walls {
             (corner.y, size.y) = (below, above - below);
         }
-        Ok(Self { time: system.time(), droplets, corner, size, periodic: periods.map(|period| period.is_some()) })
+        let (periodic, origin) = (periods.map(|period| period.is_some()), system.origin().to_owned());
+        Ok(Self { time: system.time(), droplets, corner, size, periodic, origin })
     }
 
     /// Returns the displacements at which some of a curve is in the region.
@@ -136,6 +138,7 @@ impl SuspensionPicture {
         let area =
             Rect { left: margin, top: 4.2 * em, width: width - 2.0 * margin, height: unit * self.size.y }.rounded();
         let mut drawing = Drawing::new([width, (area.bottom() + margin).round()]);
+        drawing.origin.clone_from(&self.origin);
         drawing.fill(&[area.outline()], PAPER, 1.0);
         drawing.clip(Some(area));
         let top = self.corner.y + self.size.y;
@@ -282,7 +285,7 @@ impl SuspensionAnimation {
         for crowd in &self.crowds {
             frames.push(&crowd.draw(self.colour, self.width, scale.as_ref()).pixels(1.0)?);
         }
-        frames.write(path.as_ref())
+        frames.write(path.as_ref(), self.crowds.first().map_or("", |crowd| &crowd.origin))
     }
 }
 

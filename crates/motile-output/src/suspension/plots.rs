@@ -23,6 +23,7 @@ pub fn suspension_plots(tables: &SuspensionCsv, from: f64, pairs: &PairCorrelati
     let over_distance =
         |label: &str, values: &[f64]| Series::line(label, pairs.distances.iter().copied().zip(values.iter().copied()));
     Ok(Figure::new(2)
+        .of_origin(tables.table().origin())
         .panel(
             plot("Order of headings", "t", "order")
                 .series(over_time("polar", "polar_order")?)

@@ -31,15 +31,15 @@ fn a_resumed_table_keeps_the_rows_of_its_file() {
         table.push(&[time, 1.0 / (time - 0.1)]).unwrap();
     }
     let written = std::fs::read_to_string(&path).unwrap();
-    let table = CsvTable::resume(&path, &["time", "x"]).unwrap();
+    let table = CsvTable::resume(&path, &["time", "x"], "").unwrap();
     assert!(table.rows().len() == 3 && table.rows()[1][1].is_nan() && table.rows()[0][1] == -10.0);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     // Other columns, a row that was torn, and no file at all.
-    assert!(CsvTable::resume(&path, &["time", "y"]).unwrap().rows().is_empty());
+    assert!(CsvTable::resume(&path, &["time", "y"], "").unwrap().rows().is_empty());
     std::fs::write(&path, "time,x\n0,1\n0.1").unwrap();
-    assert_eq!(CsvTable::resume(&path, &["time", "x"]).unwrap().rows(), [[0.0, 1.0]]);
+    assert_eq!(CsvTable::resume(&path, &["time", "x"], "").unwrap().rows(), [[0.0, 1.0]]);
     std::fs::remove_file(&path).unwrap();
-    assert!(CsvTable::resume(&path, &["time", "x"]).unwrap().rows().is_empty());
+    assert!(CsvTable::resume(&path, &["time", "x"], "").unwrap().rows().is_empty());
     std::fs::remove_file(&path).unwrap();
 }
 
@@ -76,5 +76,22 @@ fn a_table_of_a_resumed_run_begins_with_the_rows_so_far() {
     // Other columns have no rows yet.
     let other = CsvTable::of_run(&path, &["time", "y"], second.system_mut(), "places").unwrap();
     assert!(other.rows().is_empty());
+    std::fs::remove_file(&path).unwrap();
+}
+
+#[test]
+fn the_first_row_holds_the_origin() {
+    let path = std::env::temp_dir().join(format!("motile-origin-{}.csv", std::process::id()));
+    let origin = "motile 1.0, scene 1f, command: motile run 'a \"b\", c'";
+    let mut table = CsvTable::with_origin(&path, &["time", "x"], origin).unwrap();
+    table.push(&[0.0, 1.0]).unwrap();
+    table.push(&[1.0, f64::NAN]).unwrap();
+    let mut again = CsvTable::resume(&path, &["time", "x"], origin).unwrap();
+    assert_eq!((again.rows().len(), again.rows()[0].as_slice(), again.origin()), (2, &[0.0, 1.0][..], origin));
+    again.push(&[2.0, 3.0]).unwrap();
+    let mut reader = csv::Reader::from_path(&path).unwrap();
+    assert_eq!(reader.headers().unwrap(), vec!["time", "x", "origin"]);
+    let last: Vec<String> = reader.records().map(|row| row.unwrap()[2].to_string()).collect();
+    assert_eq!(last, [origin, "", ""]);
     std::fs::remove_file(&path).unwrap();
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use motile::prelude::*;
 use motile_output::plot::{Figure, Plot, SERIES_COLOURS, Series};
-use motile_output::{Look, Raster, Snapshot, SolidColour, SolidShape};
+use motile_output::{Animation, Look, ParaView, Raster, Snapshot, SolidColour, SolidShape};
 
 use crate::{Directory, svg};
 
@@ -157,4 +157,39 @@ fn exceeded_ends_of_colours_are_triangles() {
         corners.map(|node| node.attribute("fill").map(str::to_owned)).collect::<Vec<_>>().len()
     };
     assert_eq!([triangles([-1e6, 1e6]), triangles([-1e6, 1e-3]), triangles([-1e-3, 1e-3])], [0, 1, 2]);
+}
+
+#[test]
+fn files_carry_the_origin_of_their_results() {
+    let directory = Directory::new("origin");
+    let region = Region::Box { lengths: [6.0, 4.0] };
+    let method = Method::Grid(GridMethod::of_spacing(0.5));
+    let setup = Setup { region, method, ..Setup::default() };
+    let mut scene = setup.build().expect("a scene").scene;
+    let origin = format!("{}, command: swim --of 'größe'", setup.origin());
+    assert!(origin.starts_with(&format!("motile {}, scene {}", motile::VERSION, setup.fingerprint())));
+    scene.system_mut().set_origin(origin.as_str());
+    let raster = Raster::of(scene.system(), 0.5).expect("a raster");
+    let mut film = Animation::new(Look::default(), raster);
+    let mut files = ParaView::create(&directory.0, raster).expect("a directory");
+    scene.run(0.01).observe(Every::Time(0.01), &mut film).observe(Every::Time(0.01), &mut files).go().expect("a run");
+    film.write(&[], directory.0.join("film.gif")).expect("a film");
+    let seen = Snapshot::take(scene.system_mut(), raster).expect("a snapshot");
+    for name in ["picture.png", "picture.svg"] {
+        Look::default().write_picture(&seen, &[], directory.0.join(name)).expect("a picture");
+    }
+    scene.checkpoint("").write(&directory.0.join("state")).expect("a checkpoint");
+    let written: Vec<_> = std::fs::read_dir(&directory.0).expect("files").flatten().map(|entry| entry.path()).collect();
+    let pieces = written.iter().filter(|path| path.extension().is_none_or(|kind| kind != "pvd"));
+    let shown = |path: &std::path::Path| match path.extension() {
+        Some(kind) if kind == "vtp" || kind == "vti" => origin.replace("--", "- -"),
+        _ => origin.clone(),
+    };
+    for path in pieces {
+        let (bytes, text) = (std::fs::read(path).expect("a file"), shown(path));
+        assert!(bytes.windows(text.len()).any(|part| part == text.as_bytes()), "{}", path.display());
+    }
+    let file = BufReader::new(File::open(directory.0.join("picture.png")).expect("a file"));
+    let png = png::Decoder::new(file).read_info().expect("a picture");
+    assert_eq!(png.info().utf8_text[0].get_text().expect("a text"), origin);
 }

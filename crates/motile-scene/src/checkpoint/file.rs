@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use super::{Checkpoint, CheckpointError};
 
 /// Changes whenever older programs cannot read what is written, or the other way round.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 const HEADER: usize = 24;
 const MARK_LENGTH: u64 = Checkpoint::MARK.len() as u64;
 

@@ -87,6 +87,7 @@ pub struct System<H> {
     known: Known,
     background: Background,
     resistance: Resistance,
+    origin: String,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -101,6 +102,7 @@ impl<H: Hydrodynamics> System<H> {
             known: Known::Nothing,
             background: Background::none(),
             resistance: Resistance::default(),
+            origin: String::new(),
         }
     }
 
@@ -168,6 +170,20 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn work(&self) -> FlowWork {
         self.findings.work
+    }
+
+    /// Returns the origin of the results: the version of motile, the fingerprint of the description and, in a run of
+    /// the program `motile`, its command. Files of results carry this text. It is empty in a scene that you put
+    /// together by hand.
+    #[must_use]
+    pub fn origin(&self) -> &str {
+        &self.origin
+    }
+
+    /// Sets the origin of the results ([`System::origin`]), for example to add the name of your program. Ends of lines
+    /// become spaces.
+    pub fn set_origin(&mut self, origin: impl Into<String>) {
+        self.origin = origin.into().replace(|c: char| c.is_control(), " ");
     }
 
     /// Returns the record that an observer keeps under a name; `None` if there is none.

@@ -69,7 +69,9 @@ impl Setup {
             placed.check()?;
             placed.assembled(self.droplets.len())?
         };
-        Ok(Built { scene: built.scene.described_by(self.entries()), ..built })
+        let mut scene = built.scene.described_by(self.entries());
+        scene.system_mut().set_origin(self.origin());
+        Ok(Built { scene, ..built })
     }
 
     /// Returns the scene of a description that has been checked and has no suspensions. Droplets after the first

@@ -209,6 +209,13 @@ impl Setup {
     pub fn fingerprint(&self) -> String {
         Self { step: StepSize::default(), integrator: IntegratorKind::default(), ..self.clone() }.hash()
     }
+
+    /// Returns the origin of the results of this description: the version of motile and [`Setup::fingerprint`]. Files
+    /// of results carry it ([`motile_scene::System::origin`]).
+    #[must_use]
+    pub fn origin(&self) -> String {
+        format!("motile {}, scene {}", motile_scene::VERSION, self.fingerprint())
+    }
 }
 
 #[cfg(test)]

@@ -22,6 +22,7 @@ fn halves() -> Snapshot {
         solids: Vec::new(),
         walls: None,
         smear: 0.0,
+        origin: String::new(),
     }
 }
 
@@ -105,6 +106,7 @@ fn values_that_are_not_numbers_do_no_harm() {
         solids,
         walls: Some([0.0, 2.0]),
         smear: 0.1,
+        origin: String::new(),
     };
     draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &STILL);
     let look = Look::default();

@@ -18,6 +18,7 @@ fn images_in_a_sheared_box_are_displaced_row_by_row() {
             solids: Vec::new(),
             walls: None,
             smear: 0.0,
+            origin: String::new(),
         };
         let look = Look::default();
         let legends = look.legends(std::slice::from_ref(&seen));

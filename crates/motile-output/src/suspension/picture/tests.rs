@@ -5,7 +5,8 @@ fn square(x: f64, y: f64) -> Vec<Vec2> {
 }
 
 fn crowd(periodic: [bool; 2]) -> SuspensionPicture {
-    SuspensionPicture { time: 0.0, droplets: Vec::new(), corner: Vec2::splat(-2.0), size: Vec2::splat(4.0), periodic }
+    let (corner, size, origin) = (Vec2::splat(-2.0), Vec2::splat(4.0), String::new());
+    SuspensionPicture { time: 0.0, droplets: Vec::new(), corner, size, periodic, origin }
 }
 
 #[test]
