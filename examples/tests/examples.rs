@@ -4,6 +4,8 @@
 mod active_gel;
 #[path = "../active_walls.rs"]
 mod active_walls;
+#[path = "../beating_sheet.rs"]
+mod beating_sheet;
 #[path = "../bifurcation.rs"]
 mod bifurcation;
 #[path = "../birth_death.rs"]
@@ -56,6 +58,11 @@ fn run_active_gel() {
 #[test]
 fn run_active_walls() {
     active_walls::main().expect("a run");
+}
+
+#[test]
+fn run_beating_sheet() {
+    beating_sheet::main().expect("a run");
 }
 
 #[test]

@@ -7,7 +7,7 @@ const CRATES: [(&str, usize, &[&str]); 4] = [
     ("stokes-grid", 28, &["nalgebra", "motile-scene"]),
     ("ib-core", 33, &["nalgebra", "stokes-boundary-integrals"]),
     ("active-interface", 32, &["nalgebra", "stokes-grid", "stokes-boundary-integrals"]),
-    ("elastic-solids", 39, &["nalgebra", "stokes-grid", "stokes-boundary-integrals"]),
+    ("elastic-solids", 43, &["nalgebra", "stokes-grid", "stokes-boundary-integrals"]),
 ];
 
 /// Returns the names of the packages that a crate of the workspace builds.

@@ -1,16 +1,18 @@
 //! Scenes: runs, state and output.
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 use std::time::Instant;
 
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
 use motile::base::{FlowSample, Region, Vec2};
+use motile::elastic_solids::RigidBody;
 use motile::scene::{
     Body, Every, Handle, Observer as _, SceneError, StepSize, System, Warnings, checkpoint::Checkpoint,
 };
@@ -18,6 +20,7 @@ use motile::setup::{AnyFlow, Built, Setup as Description};
 use motile_output::{DropletMeter, Look, ParaView, Raster, Snapshot, SolidColour};
 
 use crate::error::{failed, of_setup, refused};
+use crate::setup::Setup;
 use crate::tension::TabulatedTension;
 use crate::value::{described, from_python};
 use crate::work::{BETWEEN_LOOKS, unless_interrupted};
@@ -220,6 +223,66 @@ impl Scene {
         Ok(gaps.into_iter().flatten().reduce(f64::min))
     }
 
+    /// Names, forces of the fluid (force) and, of rigid bodies, its torques (force times length) of all bodies, in the
+    /// order of `bodies`.
+    #[allow(clippy::type_complexity)]
+    fn body_forces(&self, py: Python<'_>) -> PyResult<Vec<(String, [f64; 2], Option<f64>)>> {
+        py.detach(|| {
+            let mut state = self.lock()?;
+            let system = state.scene.system_mut();
+            let rigid: Vec<Handle<RigidBody>> = system.bodies().map(|(handle, _)| handle).collect();
+            let named = system.all_bodies().map(|(handle, body)| (handle, body.name().to_owned()));
+            let named: Vec<(Handle<dyn Body>, String)> = named.collect();
+            let forces = named.into_iter().map(|(handle, name)| {
+                let force = system.force_on(handle).map_err(failed)?;
+                let rigid = rigid.iter().find(|rigid| rigid.index() == handle.index());
+                let torque = rigid.map(|rigid| system.observe(*rigid).map(|seen| seen.torque)).transpose();
+                Ok((name, force.to_array(), torque.map_err(failed)?))
+            });
+            forces.collect()
+        })
+    }
+
+    /// Forces along the channel by their names; None without straight walls.
+    fn channel_forces(&self, py: Python<'_>) -> PyResult<Option<BTreeMap<&'static str, Option<f64>>>> {
+        py.detach(|| {
+            let mut state = self.lock()?;
+            let forces = state.scene.system_mut().channel_forces().map_err(failed)?;
+            Ok(forces.map(|forces| {
+                BTreeMap::from([
+                    ("pressure_drop", Some(forces.pressure_drop)),
+                    ("extra_pressure_drop", forces.extra_pressure_drop),
+                    ("force_lower", Some(forces.on_walls[0])),
+                    ("force_upper", Some(forces.on_walls[1])),
+                    ("force_bodies_x", Some(forces.on_bodies.x)),
+                    ("force_bodies_y", Some(forces.on_bodies.y)),
+                ])
+            }))
+        })
+    }
+
+    /// Shear stresses of the fluid on the lower and the upper wall (stress) at that many places of each; None without
+    /// straight walls.
+    #[allow(clippy::type_complexity)]
+    fn wall_shear<'py>(
+        &self,
+        py: Python<'py>,
+        count: usize,
+    ) -> PyResult<Option<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)>> {
+        let found = py.detach(|| {
+            let mut state = self.lock()?;
+            let system = state.scene.system_mut();
+            let domain = system.hydrodynamics().fluid_view().domain;
+            let period = domain.periods[0].unwrap_or_default();
+            let places = (0..count).map(|k| domain.origin[0] + period * k as f64 / count as f64).collect::<Vec<_>>();
+            Ok::<_, PyErr>(system.wall_shear(count).map_err(failed)?.map(|[lower, upper]| [places, lower, upper]))
+        })?;
+        Ok(found.map(|lists| {
+            let [places, lower, upper] = lists.map(|list| PyArray1::from_vec(py, list));
+            (places, lower, upper)
+        }))
+    }
+
     /// Names and markers of all bodies, droplets first.
     fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray2<f64>>)>> {
         let state = self.lock()?;
@@ -358,6 +421,34 @@ impl Scene {
             other.warnings.clone_from(&state.warnings);
         }
         Ok(copy)
+    }
+
+    /// Setup that the scene was built from.
+    #[getter]
+    fn setup(&self) -> Setup {
+        Setup { description: self.description.clone() }
+    }
+
+    /// State and records, for `pickle`.
+    fn packed<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyArray1<f64>>)> {
+        let state = self.lock()?;
+        if !state.laws.is_empty() {
+            let remedy = "Save the state with `save`, and build the scene, set its laws and `load` the state there";
+            let message = format!("a scene with a tension law of your own cannot be pickled. {remedy}");
+            return Err(refused(&message, Some("tension".into()), None, Some(remedy.to_owned())));
+        }
+        let bytes = state.scene.checkpoint(self.description.fingerprint()).to_bytes().map_err(failed)?;
+        Ok((PyBytes::new(py, &bytes), PyArray1::from_slice(py, &state.records)))
+    }
+
+    /// Takes over a state and records that `packed` returned.
+    #[expect(clippy::needless_pass_by_value, reason = "pyo3 extracts arrays by value")]
+    fn unpack(&self, bytes: &[u8], records: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        let mut state = self.lock()?;
+        let saved = Checkpoint::from_bytes(bytes).map_err(failed)?;
+        state.scene.resume(&saved).map_err(|error: SceneError| failed(error))?;
+        state.records = records.as_array().to_vec();
+        Ok(())
     }
 
     /// Saves the state to a file.

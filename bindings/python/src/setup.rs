@@ -1,9 +1,11 @@
 //! Descriptions of scenes.
 
+use std::path::{Path, PathBuf};
+
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
-use motile::setup::Setup as Description;
+use motile::setup::{OutlineReport, Setup as Description};
 use toml::{Table, Value};
 
 use crate::error::{failed, of_earlier, of_setup, refused, unreadable};
@@ -25,6 +27,8 @@ impl Setup {
     fn checked(value: &Value) -> PyResult<Self> {
         let description: Description = described(value.clone()).map_err(|error| of_earlier(value).unwrap_or(error))?;
         description.check().map_err(|error| of_setup(&error))?;
+        // Like lists, the contents of files are copied.
+        let description = description.with_files(Path::new("")).map_err(|error| of_setup(&error))?;
         Ok(Self { description })
     }
 
@@ -78,6 +82,34 @@ impl Setup {
     #[classmethod]
     fn from_toml(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
         Ok(Self { description: Description::from_toml(text).map_err(|error| of_setup(&error))? })
+    }
+
+    /// Setup of a scene file (TOML). Files of outlines and meshes that it names are relative to it.
+    #[classmethod]
+    fn from_file(_class: &Bound<'_, PyType>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let path: PathBuf = path.extract()?;
+        Ok(Self { description: Description::from_file(&path).map_err(|error| of_setup(&error))? })
+    }
+
+    /// Reports of the outlines of the setup, one dictionary each: by how much the shape differs from the polygon
+    /// through the points. Lengths and areas are in the units of the setup.
+    fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let reports = self.description.outlines().map_err(|error| of_setup(&error))?;
+        let entry = |report: OutlineReport| {
+            let dict = PyDict::new(py);
+            dict.set_item("key", report.key.replace('-', "_"))?;
+            dict.set_item("points", report.points)?;
+            dict.set_item("repeated", report.repeated)?;
+            dict.set_item("was_clockwise", report.was_clockwise)?;
+            dict.set_item("distance", report.distance)?;
+            dict.set_item("polygon_area", report.polygon_area)?;
+            dict.set_item("area", report.area)?;
+            dict.set_item("polygon_perimeter", report.polygon_perimeter)?;
+            dict.set_item("perimeter", report.perimeter)?;
+            dict.set_item("centroid", report.centroid)?;
+            Ok(dict)
+        };
+        reports.into_iter().map(entry).collect()
     }
 
     /// Text of a scene file with all entries.

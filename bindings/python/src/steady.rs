@@ -14,6 +14,18 @@ fn of_steady(error: &SteadyError) -> PyErr {
     if let SteadyError::Setup(error) = error { of_setup(error) } else { failed(error) }
 }
 
+/// Parameter of a name with underscores.
+fn parameter_of(parameter: &str) -> PyResult<Parameter> {
+    let name = parameter.replace('_', "-");
+    let known = Parameter::NAMES.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
+    known.ok_or_else(|| {
+        let names: Vec<String> = Parameter::NAMES.iter().map(|(name, _)| name.replace('-', "_")).collect();
+        let remedy = format!("Use one of {}", names.join(", "));
+        let message = format!("there is no parameter {parameter}. {remedy}");
+        refused(&message, Some("parameter".into()), Some(parameter.to_owned()), Some(remedy))
+    })
+}
+
 /// Steady state of a droplet, found by Newton's method.
 #[pyclass(module = "motile", frozen)]
 #[derive(Debug)]
@@ -75,6 +87,27 @@ impl SteadyState {
         PyArray1::from_vec(py, points.iter().flat_map(|point| point.to_array()).collect()).reshape([points.len(), 2])
     }
 
+    /// Concentrations at the nodes (particles per length, in three dimensions per length squared).
+    #[getter]
+    fn concentration<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (_, values) = self.state.profile().concentrations().map_err(|error| of_steady(&error))?;
+        Ok(PyArray1::from_vec(py, values))
+    }
+
+    /// Derivatives of positions and concentrations at the nodes by some parameters, named as in `sensitivities`: a
+    /// dictionary by parameter of arrays of shape (n, 3), with the columns x, y and concentration.
+    fn profile_sensitivities<'py>(&self, py: Python<'py>, parameters: Vec<String>) -> PyResult<Bound<'py, PyDict>> {
+        let known = parameters.iter().map(|name| parameter_of(name)).collect::<PyResult<Vec<_>>>()?;
+        let state = self.state.clone();
+        let found = unless_interrupted(py, None, move |_| state.profile_sensitivities(&known))?;
+        let all = PyDict::new(py);
+        for (name, change) in parameters.into_iter().zip(found.map_err(|error| of_steady(&error))?) {
+            let rows = change.positions.iter().zip(&change.concentrations).flat_map(|(at, c)| [at.x, at.y, *c]);
+            all.set_item(name, PyArray1::from_vec(py, rows.collect()).reshape([change.concentrations.len(), 3])?)?;
+        }
+        Ok(all)
+    }
+
     /// Eigenvalues (1/time) of small disturbances, largest growth rate first, one of each conjugate pair, and their
     /// symmetries.
     fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyArray1<numpy::Complex64>>, Vec<&'static str>)> {
@@ -94,6 +127,56 @@ impl SteadyState {
         Ok(self.of_disturbances(py)?.error)
     }
 
+    /// Refused, with what to send instead.
+    fn __reduce__(&self) -> PyResult<()> {
+        let remedy = "Send its setup (`state.setup`), and call `motile.steady` or `motile.branch` there";
+        Err(refused(&format!("a steady state cannot be pickled. {remedy}"), None, None, Some(remedy.to_owned())))
+    }
+
+    /// Derivatives of speed, stresslet and so on by every number of the setup: a dictionary by observable of
+    /// dictionaries by parameter, of which pandas makes a table. With `logarithmic`, relative changes per relative
+    /// change; with `growth`, also the growth rate of the leading mode and, if it oscillates, its frequency. With a list
+    /// of `parameters`, by these alone, in less time.
+    #[pyo3(signature = (*, parameters=None, logarithmic=false, growth=false))]
+    fn sensitivities<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: Option<Vec<String>>,
+        logarithmic: bool,
+        growth: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let state = self.state.clone();
+        let wanted = match parameters {
+            Some(names) => names.into_iter().map(|name| parameter_of(&name)).collect::<PyResult<Vec<_>>>()?,
+            None => Parameter::independent(self.state.setup()),
+        };
+        let found = unless_interrupted(py, None, move |_| {
+            let mode = if growth { state.spectrum()?.leading().cloned() } else { None };
+            state.sensitivities_by(&wanted, &mode.into_iter().collect::<Vec<_>>())
+        })?;
+        let found = found.map_err(|error| of_steady(&error))?;
+        if let Some(warning) = &found.warning {
+            py.import("warnings")?.call_method1("warn", (warning,))?;
+        }
+        let all = PyDict::new(py);
+        for (name, _) in &found.observables {
+            let column = PyDict::new(py);
+            for entry in &found.parameters {
+                let parameter = entry.parameter;
+                let derivative = found.derivative(name, parameter);
+                let value = if logarithmic { found.logarithmic(name, parameter) } else { derivative };
+                column.set_item(parameter.name().replace('-', "_"), value.unwrap_or(f64::NAN))?;
+            }
+            let known = match *name {
+                "c_max" => "concentration_max",
+                "c_min" => "concentration_min",
+                other => other,
+            };
+            all.set_item(known, column)?;
+        }
+        Ok(all)
+    }
+
     fn __repr__(&self) -> PyResult<String> {
         Ok(format!("<steady state: speed {:.6}, residual {:.0e}>", self.speed()?, self.residual()))
     }
@@ -106,11 +189,21 @@ impl SteadyState {
     }
 }
 
-/// Steady state of a setup with one droplet.
+/// Steady state of a setup with one droplet. With `near`, the state of a similar setup, the search starts from that
+/// state, which takes less time and stays on its branch.
 #[pyfunction]
-pub(crate) fn steady(py: Python<'_>, setup: &Bound<'_, Setup>) -> PyResult<SteadyState> {
+#[pyo3(signature = (setup, *, near=None))]
+pub(crate) fn steady(
+    py: Python<'_>,
+    setup: &Bound<'_, Setup>,
+    near: Option<&Bound<'_, SteadyState>>,
+) -> PyResult<SteadyState> {
     let description = setup.get().description.clone();
-    let found = unless_interrupted(py, None, move |_| motile_steady_states::SteadyState::find(&description))?;
+    let near = near.map(|near| near.get().state.clone());
+    let found = unless_interrupted(py, None, move |_| match near {
+        Some(near) => near.follow(&description),
+        None => motile_steady_states::SteadyState::find(&description),
+    })?;
     Ok(SteadyState { state: found.map_err(|error| of_steady(&error))? })
 }
 
@@ -127,15 +220,7 @@ pub(crate) fn branch<'py>(
     most_points: usize,
     tick: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let name = parameter.replace('_', "-");
-    let known = Parameter::NAMES.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
-    let unknown = || {
-        let names: Vec<String> = Parameter::NAMES.iter().map(|(name, _)| name.replace('-', "_")).collect();
-        let remedy = format!("Use one of {}", names.join(", "));
-        let message = format!("there is no parameter {parameter}. {remedy}");
-        refused(&message, Some("parameter".into()), Some(parameter.to_owned()), Some(remedy))
-    };
-    let known = known.ok_or_else(unknown)?;
+    let known = parameter_of(parameter)?;
     let start = start.get().state.clone();
     let from = known.get(start.setup()).unwrap_or(f64::NAN);
     let settings = Continuation { largest_step, most_points, ..Continuation::new(known, from, stop) };

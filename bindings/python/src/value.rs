@@ -54,6 +54,9 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>, key: &str) -> PyResult<Opti
     if let Ok(text) = object.cast::<PyString>() {
         return Ok(Some(Value::String(text.to_string())));
     }
+    if object.hasattr("__fspath__")? {
+        return Ok(Some(Value::String(object.call_method0("__fspath__")?.extract()?)));
+    }
     if object.hasattr("tolist")? {
         return from_python(&object.call_method0("tolist")?, key);
     }

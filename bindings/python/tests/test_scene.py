@@ -215,6 +215,24 @@ def test_sixteen_droplets() -> None:
         small(region=motile.box(6), droplets=[], suspension=[{"count": 16}]).build()
 
 
+def test_forces_on_a_post_and_walls() -> None:
+    post = {"name": "post", "held": True, "centre": [0, 0], "shape": {"round": {"radius": 0.5}}}
+    region = {"channel": {"length": 6.0, "width": 3.0, "drive": {"flux": 1.0}}}
+    scene = small(region=region, viscosity=1.0, droplets=[], rigid_bodies=[post]).build()
+    [(name, force, torque)] = scene.body_forces
+    # An independent boundary-integral program.
+    assert name == "post" and force == pytest.approx([16.7187598671, 0], abs=1e-6)
+    assert torque == pytest.approx(0, abs=1e-6)
+    forces = scene.channel_forces
+    assert forces is not None and forces["extra_pressure_drop"] == pytest.approx(7.936105974, rel=1e-7)
+    shear = scene.wall_shear(64)
+    assert shear is not None
+    x, lower, upper = shear
+    assert x[0] == -3 and np.allclose(lower, upper) and upper[32] == pytest.approx(2.76673351, rel=1e-6)
+    assert 6 * (np.mean(lower) + np.mean(upper)) + force[0] == pytest.approx(3 * forces["pressure_drop"], rel=1e-7)
+    assert motile.Setup().build().channel_forces is None and motile.Setup().build().wall_shear() is None
+
+
 def test_pictures_and_files(tmp_path: Path) -> None:
     scene = small().build()
     text = scene.picture(spacing=0.3, caption="a <caption>")
@@ -467,3 +485,19 @@ def test_sweeps_resume_and_keep_errors(tmp_path: Path) -> None:
         with pytest.raises(motile.Error, match="Remove it"):
             motile.sweep(small(), {"viscosity": [100]}, 0.1, folder=alone)
         file.unlink()
+
+
+def test_scenes_pickle_with_state_and_records() -> None:
+    scene = small(droplets=[motile.droplet(-2)]).build()
+    scene.run(0.4, 0.1)
+    again = pickle.loads(pickle.dumps(scene))
+    assert again.setup == scene.setup and again.time == scene.time
+    assert np.array_equal(again.track.as_array, scene.track.as_array)
+    after, expected = again.run(0.6, 0.1), scene.run(0.6, 0.1)
+    assert np.array_equal(after["speed"], expected["speed"])
+    assert "<svg" in again._repr_html_() and "stresslet_xx" in again._repr_html_()
+    scene.droplets[0].set_tension(lambda c: 10.0 + 0.01 * c)
+    with pytest.raises(motile.Error, match="load"):
+        pickle.dumps(scene)
+    with pytest.raises(motile.Error, match="Send its setup"):
+        pickle.dumps(motile.steady(small(droplets=[motile.droplet(-2)])))

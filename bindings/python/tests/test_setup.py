@@ -56,6 +56,42 @@ def test_replace() -> None:
     assert setup == channel()
 
 
+def test_outlines_of_files_and_arrays(tmp_path: Path) -> None:
+    angle = np.linspace(0, 2 * np.pi, 80, endpoint=False)
+    pixels = np.column_stack([50 + 30 * np.cos(angle), 40 - 20 * np.sin(angle)])
+    np.savetxt(tmp_path / "cell.csv", pixels, delimiter=",", header="x,y", comments="")
+    shape: dict[str, Any] = {"outline": {"file": tmp_path / "cell.csv", "scale": 0.05}}
+    of_file = motile.Setup(droplets=[motile.droplet(None, shape=shape)])
+    shape = {"outline": {"points": pixels, "scale": 0.05}}
+    of_array = motile.Setup(droplets=[motile.droplet(None, shape=shape)])
+    assert of_file == of_array and "file" not in of_file.droplets[0]["shape"]["outline"]
+    (report,) = of_file.outlines()
+    assert report["key"] == "droplets[0].shape.outline"
+    assert (report["points"], report["was_clockwise"]) == (80, True)
+    assert report["area"] == pytest.approx(np.pi * 1.5, rel=1e-5)
+    assert report["polygon_area"] == pytest.approx(40 * np.sin(np.pi / 40) * 1.5, rel=1e-9)
+    assert of_file.build().droplets[0].observe()["area"] == pytest.approx(report["area"], rel=1e-3)
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[droplets]]\nparticles = "none"\nshape.outline = { file = "cell.csv", scale = 0.05 }\n')
+    assert motile.Setup.from_file(scene) == of_file
+    with pytest.raises(motile.Error, match="none.csv cannot be read: there is no such file"):
+        motile.Setup(droplets=[motile.droplet(None, shape={"outline": {"file": "none.csv"}})])
+    (tmp_path / "block.msh").write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+        "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 0 1 1 3 4\n$EndElements\n"
+    )
+    solid = {
+        "outline": {"mesh": {"file": tmp_path / "block.msh", "place": (1.8, -0.5)}},
+        "material": {"neo_hookean": {"shear": 10, "bulk": 20}},
+        "hold": "free",
+    }
+    method = {"grid": {"spacing": 0.1, "corrected": False}}
+    setup = motile.Setup(method=method, solids=[solid])
+    assert setup.solids[0]["outline"]["mesh"]["triangles"] == [[0, 1, 2], [0, 2, 3]]
+    assert setup.solids[0]["outline"]["mesh"]["groups"] == [{"name": "7", "members": [0]}]
+    assert [name for name, _ in setup.build().bodies] == ["droplet", "solid"]
+
+
 def test_arrays_are_lists() -> None:
     points = np.array([[np.cos(t), np.sin(t)] for t in np.linspace(0, 2 * np.pi, 32, endpoint=False)])
     strided = np.repeat(points, 2, axis=0)[::2]

@@ -2,6 +2,7 @@
 
 import motile
 import numpy as np
+import pandas as pd
 import pytest
 
 
@@ -17,6 +18,26 @@ def test_a_swimmer_in_a_channel() -> None:
     # The rate of the leading mode is within its error, so that nothing is decided.
     error = swimmer.growth_rate_error()
     assert swimmer.is_stable() is None and abs(values[0].real) < error < 1e-2 and "0.137" in repr(swimmer)
+
+
+def test_sensitivities_are_a_table() -> None:
+    setup = motile.Setup(
+        region=motile.box(5, 7), method=motile.integral(nodes=40, elements=160), droplets=[motile.droplet(-0.8)]
+    )
+    swimmer = motile.steady(setup)
+    found = swimmer.sensitivities()
+    table = pd.DataFrame(found)
+    assert {"activity", "diffusion", "tension", "viscosity_in", "box_x"} <= set(table.index)
+    assert {"speed", "stresslet", "aspect_ratio", "concentration_max"} <= set(table.columns)
+
+    def speed(activity: float) -> float:
+        return motile.steady(setup.replace({"droplets.0.particles.activity": activity})).speed
+
+    slope = (speed(-0.79) - speed(-0.81)) / 0.02
+    assert found["speed"]["activity"] == pytest.approx(slope, rel=1e-3)
+    relative = swimmer.sensitivities(logarithmic=True, growth=True)
+    expected = found["speed"]["activity"] * -0.8 / swimmer.speed
+    assert relative["speed"]["activity"] == pytest.approx(expected, rel=1e-9) and "growth_rate" in relative
 
 
 def test_a_branch_and_how_it_ends() -> None:

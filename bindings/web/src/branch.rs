@@ -54,6 +54,7 @@ pub fn mapped(setup: &Setup) -> Option<Setup> {
         setup.solids.len(),
         setup.rigid_bodies.len(),
         setup.shells.len(),
+        setup.fibres.len(),
         setup.gels.len(),
         setup.interfaces.len(),
         setup.walls.len(),

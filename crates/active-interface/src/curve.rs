@@ -4,6 +4,7 @@ mod equidistant;
 mod near_polygon;
 pub(crate) mod periodic;
 pub(crate) mod polygon;
+mod rounded;
 mod spline;
 
 use std::f64::consts::{PI, TAU};
@@ -25,6 +26,7 @@ pub(crate) use periodic::check_period;
 pub use periodic::{line_distance_from_polygon, line_through, wave};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 use polygon::{edges, raw_area, raw_perimeter};
+use rounded::Rounded;
 use spline::PeriodicSpline;
 
 /// Fewest markers of an interface: the reconstruction of the concentration at a marker spans six segments, which must
@@ -82,6 +84,7 @@ enum Shape {
         points: Vec<Vec2>,
         ends: Vec<f64>,
     },
+    Rounded(Rounded),
 }
 
 /// Returns the radius over its mean at the polar angle `angle`.
@@ -106,6 +109,7 @@ impl Shape {
             }
             Self::Parametric(f) => f(TAU * t),
             Self::Spline(curve) => curve.spline.point(t),
+            Self::Rounded(curve) => curve.point(t),
             Self::Polygon { points, ends } => {
                 let u = t * ends[ends.len() - 1];
                 let k = ends[..ends.len() - 1].partition_point(|&end| end <= u);
@@ -126,6 +130,7 @@ impl Shape {
             Self::Parametric(_) => None,
             Self::Spline(curve) => Some(curve.spline.area()),
             Self::Polygon { points, .. } => Some(raw_area(points)),
+            Self::Rounded(curve) => Some(curve.area),
         }
     }
 }
@@ -228,6 +233,18 @@ impl Curve {
         Self::build(Shape::Polygon { points: points.to_vec(), ends })
     }
 
+    /// Creates the polygon with these corners, each of them replaced by an arc of that radius (length) that its two
+    /// sides touch. Area and perimeter are exact: a square loses `(4 - pi) r^2` of its area.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Curve::polygon`], and an error for a radius that is not positive or too large for a
+    /// side.
+    pub fn rounded_polygon(points: &[Vec2], radius: f64) -> Result<Self, InterfaceError> {
+        check_list(points, 3)?;
+        positive("the radius of the corners", radius)?;
+        Self::build(Shape::Rounded(Rounded::new(points, radius)?))
+    }
+
     /// Creates two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by
     /// straight sides of the length 2 `straight`. They form a polygon of 720 corners that starts on the x axis: an even
     /// number of markers is its own mirror image there.
@@ -252,6 +269,7 @@ impl Curve {
         all_points_finite("the points of the curve", &samples)?;
         let perimeter = match &shape {
             Shape::Polygon { ends, .. } => ends[ends.len() - 1],
+            Shape::Rounded(curve) => curve.perimeter,
             _ => extrapolate(|stride| raw_perimeter(&every(&samples, stride))),
         };
         let area = shape.area().unwrap_or_else(|| extrapolate(|stride| raw_area(&every(&samples, stride))));
@@ -259,7 +277,7 @@ impl Curve {
             return Err(InterfaceError::no_area(area, perimeter));
         }
         // Ellipses and modes are simple by their form; points have been checked, and their curve as well.
-        if let Shape::Parametric(_) = shape
+        if let Shape::Parametric(_) | Shape::Rounded(_) = shape
             && let Some((first, second)) = first_crossing(&every(&samples, 4))?
         {
             let of = |sample: usize| TAU * (4 * sample) as f64 / SAMPLES as f64;
@@ -324,7 +342,12 @@ impl Curve {
         let mut markers = if matches!(self.shape, Shape::Ellipse(a, b) if a == b) {
             (0..count).map(|k| self.point(k as f64 / count as f64)).collect()
         } else {
-            equidistant(|t| self.point(t), Vec2::ZERO, count, matches!(self.shape, Shape::Spline(_)))?
+            equidistant(
+                |t| self.point(t),
+                Vec2::ZERO,
+                count,
+                matches!(self.shape, Shape::Spline(_) | Shape::Rounded(_)),
+            )?
         };
         let moments = polygon_moments(&markers)?;
         if moments.area <= 0.0 {

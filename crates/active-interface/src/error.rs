@@ -53,6 +53,14 @@ pub enum InterfaceError {
 motile_base::debug_as_explanation!(InterfaceError);
 
 impl InterfaceError {
+    /// Returns the error for an arc of a corner that is too large for the side of that length that starts there, which
+    /// takes another radius at most (all length).
+    pub(crate) fn rounding_too_large(radius: f64, corner: Vec2, side: f64, most: f64) -> Self {
+        let what = format!("corners cannot be rounded with the radius {}", told(radius));
+        let value = format!("the side at {} has the length {} only", place(corner.x, corner.y), told(side));
+        Self::refused(what, value, format!("Use at most {} as the radius, or fewer points", told(most)))
+    }
+
     /// Returns the error for a law whose tension (force) is not finite at a concentration (particles per length).
     pub(crate) fn tension_not_finite(tension: f64, c: f64) -> Self {
         let what = format!("the tension law returns {tension} at c = {}", told(c));

@@ -196,6 +196,17 @@ impl SolidError {
         Self::refused(format!("line {line} of the mesh file cannot be used"), fault, remedy)
     }
 
+    /// Returns the error for neighbouring nodes of a fibre at one place.
+    pub(crate) fn coincident_nodes(first: usize, second: usize, place: Vec2) -> Self {
+        let what = format!("the nodes {first} and {second} of a fibre coincide at {}", at(place));
+        Self::refused(what, "", "Leave one of them out, or use a smaller time step if they have come together in a run")
+    }
+
+    /// Returns the error for a place in a mesh file.
+    pub(crate) fn mesh_file(place: impl Into<String>, problem: impl Into<String>, remedy: &str) -> Self {
+        Self::refused(format!("{} cannot be used", place.into()), problem, remedy)
+    }
+
     /// Returns the error for a group of triangles that cannot be written.
     pub(crate) fn bad_group(tag: i32, fault: &str) -> Self {
         Self::refused(format!("group {tag} of triangles cannot be written"), fault, "Correct the group, or remove it")

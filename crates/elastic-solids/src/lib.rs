@@ -86,6 +86,8 @@
 //! * **Forces** of a mesh by themselves ([`ElasticForces`]), and the checks that your own law must pass ([`check`]).
 //! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`],
 //!   of any outline, that the fluid carries along.
+//! * **Fibres**: [`Fibre`], an open or closed line that resists stretching and bending, with free or held ends,
+//!   [`Target`] points, and travelling waves of curvature ([`FibreWave`]).
 //! * **Relaxation and activity**: [`Maxwell`] elements in parallel with any law ([`Solid::with_maxwell`]), for
 //!   viscoelastic solids; [`ActiveSprings`] that contract at random ([`Solid::with_active_springs`]).
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] hold a solid in place.
@@ -105,6 +107,7 @@ mod channel;
 pub mod check;
 mod damping;
 mod error;
+mod fibre;
 mod forces;
 mod material;
 pub mod mesh;
@@ -120,6 +123,7 @@ mod surface_elasticity;
 pub use active_springs::ActiveSprings;
 pub use channel::{Channel, ChannelShape, Walls, Width, width_between};
 pub use error::SolidError;
+pub use fibre::{Fibre, FibreEnd, FibreFiles, FibreState, FibreWave, Target};
 pub use forces::{ElasticForces, Hyperelastic, Springs};
 pub use material::{DeformationGradient, EnergyDensity, Mat2, Moduli, MooneyRivlin, NeoHookean, SaintVenantKirchhoff};
 pub use mesher::Mesher;

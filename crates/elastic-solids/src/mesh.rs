@@ -1,5 +1,6 @@
 //! Triangle meshes of the reference state.
 
+mod file;
 mod finer_boundary;
 pub(crate) mod gmsh;
 pub(crate) mod lattice;
@@ -16,6 +17,7 @@ use crate::SolidError;
 
 use topology::{connect, loops};
 
+pub use file::{BoundaryGroup, MeshFile};
 pub use gmsh::{GmshMesh, PhysicalGroup};
 pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
 pub use quality::MeshQuality;

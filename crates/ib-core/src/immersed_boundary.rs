@@ -265,6 +265,12 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.grid().has_walls().then(|| self.solver.drive())
     }
 
+    fn wall_slip(&self) -> Option<[f64; 2]> {
+        let walls = self.solver.walls();
+        let alone = self.grid().has_walls() && walls.is_at_rest() && self.solver.friction() == 0.0;
+        alone.then(|| walls.slip())
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.check(markers)?;
         let report = self.solve(markers)?;

@@ -103,6 +103,7 @@ mod transfer;
 
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use kernel::{AnyKernel, BSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
+pub use mobility::rest_distance;
 pub use motile_base::{Drive, FlowSample, InputError, Region, SolveReport, Vec2};
 pub use motile_scene::{
     self as scene, Body, Every, FlowError, Handle, Hydrodynamics, MarkerBody, MarkerKind, Markers, Observer,

@@ -69,6 +69,20 @@ pub(crate) struct Deficit {
     pub(crate) cross: f64,
 }
 
+/// Returns how far from a line of points at rest the fluid that shears past them comes to rest (grid spacings). The
+/// points are one next to the other, and the delta function of the kernel spreads their forces. It takes some
+/// milliseconds.
+///
+/// ```
+/// let distance = ib_core::rest_distance(&ib_core::AnyKernel::BSpline4);
+/// assert!(distance > 0.2 && distance < 0.4);
+/// ```
+#[must_use]
+#[doc(alias("hydrodynamic radius"))]
+pub fn rest_distance<K: Kernel>(kernel: &K) -> f64 {
+    MobilityDeficit::new(kernel).at(0.0).tangential
+}
+
 impl MobilityDeficit {
     /// Tabulates the deficits of a kernel (some milliseconds).
     #[must_use]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile_base::{
     Drive, FlowSample, ImposedFlow, Region, SolveReport, Vec2,
-    internal::{decimals, told_apart},
+    internal::{all_points_finite, decimals, told_apart},
     positive,
 };
 use motile_scene::{
@@ -17,6 +17,7 @@ use crate::{
     RigidWall,
     error::of_layers,
     interface_groups::InterfaceGroups,
+    point_forces::PointForces,
     wall::{SharpCorner, narrowest},
 };
 
@@ -36,7 +37,8 @@ const RESOLVED_NODES: f64 = 0.3;
 /// Every interface is a group of markers, [`MarkerKind::Interface`], [`MarkerKind::UnevenInterface`] or
 /// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers.
 /// Positions and forces are truncated to the modes that the nodes carry, and velocities have these modes alone. Points
-/// without forces ([`MarkerKind::Points`]) move with the flow.
+/// without forces ([`MarkerKind::Points`]) move with the flow. In the plane, points with forces can be regularised
+/// Stokeslets ([`BoundaryIntegral::with_point_radius`]).
 #[derive(Debug, Clone)]
 #[doc(alias("boundary element method", "BEM", "Stokeslet"))]
 pub struct BoundaryIntegral {
@@ -49,6 +51,9 @@ pub struct BoundaryIntegral {
     sharp_corners: Vec<SharpCorner>,
     /// Minimum distance of the sides of a channel of rigid walls (length).
     narrowest: f64,
+    points: Option<PointForces>,
+    /// Places and forces of the points that have forces.
+    pushed: [Vec<Vec2>; 2],
 }
 
 impl BoundaryIntegral {
@@ -65,6 +70,8 @@ impl BoundaryIntegral {
             wall_spacings: Vec::new(),
             sharp_corners: Vec::new(),
             narrowest: f64::INFINITY,
+            points: None,
+            pushed: Default::default(),
         })
     }
 
@@ -76,6 +83,24 @@ impl BoundaryIntegral {
     pub fn with_reference_perimeter(mut self, perimeter: f64) -> Result<Self, LayerError> {
         positive("the reference perimeter", perimeter)?;
         self.interfaces.set_reference_perimeter(perimeter);
+        Ok(self)
+    }
+
+    /// Lets points have forces on them, in the plane and in fluid of one viscosity: each force is spread over a blob of
+    /// that radius (length), of about the distance of neighbouring points. The forces in a scene have to add up to
+    /// zero. The work of the points grows with the number of all markers times the number of points.
+    ///
+    /// # Errors
+    /// Returns an error for another region than the plane, and a radius that is not positive and finite.
+    pub fn with_point_radius(mut self, radius: f64) -> Result<Self, FlowError> {
+        if *self.region() != Region::Plane {
+            return Err(FlowError::unsupported(
+                "force on points in a region that ends or repeats, by boundary integrals",
+                "Use layers or the immersed boundary method, or the plane",
+            ));
+        }
+        let radius = positive("the radius of points", radius)?;
+        self.points = Some(PointForces { radius, viscosity: self.interfaces.flow.viscosity() });
         Ok(self)
     }
 
@@ -156,19 +181,42 @@ impl BoundaryIntegral {
         Some(Warning { body, cause, excess: needed / nodes, message })
     }
 
-    /// Refuses forces on points.
-    fn check(markers: &Markers) -> Result<(), FlowError> {
-        let forced = |group: &MarkerGroup| {
-            let forces = &markers.forces()[group.range.clone()];
-            group.kind == MarkerKind::Points && forces.iter().any(|force| *force != Vec2::ZERO)
-        };
-        if markers.groups().iter().any(forced) {
+    /// Takes over the points that have forces, and returns how they move the fluid; `None` if there are none.
+    ///
+    /// # Errors
+    /// Returns an error for forces on points where they are not computed.
+    fn load_points(&mut self, markers: &Markers) -> Result<Option<PointForces>, FlowError> {
+        self.pushed.iter_mut().for_each(Vec::clear);
+        for group in markers.groups().iter().filter(|group| group.kind == MarkerKind::Points) {
+            let range = group.range.clone();
+            let pairs = markers.positions()[range.clone()].iter().zip(&markers.forces()[range]);
+            for (place, force) in pairs.filter(|(_, force)| **force != Vec2::ZERO) {
+                self.pushed[0].push(*place);
+                self.pushed[1].push(*force);
+            }
+        }
+        if self.pushed[0].is_empty() {
+            return Ok(None);
+        }
+        let Some(points) = self.points else {
             return Err(FlowError::unsupported(
                 "force on points that do not belong to an interface",
                 "Use layers or the immersed boundary method for scenes with solids or gels",
             ));
+        };
+        let same = |group: &MarkerGroup| {
+            let viscosities = group.viscosities(points.viscosity);
+            group.kind != MarkerKind::Rigid && viscosities.iter().all(|value| *value == points.viscosity)
+        };
+        if !markers.groups().iter().all(same) {
+            return Err(FlowError::unsupported(
+                "force on points next to rigid bodies or fluid of another viscosity, by boundary integrals",
+                "Use one viscosity without rigid bodies, or layers in a box",
+            ));
         }
-        Ok(())
+        all_points_finite("the positions of points with forces", &self.pushed[0])?;
+        all_points_finite("the forces on points", &self.pushed[1])?;
+        Ok(Some(points))
     }
 }
 
@@ -217,18 +265,32 @@ impl Hydrodynamics for BoundaryIntegral {
         &self.wall_spacings
     }
 
+    fn wall_slip(&self) -> Option<[f64; 2]> {
+        (self.drive().is_some() && self.walls.is_empty()).then(|| self.region().slip())
+    }
+
     fn warnings(&self) -> Vec<Warning> {
         self.sharp_corners().chain(self.narrow_place()).collect()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        Self::check(markers)?;
-        self.interfaces.velocities(markers, &mut self.work)
+        let points = self.load_points(markers)?;
+        let report = self.interfaces.velocities(markers, &mut self.work)?;
+        if let Some(points) = points {
+            let [places, forces] = &self.pushed;
+            let (_, positions, velocities) = markers.groups_and_lists();
+            points.add_velocities(places, forces, positions, velocities);
+        }
+        Ok(report)
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
-        Self::check(markers)?;
-        self.interfaces.sample(markers, points, out)
+        let forced = self.load_points(markers)?;
+        self.interfaces.sample(markers, points, out)?;
+        if let Some(forced) = forced {
+            forced.add_samples(&self.pushed[0], &self.pushed[1], points, out);
+        }
+        Ok(())
     }
 
     fn work(&self) -> FlowWork {

@@ -305,6 +305,10 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         self.grid().has_walls().then(|| self.solver.drive())
     }
 
+    fn wall_slip(&self) -> Option<[f64; 2]> {
+        (self.grid().has_walls() && self.solver.walls().is_at_rest()).then_some([0.0; 2])
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         if Self::is_of_interfaces(markers) {
             return self.interfaces.velocities(markers, &mut self.work);

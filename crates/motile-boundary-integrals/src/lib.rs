@@ -57,6 +57,7 @@ mod error;
 mod flow;
 mod immersed_layers;
 mod interface_groups;
+mod point_forces;
 mod wall;
 
 pub use axisymmetric::AxisymmetricIntegral;

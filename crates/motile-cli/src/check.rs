@@ -4,8 +4,9 @@ use std::error::Error;
 use std::time::Instant;
 
 use anyhow::Result;
+use motile::base::internal::told;
 use motile::scene::{Every, SceneError, StepSize, System, Warnings};
-use motile::setup::{AnyFlow, DropletShape, Numbers, Setup};
+use motile::setup::{AnyFlow, DropletShape, MeshGroup, Numbers, Setup, SolidOutline};
 use motile_cli::keys::written_out;
 use motile_cli::run::{Decided, Summary, say};
 use toml::Value;
@@ -53,7 +54,30 @@ pub(crate) fn check(setup: &Setup, end: f64) -> Result<()> {
         report.put("area_fraction", filled, "of the droplets of suspensions");
     }
     for (key, distance) in setup.distances_from_points()? {
-        report.put(&key, distance, "largest distance of the curve from the polygon through its points (length)");
+        report.put(&key, distance, "largest distance of the shape from the polygon through its points (length)");
+    }
+    for outline in setup.outlines()? {
+        let direction = if outline.was_clockwise { ", given clockwise" } else { "" };
+        let repeated = if outline.repeated > 0 { format!(", {} repeated", outline.repeated) } else { String::new() };
+        report.put(&format!("{}.points", outline.key), outline.points, &format!("used{repeated}{direction}"));
+        let areas =
+            [("area", outline.area, outline.polygon_area), ("perimeter", outline.perimeter, outline.polygon_perimeter)];
+        for (name, shape, polygon) in areas {
+            let percent = 100.0 * (shape / polygon - 1.0);
+            let about = format!("of the shape; {} of the polygon through the points ({percent:+.3} %)", told(polygon));
+            report.put(&format!("{}.{name}", outline.key), shape, &about);
+        }
+    }
+    for (number, solid) in placed.solids.iter().enumerate() {
+        if let SolidOutline::Mesh(mesh) = &solid.outline {
+            let names = |groups: &[MeshGroup]| {
+                let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
+                if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+            };
+            let [groups, lines] = [&mesh.groups, &mesh.boundaries].map(|groups| names(groups));
+            let about = format!("{} points; groups of triangles: {groups}; of lines: {lines}", mesh.points.len());
+            report.put(&format!("solids[{number}].outline.mesh.triangles"), mesh.triangles.len(), &about);
+        }
     }
     report.put("minimum_gap", scene.system().minimum_gap(), "between bodies and to walls (length)");
     if let Some(error) = setup.expected_error() {

@@ -94,12 +94,12 @@ pub fn text_of(path: &Path) -> Result<String> {
 /// Returns an error for a file that cannot be read or is not a scene; keys and values that are refused by [`set`].
 pub fn scene_of(path: &Path, assignments: &[(String, Value)]) -> Result<Setup> {
     let read = || -> Result<Setup> {
-        let mut table = table_of(&text_of(path)?)?;
+        let mut table = table_in(&text_of(path)?, path.parent().unwrap_or(Path::new("")))?;
         assignments.iter().try_for_each(|(key, value)| set(&mut table, key, value.clone()))?;
         let setup = setup_of(&table)?;
-        let Setup { droplets, suspension, solids, rigid_bodies, shells, gels, interfaces, .. } = &setup;
+        let Setup { droplets, suspension, solids, rigid_bodies, shells, fibres, gels, interfaces, .. } = &setup;
         let bodies = [suspension.len(), solids.len(), rigid_bodies.len(), shells.len(), gels.len(), interfaces.len()];
-        let moves = droplets.len() + bodies.iter().sum::<usize>() > 0;
+        let moves = droplets.len() + fibres.len() + bodies.iter().sum::<usize>() > 0;
         ensure!(
             moves,
             "nothing moves in this scene. Add [[droplets]], a [[suspension]], [[interfaces]] or other bodies"
@@ -121,7 +121,19 @@ pub fn table_of(text: &str) -> Result<Value> {
     }
 }
 
-/// Returns the scene of a table, checked.
+/// Returns the table of a scene as [`table_of`], with the contents of files, whose paths are relative to a directory,
+/// in the place of the files.
+///
+/// # Errors
+/// Returns the errors of [`table_of`], and an error for a file that cannot be used.
+pub fn table_in(text: &str, directory: &Path) -> Result<Value> {
+    match Setup::read(text) {
+        Ok(setup) => written_out(&setup.with_files(directory)?),
+        Err(_) => table_of(text),
+    }
+}
+
+/// Returns the scene of a table, checked. Files that entries name are relative to the directory of the program.
 ///
 /// # Errors
 /// Returns an error for an entry that lacks others, or a rule of [`Setup::check`] that is broken.
@@ -129,7 +141,7 @@ pub fn setup_of(table: &Value) -> Result<Setup> {
     // The text of the error would show lines that nobody wrote.
     let setup = read(table).map_err(|error| anyhow!(in_words(error.message())))?;
     setup.check()?;
-    Ok(setup)
+    Ok(setup.with_files(Path::new(""))?)
 }
 
 /// Returns the scene of a table, which may break rules. It reads the text of the table, because the reader of texts is

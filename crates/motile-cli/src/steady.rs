@@ -12,7 +12,7 @@ use motile_steady_states::Parameter;
 use toml::Value;
 
 pub use diagram::{DiagramSettings, draw};
-pub use state::solve;
+pub use state::{Wanted, solve};
 
 use crate::keys::{self, SceneFlags};
 
@@ -24,6 +24,9 @@ pub struct SteadyFlags {
     /// The droplet at rest with particles everywhere alike, not a swimmer
     #[arg(long)]
     uniform: bool,
+    /// Derivatives of what is measured by every number of the scene, also in sensitivities.csv
+    #[arg(long, conflicts_with = "along")]
+    sensitivities: bool,
     /// Key along which to follow the states, from its value in the scene, such as droplets.0.particles.activity
     #[arg(long, value_name = "KEY", requires = "to")]
     along: Option<String>,
@@ -60,7 +63,9 @@ pub fn steady(flags: &SteadyFlags) -> Result<()> {
     let name = flags.scene.name();
     let out = flags.out.clone().unwrap_or_else(|| PathBuf::from("out/steady").join(name));
     let (Some(key), Some(to)) = (&flags.along, flags.to) else {
-        return solve(&setup, flags.uniform, !flags.no_pictures, &out);
+        let wanted =
+            Wanted { uniform: flags.uniform, pictures: !flags.no_pictures, sensitivities: flags.sensitivities };
+        return solve(&setup, wanted, &out);
     };
     let parameter = parameter(&setup, key)?;
     let from = parameter.get(&setup).with_context(|| format!("the scene has no {key}"))?;

@@ -218,10 +218,15 @@ fn resumed_runs_are_those_without_a_break() {
     succeeds(&[&flags[..], &["--resume", &state, "--out", &rest]].concat());
     for file in ["trajectory.csv", "bodies.csv"] {
         let [whole, rest] = [&whole, &rest].map(|out| fs::read_to_string(Path::new(out).join(file)).unwrap());
-        assert!(whole.lines().count() > 100 && whole == rest, "{file}");
+        // The origin in the first row names the command, which is another one.
+        let rows = |text: &str| text.lines().map(|row| row.split(",\"motile ").next().map(str::to_owned)).collect();
+        let [whole, rest]: [Vec<Option<String>>; 2] = [rows(&whole), rows(&rest)];
+        assert!(whole.len() > 100 && whole == rest, "{file}");
     }
     let [whole, rest] = [&whole, &rest].map(|out| summary(out));
-    let others = |(name, value): &(&String, &serde_json::Value)| name.as_str() != "seconds" && !value.is_null();
+    let others = |(name, value): &(&String, &serde_json::Value)| {
+        !["seconds", "origin"].contains(&name.as_str()) && !value.is_null()
+    };
     assert!(whole.values().iter().filter(others).eq(rest.values().iter().filter(others)), "{whole:?} {rest:?}");
     // Another scene does not go on.
     let other = ["run", &scene, "--time", "1", "--quiet", "--no-pictures", "--out", &first, "--resume", &state];
@@ -380,6 +385,41 @@ fn new_scenes_run_and_replace_no_file() {
         .collect();
     names.sort();
     assert_eq!(listed.lines().map(|line| line.split(' ').next().unwrap()).collect::<Vec<_>>(), names);
+}
+
+/// Sensitivities agree with differences of states at other values of diffusion and tension.
+#[test]
+fn sensitivities_are_the_slopes_of_states_at_other_values() {
+    let directory = Directory::new("sensitivities");
+    let scene = directory.file(
+        "scene.toml",
+        "region.box.lengths = [5.0, 7.0]\nmethod.integral = { nodes = 40, elements = 160 }\n\
+         [[droplets]]\nparticles.activity = -0.8\n",
+    );
+    let out = directory.path("out");
+    let told = succeeds(&["steady", &scene, "--out", &out, "--no-pictures", "--sensitivities"]);
+    assert!(told.contains("derivative by") && told.contains("percent per percent of"), "{told}");
+    let text = fs::read_to_string(Path::new(&out).join("sensitivities.csv")).unwrap();
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    assert_eq!(names[..5], ["parameter", "key", "value", "d_speed", "log_speed"]);
+    assert!(names.contains(&"d_growth_rate"), "{names:?}");
+    for (key, value) in [("droplets.0.particles.diffusion", 0.1), ("droplets.0.tension", 10.0)] {
+        let row = text.lines().find(|line| line.split(',').nth(1) == Some(key)).unwrap();
+        let fields: Vec<&str> = row.split(',').collect();
+        let at = |value: f64| {
+            let set = format!("{key}={value:?}");
+            succeeds(&["steady", &scene, "--out", &out, "--no-pictures", "--set", &set]);
+            summary(&out).number("aspect_ratio")
+        };
+        let step = 0.02 * value;
+        let slope = (at(value + step) - at(value - step)) / (2.0 * step);
+        let column = names.iter().position(|name| *name == "d_aspect_ratio").unwrap();
+        let derivative: f64 = fields[column].parse().unwrap();
+        assert!((derivative / slope - 1.0).abs() < 3e-3, "{key}: {derivative} {slope}");
+    }
+    assert!(
+        refused(2, &["steady", &scene, "--sensitivities", "--along", "viscosity", "--to", "1"]).contains("--along")
+    );
 }
 
 /// A steady swimmer has the speed of the first page of `motile-steady-states`, and the droplet at rest its known

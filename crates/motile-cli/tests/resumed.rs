@@ -47,7 +47,14 @@ fn results(out: &Path) -> Vec<String> {
     let mut texts: Vec<String> = tables.iter().filter_map(|path| fs::read_to_string(path).ok()).collect();
     assert!(!texts.is_empty() && texts.iter().all(|text| text.lines().count() > 5));
     texts.push(format!("{:#}", serde_json::Value::Object(values)));
-    texts
+    texts.iter().map(|text| without_command(text)).collect()
+}
+
+/// Text of a result without the command in its origin, which names the folder.
+fn without_command(text: &str) -> String {
+    let Some((before, rest)) = text.split_once(", command: ") else { panic!("no command in the origin") };
+    let end = rest.find(['"', '\n']).expect("the end of the origin");
+    format!("{before}{}", &rest[end..])
 }
 
 /// A scene of the repository.

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use motile::elastic_solids::{RigidBody, Shell, Solid};
+use motile::elastic_solids::{Fibre, RigidBody, Shell, Solid};
 use motile::interior::{GelInBox, GelInDroplet, GelInLayer};
 use motile::scene::{Handle, Hydrodynamics, Observer, System};
 
@@ -12,17 +12,22 @@ use crate::{CsvTable, OutputError};
 /// Values of a row by the names of their columns.
 type Row = Vec<(&'static str, f64)>;
 
-/// Observer that measures all rigid bodies, shells, elastic solids and gels, and writes them to one CSV file: at each
-/// call, one row for each of them.
+/// Observer that measures all rigid bodies, shells, fibres, elastic solids and gels, and writes them to one CSV file:
+/// at each call, one row for each of them.
 ///
 /// The columns are `time`, `body` (the [`Handle::index`] of the body in its scene) and what the bodies of the scene
 /// have, with empty fields for a body that lacks it:
 ///
 /// * rigid bodies: centre `x`, `y` (length), `velocity_x`, `velocity_y` (length per time), `angle_degrees` since the
-///   start, and `spin` (1/time);
+///   start, and `spin` (1/time). If they are held or moved: also the force of the fluid, `force_x`, `force_y` (force),
+///   and its `torque` about the centroid (force times length);
 /// * shells: centroid and velocity as rigid bodies, `deformation` and `inclination_degrees` of the ellipse with the
 ///   moments of the area, `area`, `perimeter`, largest and smallest stretch and tension (force), and elastic `energy`
 ///   (force times length);
+/// * fibres: mean place and velocity of the nodes as rigid bodies, `length`, largest and smallest stretch and curvature
+///   (1/length), and elastic `energy` without targets. Forces are `force_start_x` to `force_end_y` on what holds the
+///   ends (force), and `target_force_x`, `target_force_y` of all targets on the fibre (force). Torques on clamps are
+///   `torque_start` and `torque_end` (force times length);
 /// * solids: centroid `x`, `y`, mean displacement `drift_x`, `drift_y`, `largest_displacement` and
 ///   `largest_normal_displacement` (length), elastic `energy`, and `smallest_jacobian`;
 /// * gels: `polarisation_x`, `polarisation_y`, number of `defects`, and `energy` of the director.
@@ -40,7 +45,7 @@ type Row = Vec<(&'static str, f64)>;
 /// let mut rows = BodiesCsv::create(&path, scene.system_mut())?;
 /// scene.run(0.2).observe(Every::Time(0.1), &mut rows).go()?;
 /// let text = std::fs::read_to_string(&path)?;
-/// assert!(text.starts_with("time,body,x,y,velocity_x,velocity_y,angle_degrees,spin\n"));
+/// assert!(text.starts_with("time,body,x,y,velocity_x,velocity_y,angle_degrees,spin,origin\n"));
 /// assert_eq!(text.lines().count(), 1 + 3);
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -73,6 +78,7 @@ impl BodiesCsv {
     pub fn has_bodies<H: Hydrodynamics>(system: &System<H>) -> bool {
         system.bodies::<RigidBody>().next().is_some()
             || system.bodies::<Shell>().next().is_some()
+            || system.bodies::<Fibre>().next().is_some()
             || system.bodies::<Solid>().next().is_some()
             || system.bodies::<GelInBox>().next().is_some()
             || system.bodies::<GelInDroplet>().next().is_some()
@@ -116,7 +122,7 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
     let mut rows = Vec::new();
     for handle in all::<RigidBody, H>(system) {
         let seen = system.observe(handle)?;
-        let values = [
+        let mut values = vec![
             ("x", seen.centre.x),
             ("y", seen.centre.y),
             ("velocity_x", seen.velocity.x),
@@ -124,6 +130,10 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
             ("angle_degrees", seen.angle.to_degrees()),
             ("spin", seen.spin),
         ];
+        if system.body(handle)?.is_held() {
+            let force = [("force_x", seen.force.x), ("force_y", seen.force.y), ("torque", seen.torque)];
+            values.extend(force);
+        }
         rows.push(row(handle.index(), &values));
     }
     for handle in all::<Shell, H>(system) {
@@ -142,6 +152,31 @@ fn rows<H: Hydrodynamics>(system: &mut System<H>) -> Result<Vec<Row>, OutputErro
             ("tension_max", seen.tensions[0]),
             ("tension_min", seen.tensions[1]),
             ("energy", seen.energy),
+        ];
+        rows.push(row(handle.index(), &values));
+    }
+    for handle in all::<Fibre, H>(system) {
+        let seen = system.observe(handle)?;
+        let [start, end] = seen.end_forces;
+        let values = [
+            ("x", seen.centre.x),
+            ("y", seen.centre.y),
+            ("velocity_x", seen.velocity.x),
+            ("velocity_y", seen.velocity.y),
+            ("length", seen.length),
+            ("stretch_max", seen.stretches[0]),
+            ("stretch_min", seen.stretches[1]),
+            ("curvature_max", seen.curvatures[0]),
+            ("curvature_min", seen.curvatures[1]),
+            ("energy", seen.stretching_energy + seen.bending_energy),
+            ("force_start_x", start.x),
+            ("force_start_y", start.y),
+            ("force_end_x", end.x),
+            ("force_end_y", end.y),
+            ("torque_start", seen.end_torques[0]),
+            ("torque_end", seen.end_torques[1]),
+            ("target_force_x", seen.target_force.x),
+            ("target_force_y", seen.target_force.y),
         ];
         rows.push(row(handle.index(), &values));
     }

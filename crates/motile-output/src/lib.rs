@@ -27,7 +27,7 @@
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`plot::Figure`] of [`plot::Plot`]s, as SVG and PNG; [`plot::time_series`], [`plot::concentration_plot`] |
-//! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`] |
+//! | tables | [`CsvTable`], [`DropletMeter`], [`SolidMeter`], [`ForcesCsv`], [`WallShearCsv`] |
 //! | many droplets | the module [`suspension`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | long work | [`Progress`] bar |
@@ -41,6 +41,7 @@ mod colour;
 mod drawing;
 mod droplets;
 mod error;
+mod forces;
 mod interfaces;
 mod paraview;
 mod picture;
@@ -61,6 +62,7 @@ pub(crate) use colour::ColourScale;
 pub use colour::{PressureColours, Rgb};
 pub use droplets::DropletsCsv;
 pub use error::OutputError;
+pub use forces::{ForcesCsv, WallShearCsv};
 pub use interfaces::{InterfaceLine, InterfacesCsv};
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};

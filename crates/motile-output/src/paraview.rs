@@ -6,11 +6,12 @@ mod meshes;
 use std::path::Path;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface, observables::InterfaceState};
+use motile::elastic_solids::{Fibre, FibreEnd};
 use motile::scene::{Hydrodynamics, Observer, System};
 
 use crate::{
     OutputError, Raster, Snapshot, VtkFile, VtkSeries, interfaces::closed, snapshot::at_markers, solids::curves,
-    solids::others,
+    solids::fibre_line, solids::others,
 };
 use motile::base::Vec2;
 
@@ -19,8 +20,8 @@ const RECORD: &str = "files for ParaView";
 
 /// Observer that writes files for ParaView: the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`)
 /// and, if there are some, the surfaces of droplets of revolution (`surface.pvd`), elastic solids (`solids.pvd`), gels
-/// (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies and membranes (`curves.pvd`), and
-/// the markers of your own bodies that are not curves (`points.pvd`).
+/// (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies, membranes and fibres
+/// (`curves.pvd`), and the markers of your own bodies that are not curves (`points.pvd`).
 ///
 /// | file | location | quantity (dimension) |
 /// |---|---|---|
@@ -40,7 +41,7 @@ const RECORD: &str = "files for ParaView";
 /// | gels | in the triangles | number of the gel |
 /// | inside | at the nodes | density (particles per area) |
 /// | curves | at the markers | velocity (length per time), force on the fluid (force) |
-/// | curves | in each body's line | number of the body, in the order of addition |
+/// | curves | in each body's line | number of the body, in the order of addition, fibres last |
 /// | points | at the markers | velocity (length per time), force on the fluid (force) |
 /// | points | at the markers | number of the body, in the order of addition |
 ///
@@ -138,7 +139,7 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         .cell_scalars("droplet", numbers))
 }
 
-/// Returns the file of all rigid bodies and membranes; `None` if there are none.
+/// Returns the file of all rigid bodies, membranes and fibres; `None` if there are none.
 fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, OutputError> {
     let (mut lines, mut velocity, mut force): (Vec<Vec<Vec2>>, Vec<Vec2>, Vec<Vec2>) = Default::default();
     for (handle, _) in curves(system) {
@@ -147,9 +148,24 @@ fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, 
         velocity.extend(flow.velocities);
         force.extend(flow.forces);
     }
-    let numbers = (0..lines.len()).map(|number| number as f64);
-    let file = || VtkFile::closed_lines(&lines).point_vectors("velocity", velocity).point_vectors("force", force);
-    Ok((!lines.is_empty()).then(|| file().cell_scalars("body", numbers)))
+    let mut open: Vec<Vec<Vec2>> = Vec::new();
+    for (handle, fibre) in system.bodies::<Fibre>() {
+        let (flow, line) = (system.flow_at(handle)?, fibre_line(fibre));
+        // Held ends are no markers; the last point of a line without ends is the first one.
+        let held = fibre.ends()[0] != FibreEnd::Free;
+        for (out, values) in [(&mut velocity, flow.velocities), (&mut force, flow.forces)] {
+            let first = out.len();
+            out.extend(held.then_some(Vec2::ZERO));
+            out.extend(values);
+            let last = if fibre.period().is_some() { out[first] } else { Vec2::ZERO };
+            out.resize(first + line.len(), last);
+        }
+        open.push(line);
+    }
+    let count = lines.len() + open.len();
+    let numbers = (0..count).map(|number| number as f64);
+    let file = || VtkFile::lines(&lines, &open).point_vectors("velocity", velocity).point_vectors("force", force);
+    Ok((count > 0).then(|| file().cell_scalars("body", numbers)))
 }
 
 /// Returns the file of the markers of all bodies of other types; `None` if there are none.

@@ -7,7 +7,7 @@ use motile::scene::{Hydrodynamics, System};
 
 use crate::{
     InterfaceLine, OutputError, Raster, SolidShape,
-    solids::{curve_shapes, other_shapes, rigid_shape, solid_shape},
+    solids::{curve_shapes, fibre_shapes, other_shapes, rigid_shape, solid_shape},
 };
 use motile::base::Vec2;
 
@@ -77,8 +77,8 @@ pub struct Snapshot {
     pub gels: Vec<GelField>,
     /// Particles that diffuse inside droplets, in the order of addition.
     pub inside: Vec<InteriorField>,
-    /// Elastic solids, then rigid bodies and membranes, then bodies of other types, each in the order of addition, then
-    /// rigid walls and obstacles as one more.
+    /// Elastic solids, then rigid bodies and membranes, then fibres, then bodies of other types, each in the order of
+    /// addition, then rigid walls and obstacles as one more.
     pub solids: Vec<SolidShape>,
     /// Heights of straight rigid walls (length).
     pub walls: Option<[f64; 2]>,
@@ -135,6 +135,7 @@ impl Snapshot {
                 .bodies()
                 .map(|(_, solid)| solid_shape(solid))
                 .chain(curve_shapes(system))
+                .chain(fibre_shapes(system))
                 .chain(other_shapes(system))
                 .chain(rigid)
                 .collect(),

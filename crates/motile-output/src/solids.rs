@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
-use motile::elastic_solids::{Deformation, Mat2, Solid, width_between};
+use motile::elastic_solids::{Deformation, Fibre, Mat2, Solid, width_between};
 use motile::interior::{GelInDroplet, GelInLayer, ParticlesInDroplet};
 use motile::scene::{
     Body, Handle, Hydrodynamics, System,
@@ -82,8 +82,11 @@ pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
 pub(crate) fn others<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
     system.all_bodies().filter(|(_, body)| {
         let any: &dyn Any = *body;
-        let known =
-            any.is::<Solid>() || any.is::<GelInDroplet>() || any.is::<GelInLayer>() || any.is::<ParticlesInDroplet>();
+        let known = any.is::<Solid>()
+            || any.is::<Fibre>()
+            || any.is::<GelInDroplet>()
+            || any.is::<GelInLayer>()
+            || any.is::<ParticlesInDroplet>();
         !known && !body.kind().is_curve() && body.marker_count() > 0
     })
 }
@@ -100,6 +103,19 @@ pub(crate) fn other_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterato
         }
         shape
     })
+}
+
+/// Returns the line of a fibre: all of its nodes, closed or over one period where it has no ends (length).
+pub(crate) fn fibre_line(fibre: &Fibre) -> Vec<Vec2> {
+    let nodes = fibre.nodes();
+    let end = fibre.period().zip(nodes.first()).map(|(period, first)| *first + period);
+    nodes.iter().copied().chain(end).collect()
+}
+
+/// Returns the shapes of the fibres of a system: lines alone.
+pub(crate) fn fibre_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
+    let shape = |(_, fibre): (_, &Fibre)| SolidShape { edges: vec![fibre_line(fibre)], ..SolidShape::default() };
+    system.bodies().map(shape)
 }
 
 /// Returns the shape of rigid walls and obstacles; open ones reach to the straight walls behind them.

@@ -3,7 +3,7 @@
 mod marker_body;
 mod step_limit;
 
-pub use marker_body::MarkerBody;
+pub use marker_body::{MarkerBody, fastest_decay};
 pub use step_limit::{StepCause, StepLimit};
 
 use std::any::Any;
@@ -245,6 +245,16 @@ pub trait Viscous {
     /// Adds the forces `-B^T g` of stresses to the forces on the fluid (force): the exact transpose of
     /// [`Viscous::write_rates`].
     fn add_stress_forces(&mut self, stresses: &[f64], forces: &mut [Vec2]);
+
+    /// Subtracts the rates that are prescribed, so that what is left is zero if the body moves as prescribed:
+    /// `C g = B v - prescribed`. By default nothing is prescribed.
+    fn subtract_prescribed(&self, _rates: &mut [f64]) {}
+
+    /// Returns true if the body is held by its surroundings, so that its stresses may put a force on the fluid in all.
+    /// A flow in the plane refuses such a body, because nothing takes up that force. By default false.
+    fn is_held(&self) -> bool {
+        false
+    }
 
     /// Writes the compliances: the diagonal C of `C g = B v`, not negative.
     fn write_compliances(&self, compliances: &mut [f64]);

@@ -156,6 +156,13 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         &[]
     }
 
+    /// Returns the slip lengths of the lower and the upper straight wall (length), zero without slip, if the forces on
+    /// these walls follow from the forces on the fluid ([`crate::ChannelForces`]). For this, the walls have to be straight
+    /// and at rest apart from an imposed flow, and nothing else may hold the fluid. By default `None`.
+    fn wall_slip(&self) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Returns true if bodies are of revolution about the x axis, whose markers lie on the meridian and its mirror
     /// image, with the forces on halves of rings; by default false.
     fn axisymmetric(&self) -> bool {
@@ -209,6 +216,7 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         fn strain() -> f64;
         fn walls() -> Option<&Boundary>;
         fn wall_spacings() -> &[f64];
+        fn wall_slip() -> Option<[f64; 2]>;
         fn axisymmetric() -> bool;
         fn work() -> FlowWork;
         fn warnings() -> Vec<Warning>;

@@ -43,14 +43,16 @@ mod threads;
 /// Version of the program and, after a plus sign, of the numbers that it computes, which is raised whenever the same
 /// scene comes to other ones. Results that are kept on disk carry it, so that results of another version are not taken
 /// for new ones.
-pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+3");
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+4");
 
-pub use body::{Body, InteriorBody, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning};
+pub use body::{
+    Body, InteriorBody, MarkerBody, Observe, StepCause, StepInfo, StepLimit, Viscous, Warning, fastest_decay,
+};
 pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
 pub use hydrodynamics::{
     BodyFlow, Domain, Enclosed, FlowWork, FluidView, Hydrodynamics, MarkerGroup, MarkerKind, Markers, PrescribedFlow,
     Substrate,
 };
-pub use observables::{Deformation, MomentEllipse, Stress};
+pub use observables::{ChannelForces, Deformation, MomentEllipse, Stress};
 pub use scene::{Every, Handle, Imposed, Observer, Run, Scene, StepSize, System, Warnings};

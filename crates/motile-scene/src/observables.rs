@@ -1,11 +1,13 @@
-//! Observables of bodies of any kind: deformations and stresses.
+//! Observables of bodies of any kind: deformations, stresses and forces.
 
+mod channel_forces;
 mod deformation;
 mod moment_ellipse;
 mod stress;
 
 use crate::{Body, Handle, Hydrodynamics, SceneError, System};
 
+pub use channel_forces::ChannelForces;
 pub use deformation::Deformation;
 pub use moment_ellipse::MomentEllipse;
 pub use stress::Stress;

@@ -81,6 +81,16 @@ impl Flow {
         if let Self::Plane { flow, .. } = self { flow.impose(imposed, 0.0) } else { Ok(()) }
     }
 
+    /// Returns half the length of a straight tube and the distance of its nodes (length), if there is a tube yet.
+    pub(crate) fn tube(&self) -> Option<[f64; 2]> {
+        if let Self::Revolution { flow, .. } = self { flow.tube_resolution() } else { None }
+    }
+
+    /// Gives a straight tube this length and distance of nodes.
+    pub(crate) fn restore_tube(&mut self, tube: [f64; 2]) -> Result<(), LayerError> {
+        if let Self::Revolution { flow, .. } = self { flow.restore_tube(tube) } else { Ok(()) }
+    }
+
     pub(crate) fn imposed(&self) -> ImposedFlow {
         if let Self::Plane { flow, .. } = self { flow.imposed() } else { ImposedFlow::NONE }
     }

@@ -135,11 +135,42 @@ pub(crate) struct Model {
 impl Model {
     /// Creates a model of a description, at an even number of nodes.
     pub(crate) fn new(setup: &Setup) -> Result<Self, SteadyError> {
+        Self::with_flow(setup, None)
+    }
+
+    /// Returns the model of a neighbouring description, which starts from the stresses of this one. It keeps what the
+    /// flow has computed for the region if that is the same, else the nodes of a tube's wall in proportion.
+    pub(crate) fn retuned(self, setup: &Setup) -> Result<Self, SteadyError> {
+        let old = &self.setup;
+        let [here, there] = [old, setup].map(|setup| (setup.region, setup.viscosity, &setup.flow, &setup.method));
+        let kept = here == there;
+        let widening = match (old.region, setup.region) {
+            (Region::Tube { radius: before, .. }, Region::Tube { radius, .. }) => radius / before,
+            _ => 1.0,
+        };
+        let Self { flow, resistance, .. } = self;
+        // Errors of the nodes of a tube's wall then change smoothly.
+        let tube = flow.tube().filter(|_| !kept).map(|lengths| lengths.map(|length| widening * length));
+        let mut model = Self::with_flow(setup, kept.then_some(flow))?;
+        if let Some(tube) = tube {
+            model.flow.restore_tube(tube)?;
+        }
+        if let (Some(own), Some(other)) = (&mut model.resistance, &resistance) {
+            own.adopt(other);
+        }
+        Ok(model)
+    }
+
+    /// Creates a model of a description with a flow of its region, viscosity and imposed flow if there is one already.
+    fn with_flow(setup: &Setup, flow: Option<Flow>) -> Result<Self, SteadyError> {
         let refuse = |what: &str, remedy| Err(SteadyError::unsupported(what, remedy));
         setup.check()?;
         let Method::Integral(method) = setup.method else {
             return refuse("the scene is computed on a grid", "Use the method of boundary integrals (`integral`)");
         };
+        if !setup.fibres.is_empty() {
+            return refuse("the scene has a fibre", "Run it until it no longer changes, or remove the fibre");
+        }
         if !(setup.shells.is_empty() && setup.interfaces.is_empty()) {
             return refuse(
                 "the scene has a shell or an interface that is periodic along x, whose points keep moving along it",
@@ -197,6 +228,9 @@ impl Model {
         if [*body_force, *force] != [[0.0; 2]; 2] {
             return refuse("a force acts on the droplet", "Leave out body-force and force, or run the scene");
         }
+        if setup.rigid_bodies.iter().any(RigidBodySetup::is_held) {
+            return refuse("a rigid body is held or moved", "Let the body move freely, or run the scene");
+        }
         let disc = |body: &RigidBodySetup| match body.shape {
             DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),
             _ => None,
@@ -246,8 +280,14 @@ impl Model {
                 (ContractileTension::new(*tension, 0.0, ExcludedVolume::None, 1.0)?, [0.0, 0.0, rate])
             }
         };
-        let mut flow = Flow::new(setup.region, setup.viscosity, settings)?;
-        flow.impose(imposed)?;
+        let flow = match flow {
+            Some(flow) => flow,
+            None => {
+                let mut flow = Flow::new(setup.region, setup.viscosity, settings)?;
+                flow.impose(imposed)?;
+                flow
+            }
+        };
         let nucleus =
             |radius| Nucleus { radius, centre: Vec2::ZERO, velocity: Vec2::ZERO, surface: vec![Vec2::ZERO; nodes] };
         Ok(Self {

@@ -1,9 +1,14 @@
 //! Parameters of a description along which states are followed.
 
+mod entry;
+mod key;
+mod scale;
+
 use motile::base::Region;
 use motile::setup::{DropletShape, ExcludedVolume, Setup};
 
 use crate::SteadyError;
+use entry::{entry, scale_radius};
 
 /// Parameter of a description along which a branch of states can be followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,11 +50,44 @@ pub enum Parameter {
     ShearRate,
     /// Extension rate E of a flow that is imposed on the plane (1/time).
     ExtensionRate,
+    /// Mean concentration c0 of the particles (1/length, in three dimensions over length squared).
+    Concentration,
+    /// Radius of the round droplet (length), at a fixed concentration c0.
+    Radius,
+    /// Threshold c_T of the step-like excluded volume (1/length, in three dimensions over length squared), if it does
+    /// not follow from c0.
+    ExcludedVolumeThreshold,
+    /// Steepness a of the step-like excluded volume (no dimension), if it is not Cowley's.
+    ExcludedVolumeSteepness,
+    /// Strength B of the quadratic excluded volume (force times length squared).
+    QuadraticExcludedVolume,
+    /// Increase of the viscosity of the cortex per concentration (force times time times length).
+    CortexPerConcentration,
+    /// Diffusion constant of the particles inside (length squared per time).
+    DiffusionInside,
+    /// Number of particles inside at the start.
+    NumberInside,
+    /// Period of a box in x (length).
+    BoxX,
+    /// Period of a box in y (length).
+    BoxY,
+    /// Mean pressure gradient along a channel or tube (stress per length).
+    PressureGradient,
+    /// Flux along a channel or tube (area or volume per time).
+    Flux,
+    /// Velocity of the lower wall of a channel (length per time).
+    LowerWall,
+    /// Velocity of the upper wall of a channel (length per time).
+    UpperWall,
+    /// Velocity in the middle of a Poiseuille flow in the plane (length per time).
+    PoiseuilleSpeed,
+    /// Half width of a Poiseuille flow in the plane (length).
+    PoiseuilleHalfWidth,
 }
 
 impl Parameter {
     /// All parameters with their names in command lines and files.
-    pub const NAMES: [(&str, Self); 18] = [
+    pub const NAMES: [(&str, Self); 34] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -68,12 +106,42 @@ impl Parameter {
         ("nucleus-radius", Self::NucleusRadius),
         ("shear", Self::ShearRate),
         ("extension", Self::ExtensionRate),
+        ("concentration", Self::Concentration),
+        ("radius", Self::Radius),
+        ("excluded-volume-threshold", Self::ExcludedVolumeThreshold),
+        ("excluded-volume-steepness", Self::ExcludedVolumeSteepness),
+        ("excluded-volume-quadratic", Self::QuadraticExcludedVolume),
+        ("cortex-per-concentration", Self::CortexPerConcentration),
+        ("diffusion-inside", Self::DiffusionInside),
+        ("number-inside", Self::NumberInside),
+        ("box-x", Self::BoxX),
+        ("box-y", Self::BoxY),
+        ("pressure-gradient", Self::PressureGradient),
+        ("flux", Self::Flux),
+        ("lower-wall", Self::LowerWall),
+        ("upper-wall", Self::UpperWall),
+        ("poiseuille-speed", Self::PoiseuilleSpeed),
+        ("poiseuille-half-width", Self::PoiseuilleHalfWidth),
     ];
 
     /// Returns the name in command lines and files, from [`Parameter::NAMES`].
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
+    }
+
+    /// Returns the parameters that a description has, each number of it once: without the ratio of the viscosities and,
+    /// in boxes, without their sides together.
+    #[must_use]
+    pub fn independent(setup: &Setup) -> Vec<Self> {
+        let combined = |parameter: &Self| match parameter {
+            Self::ViscosityRatio => true,
+            Self::Length => matches!(setup.region, Region::Box { .. }),
+            Self::ShearRate | Self::ExtensionRate => setup.flow.is_none(),
+            _ => false,
+        };
+        let all = Self::NAMES.into_iter().map(|(_, parameter)| parameter);
+        all.filter(|parameter| !combined(parameter) && parameter.get(setup).is_some()).collect()
     }
 
     /// Returns the value in a description; `None` if the description has no such parameter, as the width outside of
@@ -85,7 +153,7 @@ impl Parameter {
         match self {
             Self::Activity => droplet.particles.map(|particles| particles.activity),
             Self::ExcludedVolume => match droplet.particles?.excluded_volume {
-                ExcludedVolume::Step(strength) => Some(strength),
+                ExcludedVolume::Step(strength) | ExcludedVolume::StepAt { strength, .. } => Some(strength),
                 _ => None,
             },
             Self::Diffusion => droplet.particles.map(|particles| particles.diffusion),
@@ -117,13 +185,8 @@ impl Parameter {
             },
             Self::ShearRate => (setup.region == Region::Plane).then_some(setup.flow.shear),
             Self::ExtensionRate => (setup.region == Region::Plane).then_some(setup.flow.extension),
+            other => entry(other, &mut setup.clone()).copied(),
         }
-    }
-
-    /// Returns the size of the value in a description, in units of which steps of it are taken: 0.01 at least, for
-    /// values near zero.
-    pub(crate) fn scale(self, setup: &Setup) -> f64 {
-        self.get(setup).unwrap_or(0.0).abs().max(0.01)
     }
 
     /// Returns the description with this parameter at another value.
@@ -142,10 +205,13 @@ impl Parameter {
         match self {
             Self::Activity => droplet.particles.iter_mut().for_each(|particles| particles.activity = value),
             Self::ExcludedVolume => {
-                droplet
-                    .particles
-                    .iter_mut()
-                    .for_each(|particles| particles.excluded_volume = ExcludedVolume::Step(value));
+                droplet.particles.iter_mut().for_each(|particles| {
+                    if let ExcludedVolume::Step(strength) | ExcludedVolume::StepAt { strength, .. } =
+                        &mut particles.excluded_volume
+                    {
+                        *strength = value;
+                    }
+                });
             }
             Self::Diffusion => droplet.particles.iter_mut().for_each(|particles| particles.diffusion = value),
             Self::Binding | Self::Unbinding => {
@@ -182,6 +248,8 @@ impl Parameter {
             Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
             Self::ShearRate => setup.flow.shear = value,
             Self::ExtensionRate => setup.flow.extension = value,
+            Self::Radius => scale_radius(&mut setup.droplets[0].shape, value),
+            other => entry(other, &mut setup).into_iter().for_each(|entry| *entry = value),
         }
         Ok(setup)
     }

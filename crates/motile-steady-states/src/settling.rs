@@ -4,6 +4,7 @@ use motile::setup::{IntegralMethod, Method, Setup};
 use motile_base::Vec2;
 use nalgebra::{DMatrix, DVector};
 
+use crate::collapse;
 use crate::iteration::{LARGEST_CHANGE, LEAST_PART, Outcome, SHORTER, USUAL_CHANGE, in_steps};
 use crate::modes::Part;
 use crate::profile::{CROWDING, RESOLVED};
@@ -59,8 +60,18 @@ impl SteadyState {
     ///
     /// # Errors
     /// Returns an error for a description of anything but one round droplet (with rigid discs inside, if any) by the
-    /// method of boundary integrals; no convergence; a state that the nodes do not resolve.
+    /// method of boundary integrals; no convergence; a state that the nodes do not resolve. If the excluded volume does
+    /// not balance the activity at any concentration, the particles gather to a point, and the error says so.
     pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
+        System::new(setup)?;
+        match collapse::refusal(setup) {
+            Some(error) => Err(error),
+            None => Self::searched(setup).map_err(|error| collapse::explained(setup, error)),
+        }
+    }
+
+    /// Finds the steady state.
+    fn searched(setup: &Setup) -> Result<Self, SteadyError> {
         Self::settled(setup).or_else(|error| {
             let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
             let at = |part: f64| Parameter::Activity.with(setup, part * goal);

@@ -157,14 +157,20 @@ pub(crate) fn complement(vectors: &[DVector<f64>], n: usize) -> DMatrix<f64> {
 }
 
 impl System {
-    /// Returns the linearised equations about a steady state.
-    pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
+    /// Refuses states whose growth rates are not known.
+    pub(crate) fn check_spectrum(&self) -> Result<(), SteadyError> {
         if self.model.has_field() {
             return Err(SteadyError::unsupported(
                 "growth rates are not computed if particles diffuse inside",
                 "Leave out the diffusion constant inside, or measure the growth in a run",
             ));
         }
+        Ok(())
+    }
+
+    /// Returns the linearised equations about a steady state.
+    pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
+        self.check_spectrum()?;
         let jacobian = self.jacobian(point, part)?;
         self.load(point)?;
         let (motions_of, generators) = self.generators(&point.base, part)?;

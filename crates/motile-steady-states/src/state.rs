@@ -70,6 +70,14 @@ pub struct Measured {
     pub least_curvature: f64,
 }
 
+impl Measured {
+    /// Returns speed, stresslet, aspect ratio, largest and smallest concentration and perimeter.
+    pub(crate) fn list(&self) -> [f64; 6] {
+        let [most, least] = self.concentration;
+        [self.speed, self.stresslet, self.aspect_ratio, most, least, self.perimeter]
+    }
+}
+
 /// Time (seconds) of the parts of a Newton iteration and of a spectrum, for disturbances of the state's own symmetry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -169,6 +177,25 @@ impl SteadyState {
         let velocity = Vec2::new(x, y) + turn * profile.moments()?.centroid.perp();
         let setup = system.model.setup.clone();
         Ok(Self { setup, point, profile, outcome, mirror: part == Part::Even, tail, velocity, rate })
+    }
+
+    /// Finds the steady state of a similar description, on the branch of this one, by Newton's method from this state.
+    ///
+    /// Nodes stay where they are unless the droplet changes much, so that results change smoothly with parameters. If
+    /// the description has another number of nodes or rigid bodies, this is [`SteadyState::near`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`SteadyState::near`].
+    pub fn follow(&self, setup: &Setup) -> Result<Self, SteadyError> {
+        let model = System::new(setup)?.model;
+        let same = model.nodes() == self.profile.nodes() && setup.rigid_bodies.len() == self.profile.nuclei.len();
+        let mirror = self.mirror && model.is_mirror_symmetric();
+        if !same || mirror != self.mirror {
+            return Self::near(setup, &self.profile, self.velocity, mirror);
+        }
+        check_axis(setup, self.part())?;
+        self.profile.check_room(setup)?;
+        self.moved_to(setup)
     }
 
     /// Returns the state of a neighbouring description, over the same nodes unless the droplet changes much.
@@ -283,6 +310,16 @@ impl SteadyState {
     pub fn measured(&self) -> Result<Measured, SteadyError> {
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
+        self.measured_in(&system)
+    }
+
+    /// Returns the velocity relative to the imposed flow at the centroid (length per time).
+    pub(crate) fn relative_velocity(&self, system: &System) -> Result<Vec2, SteadyError> {
+        Ok(self.velocity - system.model.imposed().velocity_at(self.profile.moments()?.centroid))
+    }
+
+    /// Returns the measured properties from a system that the state is loaded in.
+    pub(crate) fn measured_in(&self, system: &System) -> Result<Measured, SteadyError> {
         let tangents = self.profile.tangents()?;
         let model = &system.model;
         let around = InterfaceState {
@@ -297,16 +334,16 @@ impl SteadyState {
             on_grid: false,
             enclosed: Vec::new(),
         };
-        let velocity = self.velocity() - model.imposed().velocity_at(self.profile.moments()?.centroid);
+        let velocity = self.relative_velocity(system)?;
         let heading = Frame::of_motion(Vec2::ZERO, velocity, around.rest_speed()?)?.direction();
         let (centroid, aspect_ratio, perimeter, stresslet) = if model.is_axisymmetric() {
             let VolumeMoments { centroid, aspect_ratio, surface } = VolumeMoments::of(&self.profile)?;
             let centroid = Vec2::new(centroid, 0.0);
-            let [along, across] = self.axial_dipoles(&system, centroid, &tangents);
+            let [along, across] = self.axial_dipoles(system, centroid, &tangents);
             (centroid, aspect_ratio, surface, 2.0 / 3.0 * (along - across))
         } else {
             let moments = self.profile.moments()?;
-            let [xx, xy] = self.force_dipole(&system, moments.centroid, &tangents);
+            let [xx, xy] = self.force_dipole(system, moments.centroid, &tangents);
             // The component of the traceless, symmetric part along the motion.
             let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
             let perimeter = tangents.iter().map(|t| t.length() * TAU / tangents.len() as f64).sum();

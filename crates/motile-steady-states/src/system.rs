@@ -7,11 +7,14 @@ use crate::iteration::USUAL_CHANGE;
 use crate::model::{Base, FrameMotion, Model};
 use crate::modes::{Modes, Part};
 use crate::profile::CROWDING;
+use crate::stencil::Stencil;
 use crate::{Parameter, Profile, SteadyError};
 
 /// Relative step of central differences: the cube root of the round-off of rates (1e-15), where it and the truncation
 /// leave an error of 1e-10.
 pub(crate) const DIFFERENCE: f64 = 1e-5;
+/// Step of differences of sixth order: the tension's corner is a tenth of the mean density wide.
+const FINE_DIFFERENCE: f64 = 1e-3;
 /// Derivatives of the coefficients below this are zero: turning a round droplet, or the area in antisymmetric shapes.
 pub(crate) const NO_EFFECT: f64 = 1e-7;
 
@@ -74,7 +77,10 @@ pub(crate) struct System {
 
 impl System {
     pub(crate) fn new(setup: &motile::setup::Setup) -> Result<Self, SteadyError> {
-        let model = Model::new(setup)?;
+        Self::of(Model::new(setup)?)
+    }
+
+    fn of(model: Model) -> Result<Self, SteadyError> {
         let scales = [model.radius, model.radius * model.concentration];
         let modes = Modes::new(model.nodes(), scales, model.nuclei())?;
         Ok(Self { model, modes, by_diffusing: DVector::zeros(0) })
@@ -86,6 +92,12 @@ impl System {
         let mut moved = Self::new(&parameter.with(setup, parameter.get(setup).unwrap_or(0.0) + by)?)?;
         moved.model.adopt(&self.model);
         Ok(moved)
+    }
+
+    /// Returns this system at another value of a parameter ([`Model::retuned`]).
+    pub(crate) fn retuned(self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
+        let setup = parameter.with(&self.model.setup, value)?;
+        Self::of(self.model.retuned(&setup)?)
     }
 
     /// Returns the profile as a point over itself: offsets zero.
@@ -200,6 +212,32 @@ impl System {
         filled.map(|()| jacobian)
     }
 
+    /// Returns the Jacobian by differences of sixth order, at three times the cost: for eigenvectors, whose error is
+    /// the error of the Jacobian over the distance of eigenvalues.
+    pub(crate) fn fine_jacobian(&mut self, point: &Point, part: Part) -> Result<DMatrix<f64>, SteadyError> {
+        let range = self.modes.part(part);
+        let (offsets, density) = self.modes.synthesise(&point.state);
+        let mut jacobian = DMatrix::zeros(range.len(), range.len());
+        if self.model.is_linearised() {
+            self.load(point)?;
+            self.model.linearise()?;
+        }
+        let filled = range.clone().enumerate().try_for_each(|(column, index)| {
+            let step = FINE_DIFFERENCE / (1.0 + 0.1 * self.modes.wave(index) as f64);
+            let derivative = Stencil::CENTRAL.derivative(step, |amount| {
+                let (mut h, mut m) = (offsets.clone(), density.clone());
+                self.modes.perturb(index, amount, &mut h, &mut m);
+                self.model.load(&point.base, &h, &m)?;
+                let (h, m) = self.model.rates(&point.base, point.frame)?;
+                self.modes.analyse(h, m)
+            })?;
+            jacobian.column_mut(column).copy_from(&derivative.rows(range.start, range.len()));
+            Ok(())
+        });
+        self.model.release();
+        filled.map(|()| jacobian)
+    }
+
     /// Returns the rigid motions of one part of the state that leave the equations as they are: shifts along the
     /// region, across it except in channels, and turns in the plane.
     pub(crate) fn motions(&self, part: Part) -> Vec<FrameMotion> {
@@ -269,11 +307,20 @@ impl System {
         Ok(gradients)
     }
 
-    /// Returns the derivative of the rates by a parameter (1/time over the parameter's unit).
-    fn parameter_derivative(&self, point: &Point, parameter: Parameter) -> Result<DVector<f64>, SteadyError> {
+    /// Returns the derivatives by a parameter of the rates (1/time over the parameter's unit) and of the area and the
+    /// number of particles that the state lacks.
+    fn parameter_derivative(
+        &self,
+        point: &Point,
+        parameter: Parameter,
+    ) -> Result<(DVector<f64>, [f64; 2]), SteadyError> {
         let step = DIFFERENCE * parameter.scale(&self.model.setup);
-        let [above, below] = [step, -step].map(|by| self.moved(parameter, by)?.residual(point));
-        Ok((above? - below?) / (2.0 * step))
+        let side = |by: f64| {
+            let mut moved = self.moved(parameter, by)?;
+            Ok::<_, SteadyError>((moved.residual(point)?, moved.model.lacks()))
+        };
+        let ((above, more), (below, less)) = (side(step)?, side(-step)?);
+        Ok(((above - below) / (2.0 * step), std::array::from_fn(|k| (more[k] - less[k]) / (2.0 * step))))
     }
 
     /// Returns the derivatives of the rates of the loaded point (1/time) and of the number of particles that diffuse
@@ -345,8 +392,11 @@ impl System {
             matrix.view_mut((n + frames + k, 0), (1, n)).copy_from(&(gradient.transpose() * rate));
         }
         if let Some(Along { parameter, direction }) = along {
-            let derivative = self.parameter_derivative(point, *parameter)?;
+            let (derivative, lacks) = self.parameter_derivative(point, *parameter)?;
             matrix.view_mut((0, size - 1), (n, 1)).copy_from(&derivative.rows(range.start, n));
+            for (k, lack) in lacks.into_iter().enumerate().take(conserved.len()) {
+                matrix[(n + frames + k, size - 1)] = -lack * rate;
+            }
             matrix.view_mut((size - 1, 0), (1, n)).copy_from(&direction.rows(0, n).transpose());
             matrix[(size - 1, size - 1)] = direction[n];
         }
@@ -356,12 +406,7 @@ impl System {
     /// Returns the correction that takes the rates of the loaded point to zero, and area and particles to their values
     /// for the droplet.
     pub(crate) fn correction(&self, equations: &Equations, residual: &DVector<f64>) -> Result<Correction, SteadyError> {
-        let range = self.modes.part(equations.part);
-        let mut right = DVector::zeros(equations.len());
-        right.rows_mut(0, range.len()).copy_from(&-residual.rows(range.start, range.len()));
-        for (k, lack) in self.model.lacks().into_iter().enumerate().take(equations.conserved) {
-            right[range.len() + equations.motions.len() + k] = lack * self.model.rate_unit();
-        }
+        let right = equations.right(self, residual, self.model.lacks(), self.model.rate_unit());
         equations.solve(&right).map(|solution| equations.correction(self, &solution))
     }
 }
@@ -372,6 +417,27 @@ impl Equations {
         let singular =
             || SteadyError::singular("a steady state", "Start from another state, for example a neighbouring one");
         self.lu.solve(right).filter(|x| x.iter().all(|value| value.is_finite())).ok_or_else(singular)
+    }
+
+    /// Returns the part of the state space that the equations are of.
+    pub(crate) fn part(&self) -> Part {
+        self.part
+    }
+
+    /// Returns the matrix of the equations.
+    pub(crate) fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    /// Returns the right-hand side that takes rates and lacks of area and particles to zero.
+    pub(crate) fn right(&self, system: &System, rates: &DVector<f64>, lacks: [f64; 2], unit: f64) -> DVector<f64> {
+        let range = system.modes.part(self.part);
+        let mut right = DVector::zeros(self.len());
+        right.rows_mut(0, range.len()).copy_from(&-rates.rows(range.start, range.len()));
+        for (k, lack) in lacks.into_iter().enumerate().take(self.conserved) {
+            right[range.len() + self.motions.len() + k] = lack * unit;
+        }
+        right
     }
 
     /// Returns the number of equations.

@@ -39,6 +39,7 @@
 //! | [`interior`] | `motile-interior` | bodies inside droplets: an active polar gel, diffusing particles |
 //! | [`scene`] | `motile-scene` | bodies and scenes, the trait of flows, gaps, integrators, runs, checkpoints |
 //! | [`analysis`] | `motile-analysis` | trajectories and regimes of a droplet, order and correlations of many |
+//! | [`outline_files`] | `outline-files` | outlines of shapes from files |
 //! | [`base`] | `motile-base` | vectors, regions, Fourier transforms, checks of input |
 //!
 //! You can use each crate by itself. This crate re-exports them and adds the description of scenes. Steady states and
@@ -64,5 +65,6 @@ pub use recommend::{Recommendation, SceneKind, cheapest, recommend};
 pub use setup_error::SetupError;
 pub use {
     active_interface, elastic_solids, ib_core, motile_analysis as analysis, motile_base as base,
-    motile_boundary_integrals as boundary_integrals, motile_interior as interior, motile_scene as scene, stokes_grid,
+    motile_boundary_integrals as boundary_integrals, motile_interior as interior, motile_scene as scene, outline_files,
+    stokes_grid,
 };

@@ -7,6 +7,7 @@ use motile_base::internal::{Refuse, place, told, told_apart};
 use motile_boundary_integrals::LayerError;
 use motile_interior::InteriorError;
 use motile_scene::FlowError;
+use outline_files::OutlineError;
 use stokes_grid::StokesError;
 
 use crate::setup::Squeezed;
@@ -33,6 +34,9 @@ pub enum SetupError {
     /// Error of an elastic solid, its outline or its mesh.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// Error of an outline from a file or from points.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
     /// Error of a gel or of particles that fill a droplet.
     #[error(transparent)]
     Interior(#[from] InteriorError),

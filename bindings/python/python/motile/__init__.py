@@ -17,6 +17,9 @@ for force (line tension). Keys and dimensions of a setup are those of scene file
 """
 
 from ._error import Error
+from ._fit import Combination, FitResult, Profile, Samples, fit
+from ._fit_model import Free
+from ._measured import Measured, MeasuredConcentration, MeasuredModes, MeasuredOutline, MeasuredRun
 from ._motile import Setup, SteadyState, steady
 from ._parts import box, channel, droplet, grid, integral, layers, plane, space, tube
 from ._scene import Droplet, Scene, Track
@@ -25,8 +28,18 @@ from ._sweep import Sweep, SweepRun, sweep
 
 __all__ = [
     "Branch",
+    "Combination",
     "Droplet",
     "Error",
+    "FitResult",
+    "Free",
+    "Measured",
+    "MeasuredConcentration",
+    "MeasuredModes",
+    "MeasuredOutline",
+    "MeasuredRun",
+    "Profile",
+    "Samples",
     "Scene",
     "Setup",
     "SteadyState",
@@ -37,6 +50,7 @@ __all__ = [
     "branch",
     "channel",
     "droplet",
+    "fit",
     "grid",
     "integral",
     "layers",

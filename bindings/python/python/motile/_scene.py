@@ -168,6 +168,11 @@ class Scene:
         self._scene = scene
 
     @property
+    def setup(self) -> _motile.Setup:
+        """Setup that the scene was built from."""
+        return self._scene.setup
+
+    @property
     def time(self) -> float:
         """Time of the present state."""
         return self._scene.time
@@ -196,6 +201,28 @@ class Scene:
     def minimum_gap(self) -> float | None:
         """Smallest gap between an interface and another one or a wall (length); None where there is neither."""
         return self._scene.minimum_gap
+
+    @property
+    def body_forces(self) -> list[tuple[str, Array, float | None]]:
+        """Names, forces and torques of the fluid on all bodies, in the order of `bodies`.
+
+        Forces are arrays [x, y] (force): drag and lift of a held body, minus the weight of a droplet that sinks.
+        Torques are about the centroid (force times length) for rigid bodies, and None for others.
+        """
+        return [(name, np.array(force), torque) for name, force, torque in self._scene.body_forces()]
+
+    @property
+    def channel_forces(self) -> dict[str, float | None] | None:
+        """Forces of the fluid along a channel over one period; None without straight walls.
+
+        `pressure_drop` (stress), its part that bodies cause at a given flux, `extra_pressure_drop`, and the forces on
+        the walls along x, `force_lower` and `force_upper`, and on all bodies, `force_bodies_x` and `force_bodies_y`.
+        """
+        return self._scene.channel_forces()
+
+    def wall_shear(self, count: int = 128) -> tuple[Array, Array, Array] | None:
+        """Places x and the shear stress there on the lower and upper wall along x (stress); None without walls."""
+        return self._scene.wall_shear(count)
 
     @property
     def track(self) -> Track:
@@ -337,6 +364,19 @@ class Scene:
     def _repr_svg_(self) -> str:
         return self._scene.svg()
 
+    def _repr_html_(self) -> str:
+        """Picture and key numbers, for notebooks."""
+        rows = [("time", f"{self.time:g}"), ("steps", f"{self.steps}"), ("warnings", f"{len(self.warnings)}")]
+        if self.droplets:
+            seen = self.droplets[0].observe()
+            names = ("speed", "aspect_ratio_moments", "stresslet_xx")
+            rows += [(name, f"{value:.5g}") for name in names if (value := seen.get(name)) is not None]
+        cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows)
+        return f"<div>{self._scene.svg()}<table>{cells}</table></div>"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _unpickled, (self.setup, *self._scene.packed())
+
     def write_paraview(self, folder: FilePath, spacing: float | None = None) -> None:
         """Writes the flow on a raster of that spacing (length; by default a tenth of the radius of the first droplet) and
         all bodies as files for ParaView."""
@@ -361,6 +401,13 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<scene at time {self.time:g}: {len(self.bodies)} bodies>"
+
+
+def _unpickled(setup: _motile.Setup, state: bytes, records: Array) -> Scene:
+    """Scene of a setup in a pickled state."""
+    scene: Scene = setup.build()
+    scene._scene.unpack(state, records)
+    return scene
 
 
 class _Bar:

@@ -8,7 +8,7 @@ use motile_base::{Vec2, positive};
 use crate::SolidError;
 use crate::mesh::TriangleMesh;
 
-mod join;
+pub(super) mod join;
 mod parse;
 
 use join::{first_of_same, join_ends};

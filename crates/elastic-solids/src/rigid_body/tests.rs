@@ -82,3 +82,53 @@ fn slender_bodies_need_more_nodes() {
         assert!(look(&ellipse([1.0, 0.5], count), 24).is_empty() && look(&ellipse([1.0, 1.0], count), 8).is_empty());
     }
 }
+
+/// The forces of stresses are minus the transpose of the rates, and the prescribed motion has the rates that are taken
+/// off, whether a load or the markers hold the body.
+#[test]
+fn what_holds_it_is_the_transpose_of_its_rates() {
+    let held = body().moving(Vec2::new(0.3, -0.2), 1.7).unwrap();
+    for mut body in [held.clone(), held.by_markers(0.05).unwrap()] {
+        body.read_state(&[3.0, 4.0, 0.7]).unwrap();
+        let moved: Vec<Vec2> =
+            body.markers().map(|x| Vec2::new(0.3, -0.2) + 1.7 * (x - Vec2::new(3.0, 4.0)).perp()).collect();
+        let mut rates = vec![0.0; body.stress_count()];
+        body.write_rates(&moved, &mut rates);
+        body.subtract_prescribed(&mut rates);
+        assert!(rates.iter().all(|rate| rate.abs() < 1e-13), "{rates:?}");
+        let wavy: Vec<Vec2> = (0..200).map(|k| Vec2::from_angle(0.37 * f64::from(k))).collect();
+        let stresses: Vec<f64> = (0..rates.len()).map(|k| (0.7 * k as f64).cos()).collect();
+        body.write_rates(&wavy, &mut rates);
+        let mut forces = vec![Vec2::ZERO; 200];
+        body.add_stress_forces(&stresses, &mut forces);
+        let power: f64 = forces.iter().zip(&wavy).map(|(force, v)| force.dot(*v)).sum();
+        let taken: f64 = rates.iter().zip(&stresses).map(|(rate, stress)| rate * stress).sum();
+        assert!((power + taken).abs() < 1e-12 * taken.abs().max(1.0), "{power} {taken}");
+        let mut rate = [0.0; 3];
+        body.rate(&wavy, &mut rate);
+        assert_eq!(rate, [0.3, -0.2, 1.7]);
+        // A checkpoint has what holds the body.
+        body.set_stresses(&stresses);
+        let saved = body.save();
+        body.set_stresses(&vec![0.0; stresses.len()]);
+        body.load(&view(), &saved).unwrap();
+        assert_eq!(body.stresses(), stresses);
+    }
+}
+
+/// Markers behind the outline of a circle lie on a smaller circle.
+#[test]
+fn markers_lie_behind_the_outline() {
+    let circle: Vec<Vec2> =
+        (0..40).map(|k| 2.0 * Vec2::from_angle(f64::from(k) * std::f64::consts::PI / 20.0)).collect();
+    let held = RigidBody::new(&circle).unwrap().held();
+    let body = held.clone().by_markers(0.3).unwrap();
+    assert!(body.markers().all(|marker| (marker.length() - 1.7).abs() < 1e-12));
+    assert_eq!(body.kind(), MarkerKind::UnevenInterface { viscosity_inside: None });
+    for inset in [-0.1, 2.1, f64::NAN] {
+        let error = held.clone().by_markers(inset).unwrap_err().to_string();
+        assert!(error.contains("inset"), "{error}");
+    }
+    let free = RigidBody::new(&circle).unwrap();
+    assert_eq!(free.clone().by_markers(0.3).unwrap(), free);
+}

@@ -193,6 +193,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         self.flow.drive()
     }
 
+    fn wall_slip(&self) -> Option<[f64; 2]> {
+        self.flow.wall_slip()
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.flow.check(markers)?;
         self.set_viscosity(markers)?;

@@ -10,14 +10,14 @@ use motile::active_interface::observables::{ConcentrationProfile, Frame, Periodi
 use motile::active_interface::{ActiveDroplet, ActiveInterface};
 use motile::analysis::trajectory::TrajectoryRecord;
 use motile::base::{Region, Vec2, internal::decimals};
-use motile::scene::{Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
+use motile::scene::{Body, Every, Handle, Observer, Scene, SceneError, gap::SolidGap};
 use motile::setup::{AnyFlow, Built, MethodKind, Numbers, Particles, Setup};
 
 use super::{flags::OutputFlags, job::Job, job::Watch, summary::Summary, words::say};
 use motile_output::plot::{concentration_plot, time_series};
 use motile_output::{
-    Animation, BodiesCsv, CsvTable, DropletsCsv, FlowCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot, SolidColour,
-    Track, TrajectoryCsv,
+    Animation, BodiesCsv, CsvTable, DropletsCsv, FlowCsv, ForcesCsv, InterfacesCsv, Look, ParaView, Raster, Snapshot,
+    SolidColour, Track, TrajectoryCsv, WallShearCsv,
 };
 pub use view::View;
 use view::{caption, view_of};
@@ -31,6 +31,8 @@ const FRAMES: [f64; 2] = [50.0, 150.0];
 /// Spacing of the fields in animations and files over the picture's if there is no grid, because each point then costs
 /// a sum over the interfaces.
 const COARSER: f64 = 2.0;
+/// Places on each wall in a table of its shear stress.
+const WALL_PLACES: usize = 128;
 /// Depth to which a droplet may enter an elastic solid before its run ends with an error (grid spacings).
 const SOLID_OVERLAP: f64 = 0.25;
 /// Distance of streamlines around droplets (radii).
@@ -59,12 +61,15 @@ struct Tables {
     interfaces: Option<InterfacesCsv>,
     bodies: Option<BodiesCsv>,
     flow: Option<FlowCsv>,
+    forces: Option<ForcesCsv>,
+    wall_shear: Option<WallShearCsv>,
 }
 
 /// Run of any scene, with records of all of its bodies: `droplets.csv`, `interfaces.csv`, `bodies.csv` (rigid bodies,
-/// shells, solids, gels). If the first droplet has particles, its observables are in `trajectory.csv` (and in
+/// shells, fibres, solids, gels). If the first droplet has particles, its observables are in `trajectory.csv` (and in
 /// `droplets.csv` only if there are several), with plots over time. If it has none, or if a flow is imposed, there is
-/// `flow.csv`. Unless pictures are not wanted, there are
+/// `flow.csv`. If a rigid body is held or moved, its forces are in `bodies.csv`, the forces along the channel in
+/// `forces.csv`, and the shear stress on straight walls in `wall_shear.csv`. Unless pictures are not wanted, there are
 /// files for ParaView, a picture of the end (`final.png`) and an animation (`swim.gif`).
 #[derive(Debug)]
 pub struct SceneRun {
@@ -83,6 +88,8 @@ pub struct SceneRun {
     interfaces: Vec<Recorded<ActiveInterface, PeriodicObservables>>,
     /// Names of all other bodies, with the numbers of their handles.
     bodies: Vec<(String, usize)>,
+    /// Droplets and solids that a weight or a force pulls at.
+    pulled: Vec<(String, Handle<dyn Body>)>,
     tables: Tables,
     pictures: Option<(Look, Animation, ParaView)>,
     gap: SolidGap,
@@ -95,7 +102,7 @@ impl SceneRun {
     /// # Errors
     /// Returns the errors of [`Job::new`]; a state that cannot be measured; files that cannot be written.
     pub fn new(built: Built, setup: &Setup, end: f64, output: &OutputFlags, name: &str, view: &View) -> Result<Self> {
-        let Built { mut scene, droplets: all_droplets, interfaces: all_interfaces, .. } = built;
+        let Built { mut scene, droplets: all_droplets, solids, interfaces: all_interfaces, .. } = built;
         let (described, setup) = (setup, &setup.placed()?);
         let mut taken = HashSet::new();
         let mut key = |name: &str| {
@@ -128,7 +135,21 @@ impl SceneRun {
         let mut known: HashSet<usize> = all_droplets.iter().map(Handle::index).collect();
         known.extend(all_interfaces.iter().map(Handle::index));
         let others = scene.system().all_bodies().filter(|(handle, _)| !known.contains(&handle.index()));
-        let bodies = others.map(|(handle, body)| (key(body.name()), handle.index())).collect();
+        let bodies: Vec<(String, usize)> = others.map(|(handle, body)| (key(body.name()), handle.index())).collect();
+        let pulls = |forces: [[f64; 2]; 2]| forces != [[0.0; 2]; 2];
+        let pulled_droplets = (all_droplets.iter().zip(&setup.droplets))
+            .filter(|(_, droplet)| pulls([droplet.body_force, droplet.force]))
+            .map(|(&handle, droplet)| {
+                let known = droplets.iter().find(|(_, other, _)| *other == handle).map(|(name, ..)| name.clone());
+                (known.unwrap_or_else(|| droplet.name.replace(' ', "_")), handle.into())
+            });
+        let pulled_solids = (solids.iter().zip(&setup.solids))
+            .filter(|(_, solid)| pulls([solid.body_force, solid.force]))
+            .filter_map(|(&handle, _)| {
+                let (name, _) = bodies.iter().find(|(_, index)| *index == handle.index())?;
+                Some((name.clone(), handle.into()))
+            });
+        let pulled = pulled_droplets.chain(pulled_solids).collect();
 
         let job = Job::new(&mut scene, described, end, output, name)?;
         let radius = setup.length_scale();
@@ -141,6 +162,8 @@ impl SceneRun {
         let first = first.transpose()?;
         let system = scene.system_mut();
         let (has_bodies, has_flow) = (BodiesCsv::has_bodies(system), first.is_none() || !setup.flow.is_none());
+        let holds = ForcesCsv::has_held_bodies(system);
+        let has_walls = holds && system.channel_forces()?.is_some();
         let tables = Tables {
             droplets: (!droplets.is_empty()).then(|| DropletsCsv::create(path("droplets.csv"), system)).transpose()?,
             interfaces: (!interfaces.is_empty())
@@ -149,6 +172,10 @@ impl SceneRun {
             bodies: has_bodies.then(|| BodiesCsv::create(path("bodies.csv"), system)).transpose()?,
             // In a box a row costs as much as several steps, and a trajectory has the gradient and the gap.
             flow: has_flow.then(|| FlowCsv::create(path("flow.csv"), system)).transpose()?,
+            forces: holds.then(|| ForcesCsv::create(path("forces.csv"), system)).transpose()?,
+            wall_shear: has_walls
+                .then(|| WallShearCsv::create(path("wall_shear.csv"), system, WALL_PLACES))
+                .transpose()?,
         };
 
         let centre = Vec2::from(setup.droplets.first().map_or([0.0; 2], |droplet| droplet.centre));
@@ -182,6 +209,7 @@ impl SceneRun {
             droplets,
             interfaces,
             bodies,
+            pulled,
             tables,
             pictures,
             gap: SolidGap::new(SOLID_OVERLAP * setup.method.spacing().unwrap_or(view.spacing)),
@@ -212,6 +240,12 @@ impl SceneRun {
         }
         if let Some(table) = &mut self.tables.bodies {
             observers.push((row, table));
+        }
+        if let Some(table) = &mut self.tables.forces {
+            observers.push((row, table));
+        }
+        if let Some(table) = &mut self.tables.wall_shear {
+            observers.push((self.job.each(FILES), table));
         }
         if let Some(end) = end {
             observers.push((Every::Steps(1), end));

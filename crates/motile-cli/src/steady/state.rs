@@ -14,14 +14,26 @@ use crate::run::{ORIGIN_KEY, Summary, command, make_directory, say};
 /// Growth rates in the summary.
 const LEADING: usize = 5;
 
-/// Finds the steady state that a run of a scene settles to, by Newton's method, or the droplet at rest with particles
-/// everywhere alike if `uniform`, and prints what was measured. Writes to `out`: `summary.json`, the results;
-/// `spectrum.csv`, the eigenvalues; and if `pictures`, `steady_state.svg` (also as PNG), shape, concentration and the
-/// leading mode.
+/// What is computed of a steady state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// The droplet at rest with particles everywhere alike instead of the state that a run settles to.
+    pub uniform: bool,
+    /// Pictures of the state.
+    pub pictures: bool,
+    /// Derivatives by the parameters of the scene.
+    pub sensitivities: bool,
+}
+
+/// Finds the steady state that a run of a scene settles to, by Newton's method, and prints what was measured. Writes to
+/// `out`: `summary.json`, the results; `spectrum.csv`, the eigenvalues; and if wanted, `sensitivities.csv`, the
+/// derivatives of the results and of the leading growth rate, and `steady_state.svg` (also as PNG), shape,
+/// concentration and the leading mode.
 ///
 /// # Errors
 /// Returns an error for a scene without such a state; files that cannot be written.
-pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result<()> {
+pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
+    let Wanted { uniform, pictures, sensitivities } = wanted;
     // The state, and whether it is stable.
     let started = Instant::now();
     let state = if uniform { SteadyState::uniform(setup)? } else { SteadyState::find(setup)? };
@@ -71,6 +83,12 @@ pub fn solve(setup: &Setup, uniform: bool, pictures: bool, out: &Path) -> Result
     table.flush()?;
     summary.write(&out.join("summary.json"))?;
     say(summary.table().trim_end());
+    if sensitivities {
+        let modes: Vec<Eigenmode> = leading.cloned().into_iter().collect();
+        let table = state.sensitivities_with(&modes)?;
+        std::fs::write(out.join("sensitivities.csv"), table.csv())?;
+        say(format_args!("\n{table}\n"));
+    }
     if pictures {
         figure(&state, &spectrum)?.of_origin(origin).write(out, "steady_state")?;
     }

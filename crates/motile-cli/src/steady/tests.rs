@@ -36,3 +36,27 @@ fn keys_stand_for_parameters() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// The key of every parameter of a scene stands for that parameter.
+#[test]
+fn keys_of_parameters_stand_for_them() {
+    for text in [
+        "region = \"plane\"\nflow = { shear = 0.1, extension = 0.2 }\n[[droplets]]\nviscosity = 50.0\nfriction = 1.0\n\
+         cortex = { viscosity = 1.0, per-concentration = 0.1 }\nparticles.exchange = { binding = 0.1, unbinding = 0.2, \
+         number-inside = 10.0, diffusion-inside = 0.3 }\n",
+        "region.box.lengths = [6.0, 7.0]\n[[droplets]]\nviscosity = 50.0\nparticles.excluded-volume.step-at = { \
+         strength = 10.0, threshold = 200.0, steepness = 20.0 }\n[[rigid-bodies]]\nshape.round.radius = 0.2\n",
+        "region.channel = { length = 12.0, width = 3.0, drive.gradient = 0.1 }\nflow.wall-velocity = [0.1, 0.2]\n\
+         [[droplets]]\nviscosity = 50.0\nparticles.excluded-volume.quadratic = 0.1\n",
+        "region.tube = { radius = 2.0, drive.flux = 0.1 }\n[[droplets]]\nviscosity = 50.0\n\
+         cortex = { viscosity = 1.0, shear-viscosity = 2.0 }\n",
+        "region = \"plane\"\nflow.poiseuille = { speed = 0.1, half-width = 3.0 }\n[[droplets]]\nviscosity = 50.0\n",
+    ] {
+        let setup = Setup::from_toml(text).unwrap();
+        let all = Parameter::independent(&setup);
+        assert!(all.len() > 8, "{}", all.len());
+        for known in all {
+            assert_eq!(parameter(&setup, known.key(&setup)).unwrap(), known, "{}", known.key(&setup));
+        }
+    }
+}

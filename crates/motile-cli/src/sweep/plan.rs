@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::trial::Trial;
-use crate::keys::{self, in_words, setup_of, table_of, text_of};
+use crate::keys::{self, in_words, setup_of, table_in, text_of};
 
 /// Most runs of a plan.
 const MOST: usize = 1_000_000;
@@ -48,6 +48,9 @@ pub struct Plan {
     list: Vec<Table>,
     #[serde(default)]
     seeds: Option<Seeds>,
+    /// Directory that files of the scene are relative to.
+    #[serde(skip)]
+    directory: PathBuf,
 }
 
 #[derive(Debug, Deserialize)]
@@ -99,6 +102,9 @@ impl Plan {
                 let file = path.parent().unwrap_or(Path::new("")).join(file);
                 let text = text_of(&file).with_context(|| format!("scene {}", file.display()))?;
                 plan.scene = SceneEntry::Here(toml::from_str(&text)?);
+                plan.directory = file.parent().unwrap_or(Path::new("")).to_owned();
+            } else {
+                plan.directory = path.parent().unwrap_or(Path::new("")).to_owned();
             }
             Ok(plan)
         };
@@ -128,7 +134,7 @@ impl Plan {
     pub fn trials(&self, runs: &Path) -> Result<Vec<Trial>> {
         let SceneEntry::Here(scene) = &self.scene else { bail!("the plan has no scene. Add the key `scene`") };
         // With all entries written out, and without those that there are not.
-        let mut base = table_of(&scene.to_string())?;
+        let mut base = table_in(&scene.to_string(), &self.directory)?;
         let points = self.points(&mut base)?;
         let names = short_names(&points);
         let mut labels = HashSet::new();

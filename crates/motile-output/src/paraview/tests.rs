@@ -1,6 +1,6 @@
 use super::*;
 use motile::prelude::*;
-use motile::setup::DropletShape;
+use motile::setup::{DropletShape, FibreHold, FibreSetup, FibreShape};
 
 #[test]
 fn each_droplet_has_its_own_forces_and_velocities() {
@@ -37,6 +37,48 @@ fn each_droplet_has_its_own_forces_and_velocities() {
         .point_vectors("force", both(|state| state.forces.to_vec()))
         .cell_scalars("droplet", [0.0, 1.0]);
     assert_eq!(interfaces(scene.system(), &seen).unwrap(), expected);
+}
+
+/// Fibres are lines with all of their nodes: held ones at rest, the end of a period as its start.
+#[test]
+fn fibres_are_lines_in_files_tables_and_pictures() {
+    let of = |shape: FibreShape, ends: [FibreHold; 2]| FibreSetup { shape, ends, ..FibreSetup::default() };
+    let setup = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: Vec::new(),
+        fibres: vec![
+            of(FibreShape::Points(vec![[0.0, 0.0], [0.2, 0.1], [0.4, 0.0]]), [FibreHold::Clamped, FibreHold::Free]),
+            of(FibreShape::ClosedPoints(vec![[1.0, 0.0], [1.2, 0.0], [1.2, 0.2], [1.0, 0.2]]), [FibreHold::Free; 2]),
+        ],
+        ..Setup::default()
+    };
+    let setup = Setup {
+        fibres: setup.fibres.into_iter().map(|f| FibreSetup { reference_curvature: Some(0.5), ..f }).collect(),
+        ..setup
+    };
+    let Built { mut scene, fibres, .. } = setup.build().unwrap();
+    let raster = Raster::of(scene.system(), 0.5).unwrap();
+    let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
+    let lengths: Vec<usize> = seen.solids.iter().map(|shape| shape.edges[0].len()).collect();
+    assert_eq!(lengths, [3, 5]);
+    let flows = [fibres[0], fibres[1]].map(|fibre| scene.system().flow_at(fibre).unwrap());
+    let values = |pick: fn(&motile::scene::BodyFlow<'_>) -> Vec<Vec2>| {
+        let [held, ring] = [pick(&flows[0]), pick(&flows[1])];
+        [vec![Vec2::ZERO], held, ring.clone(), vec![ring[0]]].concat()
+    };
+    let lines: Vec<Vec<Vec2>> = seen.solids.iter().map(|shape| shape.edges[0].clone()).collect();
+    let expected = VtkFile::lines(&[], &lines)
+        .point_vectors("velocity", values(|flow| flow.velocities.to_vec()))
+        .point_vectors("force", values(|flow| flow.forces.to_vec()))
+        .cell_scalars("body", [0.0, 1.0]);
+    assert_eq!(curve_lines(scene.system()).unwrap(), Some(expected));
+    assert_eq!(marker_points(scene.system()).unwrap(), None);
+    let rows = crate::BodiesCsv::rows(scene.system_mut()).unwrap();
+    let value = |row: usize, name: &str| rows[row].iter().find(|(key, _)| *key == name).unwrap().1;
+    let state = scene.observe(fibres[0]).unwrap();
+    assert_eq!(value(0, "torque_start"), state.end_torques[0]);
+    assert!(state.end_torques[0] != 0.0 && (value(1, "length") - 0.8).abs() < 1e-12, "{rows:?}");
 }
 
 /// Runs one after the other, each of which shows its first state: every time is listed once.

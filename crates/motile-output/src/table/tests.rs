@@ -61,7 +61,9 @@ fn a_table_of_a_resumed_run_begins_with_the_rows_so_far() {
         first.step(0.125).unwrap();
     }
     let written = std::fs::read_to_string(&path).unwrap();
-    assert!(written.starts_with("time,x\n0,-8\n0.125,\n0.25,8\n"), "{written}");
+    let origin = first.system().origin();
+    let start = format!("time,x,origin\n0,-8,\"{origin}\"\n0.125,,\n0.25,8,\n");
+    assert!(origin.starts_with("motile ") && written.starts_with(&start), "{written}");
     // The file may be gone, or be that of another run.
     std::fs::write(&path, "time,x\n0,1\n").unwrap();
     let mut second = scene();

@@ -181,7 +181,7 @@ fn files_carry_the_origin_of_their_results() {
     scene.checkpoint("").write(&directory.0.join("state")).expect("a checkpoint");
     let written: Vec<_> = std::fs::read_dir(&directory.0).expect("files").flatten().map(|entry| entry.path()).collect();
     let pieces = written.iter().filter(|path| path.extension().is_none_or(|kind| kind != "pvd"));
-    let shown = |path: &std::path::Path| match path.extension() {
+    let shown = |path: &Path| match path.extension() {
         Some(kind) if kind == "vtp" || kind == "vti" => origin.replace("--", "- -"),
         _ => origin.clone(),
     };

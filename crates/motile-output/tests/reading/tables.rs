@@ -9,10 +9,12 @@ use crate::Directory;
 /// Header and rows of a CSV file; empty fields are not numbers.
 fn read(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(path).expect("a table");
-    let header = reader.headers().expect("a header").iter().map(str::to_owned).collect();
+    let mut header: Vec<String> = reader.headers().expect("a header").iter().map(str::to_owned).collect();
+    header.pop_if(|name| name == "origin");
     let number = |field: &str| if field.is_empty() { f64::NAN } else { field.parse().expect(field) };
-    let rows = reader.records().map(|row| row.expect("a row").iter().map(number).collect());
-    (header, rows.collect())
+    let rows = reader.records().map(|row| row.expect("a row").iter().take(header.len()).map(number).collect());
+    let rows = rows.collect();
+    (header, rows)
 }
 
 #[test]

@@ -6,6 +6,8 @@ use std::cell::{Cell, RefCell};
 
 use crate::{Body, BodyError, FluidView, MarkerKind, body::StepLimit, points, saved_state::SavedState};
 use decay::Mobility;
+
+pub use decay::fastest_decay;
 use motile_base::{InputError, Vec2, internal::all_points_finite, not_negative};
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use motile::base::Region;
 use motile::prelude::*;
-use motile::setup::ShellSetup;
+use motile::setup::{FibreSetup, ShellSetup};
 use motile_steady_states::{Branch, BranchPoint, Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
 
 const SHEAR: FlowSetup = FlowSetup { shear: 1.0, extension: 0.0, rotation: 0.0, poiseuille: None, wall_velocity: None };
@@ -169,6 +169,9 @@ fn flows_that_no_state_is_steady_in() {
     let capsule = Setup { droplets: Vec::new(), shells: vec![ShellSetup::default()], ..drop };
     let refused = SteadyState::find(&capsule).unwrap_err().to_string();
     assert!(refused.contains("has a shell") && refused.contains("Run it until"), "{refused}");
+    let hairy = Setup { region: Region::Plane, fibres: vec![FibreSetup::default()], ..Setup::default() };
+    let refused = SteadyState::find(&hairy).unwrap_err().to_string();
+    assert!(refused.contains("the scene has a fibre"), "{refused}");
     let refused = Parameter::ShearRate.with(&Setup::default(), 1.0).unwrap_err().to_string();
     assert!(refused.contains("no parameter shear"), "{refused}");
 }
@@ -188,4 +191,40 @@ fn tiny_capillary_numbers_are_refused() {
         let error = SteadyState::find(&drop_in(flow, 1.0, 1e-9, 32)).unwrap_err().to_string();
         assert!(error.starts_with("the capillary number is 1.0e-9: "), "{error}");
     }
+}
+
+/// Turning points are at a fixed capillary number, `E eta R/gamma`, and states next to them say so beside their
+/// sensitivities.
+#[test]
+fn sensitivities_at_and_near_the_turning_point() {
+    let branch = branch(1.0, [0.17, 0.25], 64);
+    let [fold] = branch.special.as_slice() else { panic!("{:?}", branch.end) };
+    let found = fold.critical.sensitivities(Parameter::ExtensionRate).unwrap();
+    let relative = |parameter| found.logarithmic("extension", parameter).unwrap();
+    let viscosities = relative(Parameter::ViscosityInside) + relative(Parameter::ViscosityOutside);
+    println!("{found}");
+    assert!((relative(Parameter::Tension) - 1.0).abs() < 1e-7, "{}", relative(Parameter::Tension));
+    assert!((viscosities + 1.0).abs() < 1e-7, "{viscosities}");
+    // Nodes stay where they are if the radius changes.
+    assert!((relative(Parameter::Radius) + 1.0).abs() < 1e-3, "{}", relative(Parameter::Radius));
+    assert!(found.parameters.iter().all(|entry| entry.parameter != Parameter::ExtensionRate));
+
+    let before = branch.points.iter().rfind(|point| point.spectrum.unstable() == 0).unwrap();
+    let near = before.state.at(Parameter::ExtensionRate, 0.9995 * fold.value).unwrap();
+    let found = near.sensitivities().unwrap();
+    assert!(found.warning.is_some() && found.slowest_relative.abs() < 0.05, "{found}");
+    let of_extension = found.parameters.iter().find(|entry| entry.parameter == Parameter::ExtensionRate).unwrap();
+    let distance = of_extension.distance.unwrap();
+    println!("{found}\n{distance} {}", fold.value - of_extension.value);
+    assert!((distance / (fold.value - of_extension.value) - 1.0).abs() < 0.2, "{distance}");
+    let aspect = |by: f64| {
+        let state = near.at(Parameter::ExtensionRate, of_extension.value + by).unwrap();
+        state.measured().unwrap().aspect_ratio
+    };
+    let slope = |by: f64| (aspect(by) - aspect(-by)) / (2.0 * by);
+    let slope = (4.0 * slope(2e-6) - slope(4e-6)) / 3.0;
+    let derivative = found.derivative("aspect_ratio", Parameter::ExtensionRate).unwrap();
+    assert!((derivative / slope - 1.0).abs() < 1e-4, "{derivative} {slope}");
+    // Farther off there is no remark.
+    assert!(branch.points[0].state.sensitivities().unwrap().warning.is_none());
 }

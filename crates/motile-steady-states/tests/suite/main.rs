@@ -1,6 +1,7 @@
 //! Steady states, their growth rates and branches against exact values and runs.
 
 mod branches;
+mod collapse;
 mod cortex;
 mod cortex_runs;
 mod cycles;
@@ -10,5 +11,6 @@ mod linear_theory;
 mod nucleus;
 mod reference;
 mod revolution;
+mod sensitivities;
 mod units;
 mod verdicts;

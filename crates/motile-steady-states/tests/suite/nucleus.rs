@@ -219,3 +219,12 @@ fn thresholds_around_a_nucleus_are_found_once() {
     let refused = range.switch(&branch.special[0], true, |_, _| true).unwrap_err().to_string();
     assert!(refused.contains("at rest with a nucleus elsewhere"), "{refused}");
 }
+
+#[test]
+fn a_nucleus_that_is_held_has_no_steady_state_here() {
+    let mut held = setup(32, 1.0, -2.0, 0.5);
+    held.region = Region::Box { lengths: [6.0; 2] };
+    held.rigid_bodies[0].held = true;
+    let refused = SteadyState::uniform(&held).expect_err("a refusal").to_string();
+    assert!(refused.contains("held or moved") && refused.contains("run the scene"), "{refused}");
+}

@@ -2,7 +2,7 @@
 
 use motile::prelude::*;
 use motile::setup::{DropletShape, ExcludedVolume};
-use motile_steady_states::{SteadyState, Symmetry};
+use motile_steady_states::{Continuation, Parameter, SteadyState, Symmetry};
 
 /// Sizes of the units of length, time and force.
 #[derive(Debug, Clone, Copy)]
@@ -68,5 +68,42 @@ fn states_are_the_same_in_other_units() {
         let worst = errors.iter().copied().fold(0.0, f64::max);
         println!("{region:?} {cortex}: {worst:.1e}");
         assert!(worst < 1e-8, "{region:?}: {errors:?}");
+    }
+}
+
+/// Thresholds of a branch at rest, growth rates there and the derivative of the threshold by the diffusion constant,
+/// and speeds along the branch of swimmers, in units of the scene.
+fn of_branches(region: Region, units: Units) -> Vec<f64> {
+    let unit = units.force * units.length;
+    let scene = |activity: f64| scene(activity, region, 0.0, 32, units);
+    let rest = SteadyState::uniform(&scene(-0.35)).expect("a good scene");
+    let along = |from: f64, to: f64| Continuation::new(Parameter::Activity, from * unit, to * unit);
+    let branch = along(-0.35, -0.5).follow(&rest, |_, _| true).expect("a branch");
+    let mut values: Vec<f64> = branch.special.iter().map(|point| point.value / unit).collect();
+    let threshold = branch.special.first().expect("a threshold");
+    let found = threshold.critical.sensitivities(Parameter::Activity).expect("a threshold");
+    let by_diffusion = found.derivative("activity", Parameter::Diffusion).expect("diffusion");
+    values.push(by_diffusion / unit * units.length * units.length / units.time);
+    let swimmers = along(-0.35, -0.5).switch(threshold, true, |point, _| point.value > -0.47 * unit);
+    let swimmers = swimmers.expect("a branch");
+    let first = &swimmers.points.first().expect("a swimmer").state;
+    // At a value of the parameter, since the steps are not the same.
+    let swimmer = first.at(Parameter::Activity, -0.45 * unit).expect("a swimmer");
+    values.push(swimmer.measured().expect("a swimmer").speed * units.time / units.length);
+    values
+}
+
+#[test]
+fn thresholds_and_branches_are_the_same_in_other_units() {
+    let metres = Units { length: 1e-5, time: 10.0, force: 1e-9 };
+    let here = of_branches(Region::Plane, ONE);
+    assert_eq!(here.len(), 4);
+    // -(2 D/(R c0)) (eta_in + eta_ext) less the excluded volume, and its derivative by D.
+    assert!((here[0] + 0.4 + 4.539787e-4).abs() < 1e-7 && (here[2] + 4.0).abs() < 1e-6, "{here:?}");
+    for units in [SI, metres] {
+        let there = of_branches(Region::Plane, units);
+        let errors: Vec<f64> = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).collect();
+        println!("{units:?}: {errors:?}");
+        assert!(errors.iter().all(|error| *error < 1e-7), "{here:?} {there:?}");
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use active_interface::{ActiveDroplet, ActiveInterface, Curve, InitialConcentration};
-use elastic_solids::{RigidBody, Shell, Solid};
+use elastic_solids::{Fibre, RigidBody, Shell, Solid};
 use ib_core::{ImmersedBoundary, SmearedContrast};
 use motile_base::{Region, Vec2, internal::spectrum::is_product, polygon};
 use motile_boundary_integrals::{AxisymmetricIntegral, BoundaryIntegral, ImmersedLayers, Settings};
@@ -33,6 +33,8 @@ pub struct Built {
     pub rigid_bodies: Vec<Handle<RigidBody>>,
     /// The shells.
     pub shells: Vec<Handle<Shell>>,
+    /// The elastic fibres.
+    pub fibres: Vec<Handle<Fibre>>,
     /// The gels that fill the box.
     pub gels: Vec<Handle<GelInBox>>,
     /// The interfaces that are periodic along x.
@@ -106,7 +108,7 @@ impl Setup {
             inside.map(|inside| scene.add(inside));
         }
         let (solids, rigid_bodies, shells) = (handles(&scene), handles(&scene), handles(&scene));
-        let gels = handles(&scene);
+        let (fibres, gels) = (handles(&scene), handles(&scene));
         let interfaces: Vec<Handle<ActiveInterface>> = handles(&scene);
         let others = self.bodies().count() - self.interfaces.len();
         for (k, (setup, &host)) in self.interfaces.iter().zip(&interfaces).enumerate() {
@@ -117,7 +119,7 @@ impl Setup {
         if self.mirror_symmetric || self.region.is_axisymmetric() {
             scene = scene.held_symmetric()?;
         }
-        Ok(Built { scene, droplets, solids, rigid_bodies, shells, gels, interfaces })
+        Ok(Built { scene, droplets, solids, rigid_bodies, shells, fibres, gels, interfaces })
     }
 
     /// Returns the particles that diffuse inside a droplet, made to be the body `host`.
@@ -246,7 +248,11 @@ impl Setup {
             Ok([nodes, elements]) => return Ok(elements.max(nodes)),
             Err(grid) => grid,
         };
-        let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
+        self.grid_markers(curve, name, grid.marker_spacing.unwrap_or(0.5 * grid.spacing))
+    }
+
+    /// Returns the number of markers of a body's outline on a grid at that distance of markers (length).
+    pub(super) fn grid_markers(&self, curve: &Curve, name: &str, spacing: f64) -> Result<usize, SetupError> {
         let wanted = curve.perimeter() / spacing;
         let remedy = format!("{name} would have {wanted:.1e} markers, too many to compute. Use a larger spacing");
         let many = wanted.is_nan() || wanted > MARKERS[1];
@@ -352,6 +358,13 @@ impl Setup {
         let mut flow = BoundaryIntegral::new(self.region, self.viscosity, settings)?;
         if !self.walls.is_empty() {
             flow = flow.with_walls(&self.rigid_walls()?)?;
+        }
+        if !self.fibres.is_empty() {
+            let mut radius = f64::INFINITY;
+            for fibre in &self.fibres {
+                radius = radius.min(fibre.shortest_segment(self)?);
+            }
+            flow = flow.with_point_radius(radius)?;
         }
         Ok(Box::new(match self.shortest_perimeter()? {
             Some(perimeter) => flow.with_reference_perimeter(perimeter)?,

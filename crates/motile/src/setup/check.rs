@@ -19,7 +19,7 @@ const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
 /// Least and largest relative accuracy of layers.
 const TOLERANCES: [f64; 2] = [1e-15, 1e-3];
 /// Sum of the forces on bodies in the plane, over the sum of their sizes, up to which it is zero to round-off.
-const BALANCED: f64 = 1e-12;
+pub(super) const BALANCED: f64 = 1e-12;
 
 /// Largest width of a channel over its length by integrals: beyond it hyperbolic functions of their ratio overflow.
 const WIDEST: f64 = 100.0;
@@ -235,6 +235,7 @@ impl Setup {
             ("solids", self.solids.len()),
             ("rigid-bodies", self.rigid_bodies.len()),
             ("shells", self.shells.len()),
+            ("fibres", self.fibres.len()),
             ("gels", self.gels.len()),
             ("walls", self.walls.len()),
             ("interfaces", self.interfaces.len()),

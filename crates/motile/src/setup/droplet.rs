@@ -7,7 +7,7 @@ use motile_base::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    FieldsSetup, GelSetup, Method, MethodKind, NoiseSetup, Setup,
+    FieldsSetup, GelSetup, Method, MethodKind, NoiseSetup, OutlineOrigin, OutlineSetup, Setup,
     body::{BodySetup, Planned},
     checked::Checked,
     method::MARKERS,
@@ -346,6 +346,9 @@ pub enum DropletShape {
     /// The smooth closed curve through points (length), which stays near their polygon
     /// ([`Curve::through_points`], [`Setup::distances_from_points`]).
     Points(Vec<[f64; 2]>),
+    /// An outline from a file or from points: the smooth curve through them, a smoother one that passes them at a
+    /// stated distance, or a polygon with rounded corners.
+    Outline(OutlineSetup),
 }
 
 /// Shape of a squeezed circle.
@@ -367,7 +370,7 @@ impl Default for DropletShape {
 impl DropletShape {
     /// Returns the curve about the origin before it is turned, whether it is to be turned, and the circle that
     /// particles are spread on where that is another curve.
-    pub(super) fn curve(&self) -> Result<(Curve, bool, Option<f64>), InterfaceError> {
+    pub(super) fn curve(&self) -> Result<(Curve, bool, Option<f64>), SetupError> {
         Ok(match self {
             &Self::Round { radius } => (Curve::circle(radius)?, true, None),
             &Self::Squeezed { radius, half_height, to } => {
@@ -383,6 +386,7 @@ impl DropletShape {
                 let points: Vec<Vec2> = points.iter().map(|&[x, y]| Vec2::new(x, y)).collect();
                 (Curve::through_points(&points)?, true, None)
             }
+            Self::Outline(outline) => (outline.curve(OutlineOrigin::Centroid)?, true, None),
         })
     }
 }
@@ -518,6 +522,7 @@ impl DropletShape {
                 checked.amplitudes(&key("modes.sines"), sines)
             }
             Self::Points(points) => check_points(points, checked, &key("points")),
+            Self::Outline(outline) => outline.check(checked, &key("outline"), false),
         }
     }
 }

@@ -1,5 +1,10 @@
 //! Scene files: descriptions in TOML.
 
+use std::path::Path;
+
+use motile_base::internal::Refuse as _;
+use outline_files::bytes_of;
+
 use super::Setup;
 use crate::SetupError;
 
@@ -9,7 +14,9 @@ impl Setup {
 
     /// Reads the description from a TOML text. What you leave out is as in [`Setup::default`] and
     /// [`crate::setup::DropletSetup::default`], but there are no droplets unless you list them. A droplet is active
-    /// unless it says `particles = "none"`. [`Setup::ANNOTATED`] shows every key with its dimension and its default.
+    /// unless it says `particles = "none"`. Files of outlines and meshes are relative to the directory of the program;
+    /// to have them relative to a scene file, use [`Setup::from_file`]. [`Setup::ANNOTATED`] shows every key with its
+    /// dimension and its default.
     ///
     /// ```
     /// use motile::setup::Setup;
@@ -27,13 +34,32 @@ impl Setup {
     /// ([`SetupError::Refused`], with the line), keys of earlier versions, with what to give instead, and what
     /// [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
+        Self::of_text(text, Path::new(""))
+    }
+
+    /// Reads the description of a scene file (TOML) as [`Setup::from_toml`]. Files of outlines and meshes that it names
+    /// are relative to it.
+    ///
+    /// # Errors
+    /// Returns an error for a file that cannot be read, and the errors of [`Setup::from_toml`].
+    pub fn from_file(path: &Path) -> Result<Self, SetupError> {
+        let bytes = bytes_of(path)?;
+        let text = String::from_utf8(bytes).map_err(|_| {
+            let what = format!("the file {} is not text", path.display());
+            SetupError::refused(what, "", "Use a scene file in TOML")
+        })?;
+        Self::of_text(&text, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a description whose files are relative to a directory.
+    fn of_text(text: &str, directory: &Path) -> Result<Self, SetupError> {
         let problem = |error: toml::de::Error| match replaced(text) {
             Some(error) => error,
             None => SetupError::file(error),
         };
         let setup = Self::read(text).map_err(problem)?;
         setup.check()?;
-        Ok(setup)
+        setup.with_files(directory)
     }
 
     /// Reads a description that may break the rules of [`Setup::check`], for programs that change its entries first.

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveInterface, Cortex, InitialConcentration, InterfaceError, Motion, line_through, wave};
+use active_interface::{ActiveInterface, Cortex, InitialConcentration, Motion, line_through, wave};
 use motile_base::{Drive, Region, Vec2};
 use motile_scene::{Body, Scene, gap::Boundary};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AnyFlow, FieldsSetup, GelSetup, MethodKind, Particles, Setup, Start,
+    AnyFlow, FieldsSetup, GelSetup, MethodKind, OutlineOrigin, OutlineSetup, Particles, Setup, Start,
     body::{BodySetup, Planned},
     checked::Checked,
     droplet::{check_points, check_resistance},
@@ -124,6 +124,8 @@ pub enum InterfaceShape {
     /// The smooth curve through points of one period (length), along x or against it, near their polygon; the next
     /// image of the first follows the last.
     Points(Vec<[f64; 2]>),
+    /// A line of one period from a file or from points, through its points or smoother.
+    Line(OutlineSetup),
 }
 
 impl Default for InterfaceSetup {
@@ -161,16 +163,25 @@ impl InterfaceSetup {
         Self { tension, particles: None, ..Self::default() }
     }
 
-    fn markers(&self, advance: f64, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
-        match &self.shape {
-            InterfaceShape::Flat => wave(self.height, advance, &[], &[], count),
-            InterfaceShape::Waves { cosines, sines } => wave(self.height, advance, cosines, sines, count),
+    fn markers(&self, advance: f64, count: usize) -> Result<Vec<Vec2>, SetupError> {
+        Ok(match &self.shape {
+            InterfaceShape::Flat => wave(self.height, advance, &[], &[], count)?,
+            InterfaceShape::Waves { cosines, sines } => wave(self.height, advance, cosines, sines, count)?,
             InterfaceShape::Points(points) => {
                 let up = Vec2::new(0.0, self.height);
                 let points: Vec<Vec2> = points_along(points, advance).into_iter().map(|point| point + up).collect();
-                line_through(&points, advance, count)
+                line_through(&points, advance, count)?
             }
-        }
+            InterfaceShape::Line(outline) => {
+                let up = Vec2::new(0.0, self.height);
+                let mut points = outline.prepared(Some(advance.abs()), OutlineOrigin::File)?.points;
+                if advance < 0.0 {
+                    points.reverse();
+                }
+                points.iter_mut().for_each(|point| *point += up);
+                line_through(&points, advance, count)?
+            }
+        })
     }
 }
 
@@ -296,6 +307,11 @@ impl BodySetup for InterfaceSetup {
                 checked.amplitudes("shape.waves.sines", sines)?;
             }
             InterfaceShape::Points(points) => check_points(points, checked, "shape.points")?,
+            InterfaceShape::Line(outline) => {
+                outline.check(checked, "shape.line", false)?;
+                let remedy = "an interface is smooth. Remove the key, or use smooth";
+                checked.refuse_if(outline.rounding.is_some(), "shape.line.rounding", "given", remedy)?;
+            }
         }
         self.gel.map_or(Ok(()), |gel| gel.check_in_layer(checked, self, setup))?;
         self.fields.check(checked, self.particles.as_ref(), setup)?;

@@ -21,6 +21,7 @@ pub(super) const MARKERS: [f64; 2] = [8.0, IntegralMethod::MOST_ELEMENTS as f64]
 /// | rigid bodies | spectral | spectral | |
 /// | rigid walls of any shape | spectral | | |
 /// | elastic solids | | surface exact, second order | first order, uncorrected |
+/// | fibres | free, in the plane, one viscosity | first order | first order |
 /// | gels | | second order | second order, uncorrected first |
 /// | slip along straight walls | spectral | | as droplets, some cells away |
 /// | friction of the fluid | | | second order, uncorrected first |

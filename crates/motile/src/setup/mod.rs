@@ -6,6 +6,7 @@ mod check;
 mod checked;
 mod droplet;
 mod entries;
+mod fibre;
 mod fields;
 #[cfg(feature = "toml")]
 mod file;
@@ -14,8 +15,10 @@ mod gel;
 mod gel_in_box;
 mod grading;
 mod interface;
+mod mesh_entry;
 mod method;
 mod numbers;
+mod outline;
 mod particles_entry;
 mod places;
 mod rigid_body;
@@ -28,6 +31,7 @@ mod wall;
 
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Particles, Squeezed, Start};
+pub use fibre::{CurvatureWaveSetup, FibreHold, FibreSetup, FibreShape, LoadSetup, TargetSetup, TargetWaveSetup};
 pub use fields::{
     FieldEntry, FieldsSetup, GradientSetup, ModulationSetup, NoiseSetup, SpotSetup, TableSetup, WaveSetup,
 };
@@ -36,8 +40,10 @@ pub use gel::GelSetup;
 pub use gel_in_box::GelInBoxSetup;
 pub use grading::{Axis, Grading};
 pub use interface::{ElasticitySetup, InterfaceSetup, InterfaceShape, Side};
+pub use mesh_entry::{GroupFactor, MeshGroup, MeshSetup};
 pub use method::{GridMethod, GridSolver, IntegralMethod, LayersMethod, Method, MethodKind};
 pub use numbers::Numbers;
+pub use outline::{OutlineOrigin, OutlineReport, OutlineSetup};
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
 pub use solid::{
@@ -135,6 +141,9 @@ pub struct Setup {
     /// Elastic membranes around fluid: shells of nuclei, capsules.
     #[serde(default)]
     pub shells: Vec<ShellSetup>,
+    /// Elastic fibres: beams, hairs, flagella; with a grid or layers, free ones also in the plane.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fibres: Vec<FibreSetup>,
     /// Active polar gels that fill the box, one at most.
     #[serde(default)]
     pub gels: Vec<GelInBoxSetup>,
@@ -172,6 +181,7 @@ impl Default for Setup {
             solids: Vec::new(),
             rigid_bodies: Vec::new(),
             shells: Vec::new(),
+            fibres: Vec::new(),
             gels: Vec::new(),
             interfaces: Vec::new(),
             walls: Vec::new(),
@@ -199,6 +209,7 @@ impl Setup {
         bodies
             .chain(numbered(&self.rigid_bodies))
             .chain(numbered(&self.shells))
+            .chain(numbered(&self.fibres))
             .chain(numbered(&self.gels))
             .chain(numbered(&self.interfaces))
     }

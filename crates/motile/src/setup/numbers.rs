@@ -1,6 +1,7 @@
 //! Dimensionless numbers of droplets.
 
 use active_interface::{InterfaceError, polygon_moments};
+use motile_base::internal::Refuse as _;
 
 use super::{DropletSetup, DropletShape, ExcludedVolume, Particles, Setup, checked::Checked};
 use crate::SetupError;
@@ -127,9 +128,18 @@ impl DropletShape {
                 radius * (1.0 + 0.5 * squares).sqrt()
             }
             Self::Points(_) => {
-                let area = polygon_moments(&self.curve()?.0.markers(CORNERS)?)?.area;
+                let area = polygon_moments(&self.curve().map_err(of_interface)?.0.markers(CORNERS)?)?.area;
                 (area / std::f64::consts::PI).sqrt()
             }
+            Self::Outline(_) => (self.curve().map_err(of_interface)?.0.area() / std::f64::consts::PI).sqrt(),
         })
+    }
+}
+
+/// Returns the error of an interface that says the same.
+fn of_interface(error: SetupError) -> InterfaceError {
+    match error {
+        SetupError::Interface(error) => error,
+        other => InterfaceError::refused("the outline cannot be used", other.to_string(), "Correct the outline"),
     }
 }

@@ -24,9 +24,10 @@ impl Setup {
         if radius.is_some_and(is_unit) { "R_{0}" } else { "" }
     }
 
-    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures: the time in
+    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures. It is the time in
     /// which particles diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's
-    /// shape, `0.1 eta L/gamma`, or the time of the imposed flow; 1 if it has none of these.
+    /// shape, `0.1 eta L/gamma`. Without them, it is the time of the imposed flow, the period of the wave of a fibre, or
+    /// the time in which a fibre straightens; 1 if there is none of these.
     #[must_use]
     pub fn time_scale(&self) -> f64 {
         let length = self.length_scale();
@@ -42,7 +43,8 @@ impl Setup {
             let [x, y] = [0, 1].map(|axis| droplet.body_force[axis] + droplet.force[axis] / area);
             10.0 * self.viscosity / (x.hypot(y) * length)
         };
-        let times = diffusion.chain(relaxation).chain(flow).chain(self.droplets.iter().map(weight));
+        let fibres = self.fibres.iter().map(|fibre| fibre.time(self));
+        let times = diffusion.chain(relaxation).chain(flow).chain(self.droplets.iter().map(weight)).chain(fibres);
         times.map(|time| 0.1 * time).find(|time| time.is_finite() && *time > 0.0).unwrap_or(1.0)
     }
 }

@@ -3,13 +3,13 @@
 use elastic_solids::mesh::TriangleMesh;
 use elastic_solids::{ActiveSprings, Channel, ChannelShape, Maxwell, MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError};
-use motile_base::{Region, Vec2};
+use motile_base::{Region, Vec2, internal::Refuse as _};
 use motile_boundary_integrals::Settings;
 use motile_scene::{MarkerKind, Scene, integrator::IntegratorKind};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AnyFlow, Method, MethodKind, Setup,
+    AnyFlow, MeshSetup, Method, MethodKind, OutlineOrigin, OutlineSetup, Setup,
     body::{BodySetup, Planned},
     checked::Checked,
     grading::Grading,
@@ -174,6 +174,15 @@ pub enum SolidOutline {
     WallBelowPoints(Vec<[f64; 2]>),
     /// The wall from such a line up to the upper rigid wall of the region.
     WallAbovePoints(Vec<[f64; 2]>),
+    /// The wall from the lower rigid wall of the region up to a line from a file or from points, as with
+    /// [`SolidOutline::WallBelowPoints`].
+    WallBelowLine(OutlineSetup),
+    /// The wall from such a line up to the upper rigid wall of the region.
+    WallAboveLine(OutlineSetup),
+    /// A closed outline from a file or from points: the smooth curve through them, a smoother one, or a polygon.
+    Closed(OutlineSetup),
+    /// The mesh of a file or of arrays, in the place of a mesh by motile.
+    Mesh(MeshSetup),
     /// An island of a channel.
     Island {
         /// The channel.
@@ -348,7 +357,13 @@ impl SolidSetup {
     /// * a surface of fewer than 16 points, with layers.
     pub fn on_mesh(&self, mesh: TriangleMesh, setup: &Setup) -> Result<Solid, SetupError> {
         let half = 0.5 * setup.region.lengths()[1];
-        let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
+        let parts = match &self.outline {
+            SolidOutline::Mesh(mesh) => Some(mesh.parts()?),
+            _ => None,
+        };
+        let in_file = |s: Vec2| parts.as_ref().is_some_and(|parts| parts.is_pinned(s));
+        let fixed = |s: Vec2| self.hold == Hold::Pinned && (s.y.abs() > half * (1.0 - 1e-9) || in_file(s));
+        let factor = |s: Vec2| self.grading.factor(s) * parts.as_ref().map_or(1.0, |parts| parts.factor(s));
         let springs = matches!(self.material, Material::Springs { .. });
         let layers = setup.method.kind() == MethodKind::Layers;
         let finer = self.finer_surface.unwrap_or(layers && !springs);
@@ -359,13 +374,13 @@ impl SolidSetup {
             self.check_surface(&mesh, fixed, setup)?;
         }
         let share = mesh.area() / mesh.points().len() as f64;
-        let mut solid = self.at_rest(mesh)?.named(&self.name);
+        let mut solid = self.at_rest(mesh, factor)?.named(&self.name);
         if let Some(SurfaceElasticitySetup { stretching, bending }) = self.surface_elasticity {
             solid = solid.with_surface_elasticity(stretching, bending)?;
         }
         for &MaxwellSetup { modulus, time } in &self.relaxation {
             let times = |s: Vec2| time * self.relaxation_time_grading.factor(s);
-            solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * self.grading.factor(s), times(s)))?;
+            solid = solid.with_maxwell_graded(|s| Maxwell::new(modulus * factor(s), times(s)))?;
         }
         if let Some(excess) = self.viscosity.map(|own| own - setup.viscosity).filter(|excess| *excess > 0.0) {
             solid = solid.with_excess_viscosity(excess)?;
@@ -422,6 +437,9 @@ impl SolidSetup {
     /// Returns the interior of its outline in a region.
     pub(super) fn enclosed(&self, region: &Region) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
+        if let SolidOutline::Mesh(mesh) = &self.outline {
+            return mesh.enclosed();
+        }
         Ok(match self.outline.channel(region)? {
             Some(channel) if self.outline.is_above() => channel.above(0.5 * height)?,
             Some(channel) => channel.below(-0.5 * height)?,
@@ -429,9 +447,8 @@ impl SolidSetup {
         })
     }
 
-    /// Returns the solid on a mesh, at rest and not held.
-    fn at_rest(&self, mesh: TriangleMesh) -> Result<Solid, SolidError> {
-        let factor = |place: Vec2| self.grading.factor(place);
+    /// Returns the solid on a mesh, at rest and not held, with that factor on its moduli.
+    fn at_rest(&self, mesh: TriangleMesh, factor: impl Fn(Vec2) -> f64) -> Result<Solid, SolidError> {
         match self.material {
             Material::Springs { shear } => Solid::springs_graded(mesh, |s| shear * factor(s)),
             Material::FluidLike => Ok(Solid::fluid_like(mesh)),
@@ -458,6 +475,14 @@ impl SolidSetup {
     }
 }
 
+/// Returns an outline with arcs of that radius (length) in the place of its corners, or with its corners.
+fn rounded(outline: Outline, radius: Option<f64>) -> Result<Outline, SolidError> {
+    match radius.filter(|radius| *radius > 0.0) {
+        Some(radius) => outline.rounded(radius),
+        None => Ok(outline),
+    }
+}
+
 impl SolidOutline {
     /// Returns the side of the channel, or the closed outline, for a period along x (length).
     pub(super) fn line(&self, period: f64) -> Result<Outline, SetupError> {
@@ -476,13 +501,29 @@ impl SolidOutline {
                 }
                 Outline::polyline(&points, period)?
             }
+            Self::WallBelowLine(outline) | Self::WallAboveLine(outline) => {
+                let points = outline.prepared(Some(period), OutlineOrigin::File)?.points;
+                rounded(Outline::polyline(&points, period)?, outline.rounding)?
+            }
+            Self::Closed(outline) if outline.rounding.is_some() => {
+                let points = outline.prepared(None, OutlineOrigin::File)?.points;
+                rounded(Outline::polygon(&points)?, outline.rounding)?
+            }
+            Self::Closed(outline) => {
+                let curve = outline.curve(OutlineOrigin::File)?;
+                Outline::closed(move |t| curve.point(t))?
+            }
+            Self::Mesh(_) => {
+                let what = "a rigid wall is a line, but this outline is a mesh";
+                return Err(SetupError::refused(what, "", "Use the outline \"closed\", or an elastic solid"));
+            }
             Self::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
             &Self::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
             &Self::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
             Self::Polygon { corners, rounding } => {
                 let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
                 let outline = Outline::polygon(&corners)?;
-                if *rounding > 0.0 { outline.rounded(*rounding)? } else { outline }
+                rounded(outline, Some(*rounding))?
             }
         })
     }
@@ -494,20 +535,24 @@ impl SolidOutline {
         let level = |y| Outline::flat(-0.5 * period, period, y);
         Ok(Some(match self {
             Self::WallBelow(shape) | Self::WallAbove(shape) => shape.channel(period)?,
-            Self::WallBelowPoints(_) => Channel::new(self.line(period)?, level(0.5 * height)?)?,
-            Self::WallAbovePoints(_) => Channel::new(level(-0.5 * height)?, self.line(period)?)?,
+            Self::WallBelowPoints(_) | Self::WallBelowLine(_) => {
+                Channel::new(self.line(period)?, level(0.5 * height)?)?
+            }
+            Self::WallAbovePoints(_) | Self::WallAboveLine(_) => {
+                Channel::new(level(-0.5 * height)?, self.line(period)?)?
+            }
             _ => return Ok(None),
         }))
     }
 
     /// Returns true of a wall above the fluid.
     pub(super) fn is_above(&self) -> bool {
-        matches!(self, Self::WallAbove(_) | Self::WallAbovePoints(_))
+        matches!(self, Self::WallAbove(_) | Self::WallAbovePoints(_) | Self::WallAboveLine(_))
     }
 
     /// Returns true of a wall that reaches a rigid wall of the region.
     pub(super) fn is_wall(&self) -> bool {
-        self.is_above() || matches!(self, Self::WallBelow(_) | Self::WallBelowPoints(_))
+        self.is_above() || matches!(self, Self::WallBelow(_) | Self::WallBelowPoints(_) | Self::WallBelowLine(_))
     }
 }
 
@@ -563,6 +608,11 @@ impl BodySetup for SolidSetup {
         let boundary = enclosed.boundary(self.mesh_spacing.map_or(grid, |spacing| spacing.min(grid)))?;
         let corners = if enclosed.period().is_none() { boundary.corners().collect() } else { Vec::new() };
         let add = move |scene: &mut Scene<AnyFlow>| {
+            if let SolidOutline::Mesh(mesh) = &self.outline {
+                setup.able(self)?;
+                scene.add(self.on_mesh(mesh.mesh()?, setup)?);
+                return Ok(());
+            }
             let (mesher, [_, height]) = (self.mesher(setup)?, setup.region.lengths());
             let mesh = match self.outline.channel(&setup.region)? {
                 Some(channel) if self.outline.is_above() => channel.upper_wall(0.5 * height, &mesher)?,
@@ -613,6 +663,20 @@ impl BodySetup for SolidSetup {
                     format!("use heights between the rigid walls of the region, at -{0} and {0}", 0.5 * height);
                 points.iter().try_for_each(|[_, y]| checked.require(y.abs() < 0.5 * height, name, *y, &remedy))?;
             }
+            SolidOutline::WallBelowLine(outline) | SolidOutline::WallAboveLine(outline) => {
+                let side = if self.outline.is_above() { "above" } else { "below" };
+                let name = format!("outline.wall-{side}-line");
+                outline.check(checked, &name, true)?;
+                let [length, height] = setup.region.lengths();
+                across(&name, height.max(length))?;
+            }
+            SolidOutline::Closed(outline) => outline.check(checked, "outline.closed", true)?,
+            SolidOutline::Mesh(mesh) => {
+                mesh.check(checked)?;
+                let remedy = "the mesh is given by its outline.mesh. Remove the key";
+                checked.refuse_if(self.mesh != MeshKind::default(), "mesh", "given", remedy)?;
+                checked.refuse_if(self.mesh_spacing.is_some(), "mesh-spacing", "given", remedy)?;
+            }
             SolidOutline::WallBelow(shape)
             | SolidOutline::WallAbove(shape)
             | SolidOutline::Island { of: shape, .. } => {
@@ -654,8 +718,13 @@ impl BodySetup for SolidSetup {
                 }
             }
         }
-        let remedy = "only walls touch the rigid walls of the region, where they can be pinned. Use tethered or free";
-        checked.refuse_if(self.hold == Hold::Pinned && !self.outline.is_wall(), "hold", "pinned", remedy)?;
+        let remedy = "only walls touch the rigid walls of the region, where they can be pinned. Use tethered or \
+                      free, or name groups of lines of its mesh by outline.mesh.pinned";
+        let has_base = matches!(&self.outline, SolidOutline::Mesh(mesh) if !mesh.pinned.is_empty());
+        let loose = self.hold == Hold::Pinned && !self.outline.is_wall() && !has_base;
+        checked.refuse_if(loose, "hold", "pinned", remedy)?;
+        let remedy = "groups of the mesh are pinned, which the hold must say. Use hold = \"pinned\"";
+        checked.refuse_if(self.hold != Hold::Pinned && has_base, "outline.mesh.pinned", "given", remedy)?;
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }

@@ -7,8 +7,8 @@ use super::{DropletShape, InterfaceShape, Setup, Side};
 use crate::SetupError;
 
 impl Setup {
-    /// Returns the keys of all shapes that are given by points, each with the largest distance of its smooth curve from
-    /// the polygon through the points (length).
+    /// Returns the keys of all shapes that are given by points or outlines, each with the largest distance of its
+    /// smooth curve from the polygon through the points (length).
     ///
     /// # Errors
     /// Returns an error for points through which no curve goes.
@@ -35,6 +35,7 @@ impl Setup {
                 distances.push((format!("interfaces[{k}].shape.points"), distance));
             }
         }
+        distances.extend(self.outlines()?.into_iter().map(|outline| (outline.key, outline.distance)));
         Ok(distances)
     }
 }

@@ -144,6 +144,12 @@ impl WallSetup {
         let checked = Checked { place };
         checked.positive("spacing", self.spacing)?;
         checked.not_negative("rounding", self.rounding)?;
+        match &self.outline {
+            SolidOutline::Closed(outline) => outline.check(&checked, "outline.closed", true)?,
+            SolidOutline::WallBelowLine(outline) => outline.check(&checked, "outline.wall-below-line", true)?,
+            SolidOutline::WallAboveLine(outline) => outline.check(&checked, "outline.wall-above-line", true)?,
+            _ => {}
+        }
         let remedy = format!("use a number from 1, for equal distances, to {MOST_GRADING}");
         checked.refuse_if(!(1.0..=MOST_GRADING).contains(&self.grading), "grading", self.grading, remedy)?;
         let region = match setup.region {

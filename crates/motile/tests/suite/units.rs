@@ -27,6 +27,53 @@ method.grid = { spacing = 0.1 }
 particles = { activity = -3.0 }
 "#,
     r#"
+region.channel = { length = 8.0, width = 4.0 }
+method.integral = { nodes = 24, elements = 96 }
+walls = [
+    { outline.wall-below-line = { points = [[0, 0.5], [3, 0.6], [9, 0.4], [13, 0.7]], scale = 0.5, place = [-4.0, -2.0], smooth = 0.05 }, spacing = 0.2 },
+    { outline.closed = { points = [[0, 0], [2, 0], [2, 1], [0, 1]], scale = 0.5, place = [2.5, 0.3], rounding = 0.25 }, spacing = 0.1 },
+]
+[[droplets]]
+shape.outline = { points = [[0, 0], [20, 0], [24, 20], [0, 16]], scale = 0.06, place = [0.1, -0.2], rounding = 0.4 }
+[[rigid-bodies]]
+centre = [-2.5, 0.6]
+shape.outline = { points = [[0, 0], [20, 0], [24, 20], [0, 16]], scale = 0.03, origin.point = [11, 9], smooth = 0.06 }
+"#,
+    r#"
+region.channel = { length = 8.0, width = 5.0 }
+method.grid = { spacing = 0.25, corrected = false }
+[[droplets]]
+centre = [-2.2, 0.0]
+shape.round.radius = 0.7
+[[solids]]
+hold = "free"
+outline.closed = { points = [[0, 0], [20, 0], [24, 20], [0, 16]], scale = 0.05, place = [0.1, -0.5], smooth = 0.1 }
+mesh-spacing = 0.25
+material.springs.shear = 400.0
+[[solids]]
+outline.mesh.points = [[0, 0], [1, 0], [1, 1], [0, 1]]
+outline.mesh.triangles = [[0, 1, 2], [0, 2, 3]]
+outline.mesh.scale = 0.75
+outline.mesh.place = [2.2, 0.1]
+outline.mesh.groups = [{ name = "a", members = [1] }]
+outline.mesh.factors = [{ group = "a", factor = 2.5 }]
+hold = "free"
+material.neo-hookean = { shear = 500.0, bulk = 900.0 }
+[[solids]]
+outline.wall-above-line = { points = [[0, -8], [30, -7]], scale = 0.1, place = [-4.0, 2.5], smooth = 0.05 }
+material.springs.shear = 400.0
+[[solids]]
+outline.wall-below-line = { points = [[0, 8], [30, 7], [60, 9]], scale = 0.1, place = [-4.0, -2.5], rounding = 0.2 }
+material.springs.shear = 400.0
+"#,
+    r#"
+region.channel = { length = 8.0, width = 5.0 }
+method.integral = { nodes = 32, elements = 64 }
+[[interfaces]]
+height = 0.3
+shape.line = { points = [[0, 0], [20, 3], [50, -2]], scale = 0.1, place = [-4.0, 0.1], smooth = 0.05 }
+"#,
+    r#"
 region = "plane"
 viscosity = 1.0
 least-gap = 0.001
@@ -71,6 +118,21 @@ centre = [3.5, 0.8]
 shape.points = [[0.3, 0], [0.25, 0.2], [0, 0.3], [-0.2, 0.2], [-0.3, 0], [-0.2, -0.2], [0, -0.3], [0.25, -0.2]]
 force = [0.5, -0.2]
 torque = 0.2
+"#,
+    r#"
+region.channel = { length = 8.0, width = 4.0, drive = { flux = 0.25 }, slip = 0.1 }
+viscosity = 50.0
+method.integral = { nodes = 24, elements = 96 }
+[[droplets]]
+centre = [0.2, 0.3]
+[[rigid-bodies]]
+centre = [3.5, 0.8]
+shape.ellipse.half-axes = [0.4, 0.3]
+velocity = [0.2, -0.1]
+angular-velocity = 0.3
+[[rigid-bodies]]
+held = true
+centre = [-2.8, -0.8]
 "#,
     r#"
 region.channel = { length = 8.0, width = 4.0, drive = { gradient = -2.0 } }
@@ -296,6 +358,50 @@ gel.material = { frank = 2.0, bend = 3.0, spontaneous-splay = -4.0, activity = -
 [[solids]]
 outline.wall-below.constriction = { width = 4.0, throat = 3.4, throat-length = 1.5, ramp = 1.0, exit-ramp = 2.0 }
 material.springs.shear = 400.0
+"#,
+    r#"
+region.channel = { length = 4.0, width = 2.0, drive = { gradient = -0.5 } }
+viscosity = 1.0
+method.grid.spacing = 0.125
+[[fibres]]
+shape.line = { from = [0.0, -1.0], to = [0.1, -0.25] }
+spacing = 0.1
+stretching = 20.0
+bending = 0.05
+rest-length = 0.8
+reference-curvature = 0.5
+ends = ["clamped", "free"]
+wave = { amplitude = 1.0, wave-number = 3.0, frequency = 4.0, phase = 0.3 }
+targets = [{ nodes = [2, 4], stiffness = 3.0, offset = [0.1, 0.05], velocity = [0.1, -0.1], wave = { displacement = [0.1, 0.05], wave-number = 2.0, frequency = 5.0, phase = 0.1 } }]
+loads = [{ force = [0.2, -0.1] }]
+[[fibres]]
+shape.arc = { from = [1.0, 0.1], angle = 0.4, length = 0.7, curvature = 1.5 }
+stretching = 20.0
+bending = 0.05
+ends = ["pinned", "free"]
+[[fibres]]
+shape.points = [[-1.0, 0.2], [-0.9, 0.21], [-0.8, 0.23]]
+stretching = 20.0
+bending = 0.05
+[[fibres]]
+shape.closed-points = [[-1.0, -0.2], [-0.9, -0.21], [-0.9, -0.3], [-1.0, -0.33]]
+stretching = 20.0
+bending = 0.05
+[[fibres]]
+shape.across.height = 0.6
+stretching = 20.0
+bending = 0.05
+"#,
+    r#"
+region = "plane"
+viscosity = 2.0
+method.integral = { nodes = 24, elements = 48 }
+flow.shear = 0.7
+[[fibres]]
+shape.arc = { from = [1.0, 0.1], angle = 0.4, length = 0.7, curvature = 1.5 }
+stretching = 20.0
+bending = 0.05
+reference-curvature = 0.0
 "#,
     r#"
 region.channel = { length = 8.0, width = 5.0 }

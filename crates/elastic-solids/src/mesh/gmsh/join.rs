@@ -22,7 +22,7 @@ pub(super) fn join_ends(points: &[Vec2], triangles: &[[usize; 3]], period: f64) 
 }
 
 /// Returns the index of the first point that coincides with each point, modulo the period if there is one.
-pub(super) fn first_of_same(points: &[Vec2], triangles: &[[usize; 3]], period: Option<f64>) -> Vec<usize> {
+pub(in crate::mesh) fn first_of_same(points: &[Vec2], triangles: &[[usize; 3]], period: Option<f64>) -> Vec<usize> {
     let edges = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     let shortest = edges.map(|(a, b)| (points[a] - points[b]).length()).fold(f64::INFINITY, f64::min);
     let reach = TOLERANCE * shortest;

@@ -64,6 +64,8 @@ impl SceneRun {
             }
         }
         self.put_bodies(&mut summary)?;
+        // A state whose flow cannot be computed has no forces.
+        let _ = self.put_forces(&mut summary);
         let gaps = [self.scene.system().minimum_gap(), self.gap.smallest().map(|(gap, _)| gap)];
         let least = gaps.into_iter().flatten().reduce(f64::min);
         summary.put("minimum_gap", least, "between bodies and to walls, over the run (length)");
@@ -110,6 +112,41 @@ impl SceneRun {
             for (key, value) in name.iter().flat_map(|_| values) {
                 summary.put(&format!("{}_{key}", name.map_or("", |(name, _)| name)), *value, "at the end");
             }
+        }
+        Ok(())
+    }
+
+    /// Adds the forces of the fluid on droplets and solids that a weight or a force pulls at, on all bodies together,
+    /// and on the walls of a channel, with their balance.
+    fn put_forces(&mut self, summary: &mut Summary) -> Result<()> {
+        if self.region.is_axisymmetric() {
+            return Ok(());
+        }
+        for (name, handle) in self.pulled.iter().take(MOST_BODIES) {
+            let force = self.scene.system_mut().force_on(*handle)?;
+            summary.put(&format!("{name}_force_x"), force.x, "of the fluid on it, at the end (force)");
+            summary.put(&format!("{name}_force_y"), force.y, "of the fluid on it, at the end (force)");
+        }
+        let system = self.scene.system_mut();
+        let force = system.force_on_bodies()?;
+        summary.put("force_bodies_x", force.x, "of the fluid on all bodies, at the end (force)");
+        summary.put("force_bodies_y", force.y, "of the fluid on all bodies, at the end (force)");
+        let Some(forces) = system.channel_forces()? else { return Ok(()) };
+        summary.put("pressure_drop", forces.pressure_drop, "over a period, at the end (stress)");
+        if let Some(extra) = forces.extra_pressure_drop {
+            summary.put("extra_pressure_drop", extra, "over a period, because of the bodies (stress)");
+        }
+        let [lower, upper] = forces.on_walls;
+        summary.put("force_lower", lower, "of the fluid along the lower wall, over a period (force)");
+        summary.put("force_upper", upper, "of the fluid along the upper wall, over a period (force)");
+        if let Some(traction) = system.wall_traction()? {
+            let scale = forces.scale();
+            let balance = if scale > 0.0 { forces.imbalance(traction) / scale } else { 0.0 };
+            summary.put(
+                "force_balance",
+                balance,
+                "pressure drop less forces, from the shear stress on the walls, over the largest",
+            );
         }
         Ok(())
     }

@@ -287,3 +287,51 @@ fn droplets_of_revolution_have_a_volume() {
         assert!((found / (size * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{found}");
     }
 }
+
+/// A post next to a drop that sinks: forces on both, on the walls and along them are in the tables and in the summary,
+/// and balance. A channel without such bodies has the forces on its walls in the summary alone.
+#[test]
+fn a_post_leaves_its_forces() {
+    let directory = directory("a-post");
+    let drop = DropletSetup {
+        particles: None,
+        centre: [-1.5, 0.2],
+        body_force: [1.0, -2.0],
+        name: "heavy drop".to_owned(),
+        ..DropletSetup::default()
+    };
+    let post = RigidBodySetup { held: true, centre: [1.4, -0.3], ..RigidBodySetup::disc(0.5) };
+    let setup = Setup {
+        region: Region::Channel { length: 6.0, width: 4.0, drive: Drive::Flux(0.5) },
+        method: Method::Integral(IntegralMethod { nodes: 48, elements: 96 }),
+        droplets: vec![drop],
+        rigid_bodies: vec![RigidBodySetup { name: "post".to_owned(), ..post }],
+        ..Setup::default()
+    };
+    let mut run = run_of(&setup, 0.02, &output(&directory, true)).unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
+    run.finish(&summary).unwrap();
+    let area = std::f64::consts::PI;
+    let [x, y] = ["heavy_drop_force_x", "heavy_drop_force_y"].map(|name| summary.number(name));
+    assert!((x + area).abs() < 1e-6 && (y - 2.0 * area).abs() < 1e-6, "{x} {y}");
+    let drag = summary.number("post_force_x");
+    assert!((summary.number("force_bodies_x") - x - drag).abs() < 1e-9 * drag && drag > 100.0, "{drag}");
+    let walls = summary.number("force_lower") + summary.number("force_upper");
+    let drop = summary.number("pressure_drop");
+    assert!((4.0 * drop - walls - drag - x).abs() < 1e-9 * drag, "{drop} {walls}");
+    assert!(summary.number("force_balance").abs() < 1e-7);
+    let read = |file: &str| std::fs::read_to_string(directory.join(file)).unwrap();
+    let (forces, shear, bodies) = (read("forces.csv"), read("wall_shear.csv"), read("bodies.csv"));
+    assert!(forces.starts_with("time,force_bodies_x,force_bodies_y,pressure_drop,extra_pressure_drop,force_lower,"));
+    assert!(bodies.lines().next().is_some_and(|names| names.ends_with("force_x,force_y,torque,origin")), "{bodies}");
+    assert!(shear.starts_with("time,x,lower,upper,origin\n") && shear.lines().count() > 2 * WALL_PLACES);
+    std::fs::remove_dir_all(&directory).unwrap();
+
+    let setup = Setup { rigid_bodies: Vec::new(), ..setup };
+    let mut run = run_of(&setup, 0.02, &output(&directory, true)).unwrap();
+    run.go(None).unwrap();
+    assert!(run.summary().unwrap().number("force_balance").abs() < 1e-7);
+    assert!(!directory.join("forces.csv").exists() && !directory.join("wall_shear.csv").exists());
+    std::fs::remove_dir_all(&directory).unwrap();
+}

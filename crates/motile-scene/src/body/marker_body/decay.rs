@@ -17,6 +17,15 @@ const TOLERANCE: f64 = 0.1;
 /// Most markers of which every pair is summed by itself.
 const MOST_PAIRED: usize = 1000;
 
+/// Returns the fastest decay of displacements of markers (1/time) under a law for their forces, as
+/// [`MarkerBody::new`](crate::MarkerBody::new) estimates it. Use it for the step limit of a body that you write.
+///
+/// From positions (length), `law` writes the forces on the fluid (force; zero before the call). It is called at most
+/// thirty times, at places near `positions`. Zero if nothing decays, and without markers.
+pub fn fastest_decay(view: &FluidView, positions: &[Vec2], mut law: impl FnMut(&[Vec2], &mut [Vec2])) -> f64 {
+    if positions.is_empty() { 0.0 } else { Mobility::new(view, positions).fastest_decay(&mut law) }
+}
+
 /// Mobility of markers, from above: forces at the distance r move a marker by `(ln(L/r) + 1)/(4 pi eta)`. Here L is the
 /// smallest width of the domain and r at least the resolution, because forces that differ within it cancel on a grid.
 #[derive(Debug)]

@@ -25,7 +25,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Solves `(C + B M B^T) g = B V(F)` for the stresses g of [`Viscous`] bodies, V being the velocities of the flow for
 /// given forces and `-B^T g` the forces of these stresses. V is affine in the forces, `V(F - f) = V(F) - M f` with a
 /// symmetric and positive M, so that the matrix is symmetric and positive too. These are conjugate gradients with the
-/// bodies' preconditioners.
+/// bodies' preconditioners. If motions are prescribed ([`Viscous::subtract_prescribed`]), they are taken off `B V(F)`.
 #[derive(Debug, Default)]
 pub(super) struct Resistance {
     /// All forces with the present stresses, and their change by the direction (force).
@@ -130,6 +130,15 @@ fn precondition(bodies: &mut Bodies, rates: &mut [f64]) {
     each(bodies, |body, _, own| body.precondition(&mut rates[own]));
 }
 
+/// Returns the refusal of a body that is held in the plane.
+fn held_in_the_plane() -> FlowError {
+    FlowError::unsupported(
+        "a held body in the unbounded plane, where no steady flow around it exists because nothing takes up the force \
+         on it (Stokes' paradox),",
+        "Use a channel or a box, or let the body move freely",
+    )
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -155,7 +164,13 @@ impl Resistance {
         let unbounded =
             !flow.axisymmetric() && view.domain.walls.is_none() && view.domain.periods.iter().all(Option::is_none);
         // Markers on a substrate alone need no balance.
-        self.begin(bodies, count, unbounded && view.shape_modes.is_some());
+        let balanced = unbounded && view.shape_modes.is_some();
+        let mut held = false;
+        each(bodies, |body, _, _| held |= body.is_held());
+        if balanced && held {
+            return Err(held_in_the_plane());
+        }
+        self.begin(bodies, count, balanced);
         // Square of the size of the solution, in the norm of the power of its forces.
         let scale = self.improve(bodies);
         let noise = self.noise(bodies, view.viscosity, flow.axisymmetric());
@@ -223,6 +238,7 @@ impl Resistance {
         each(bodies, |body, _, own| body.write_compliances(&mut self.compliances[own]));
         self.balance.update(bodies, &mut self.change, count, balanced);
         write_rates(bodies, &self.found, &mut self.residual);
+        each(bodies, |body, _, own| body.subtract_prescribed(&mut self.residual[own]));
     }
 
     /// Returns the square of a size, in the norm of the power of forces, that is round-off. Around a droplet at rest,

@@ -1,0 +1,182 @@
+//! Files of outlines, whatever their format.
+
+use std::fs;
+use std::path::Path;
+
+use motile_base::Vec2;
+
+use crate::{OutlineError, csv, geojson, imagej, svg};
+
+/// Most bytes of a file: a device could deliver bytes for ever.
+const MOST_BYTES: u64 = 1 << 28;
+/// Most points of a file, more than any method resolves.
+pub(crate) const MOST_POINTS: usize = 1_000_000;
+/// Most names that a message lists.
+const LISTED: usize = 8;
+
+/// Format of a file of outlines. It is found from the contents, not from the name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileFormat {
+    /// Table of points: columns by commas, semicolons, tabs or spaces, with a header or without. Blank lines separate
+    /// outlines. A first line with the number of points, as in `.vertex` files of IBAMR, is understood.
+    Csv,
+    /// Vector graphics: paths, polygons, rectangles, circles and ellipses.
+    Svg,
+    /// Polygons and lines with their properties.
+    GeoJson,
+    /// Region of interest of ImageJ and Fiji (`.roi`).
+    ImageJ,
+}
+
+/// One outline of a file, as it stands there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contour {
+    /// Name in the file; `None` for one without a name.
+    pub name: Option<String>,
+    /// Its points in order (unit of the file).
+    pub points: Vec<Vec2>,
+    /// False for what the file says is an open line.
+    pub closed: bool,
+}
+
+/// The outlines of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutlineFile {
+    /// Format of the file.
+    pub format: FileFormat,
+    /// Its outlines, in their order in the file.
+    pub contours: Vec<Contour>,
+}
+
+/// Choice of one of the outlines of a file.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Choice {
+    /// The only one; a file of several is refused.
+    #[default]
+    Only,
+    /// The one of this number, from 0.
+    Index(usize),
+    /// The one of this name.
+    Name(String),
+}
+
+impl OutlineFile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// Returns [`OutlineError::Unreadable`] for a file that cannot be opened or has more than 256 MB, and the errors of
+    /// [`OutlineFile::from_bytes`].
+    pub fn read(path: &Path) -> Result<Self, OutlineError> {
+        Self::from_bytes(&bytes_of(path)?)
+    }
+
+    /// Reads the contents of a file, whose format is found from them.
+    ///
+    /// # Errors
+    /// Returns [`OutlineError::Format`] for contents in no format that is known, with the place and the remedy.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, OutlineError> {
+        let remedy = "Use CSV, SVG, GeoJSON or an ImageJ region of interest (.roi)";
+        let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(byte));
+        let Some(start) = start else { return Err(OutlineError::format("the file", "it is empty", remedy)) };
+        let (format, contours) = if bytes.starts_with(b"Iout") {
+            (FileFormat::ImageJ, vec![imagej::read(bytes)?])
+        } else if bytes.starts_with(b"PK") {
+            let remedy = "Unpack it and use one of the .roi files in it";
+            return Err(OutlineError::format("the file", "it is a ZIP archive", remedy));
+        } else {
+            let remedy = "If this is a picture, trace the shape first and save the outline as CSV, SVG or GeoJSON. \
+                          Otherwise save the file as UTF-8 text";
+            let text = std::str::from_utf8(&bytes[start..]).ok().filter(|text| !text.contains('\0'));
+            let text = text.ok_or_else(|| OutlineError::format("the file", "it is not text", remedy))?;
+            match bytes[start] {
+                b'<' => (FileFormat::Svg, svg::read(text)?),
+                b'{' | b'[' => (FileFormat::GeoJson, geojson::read(text)?),
+                _ => (FileFormat::Csv, csv::read(text)?),
+            }
+        };
+        if contours.is_empty() {
+            return Err(OutlineError::format("the file", "it has no outline", remedy));
+        }
+        let file = Self { format, contours };
+        let count: usize = file.contours.iter().map(|contour| contour.points.len()).sum();
+        if count > MOST_POINTS {
+            let problem = format!("it has {count} points, more than {MOST_POINTS}");
+            return Err(OutlineError::format("the file", problem, "Use fewer points"));
+        }
+        Ok(file)
+    }
+
+    /// Returns true if y runs downwards in files of this format, as in pictures.
+    #[must_use]
+    pub fn y_runs_down(&self) -> bool {
+        matches!(self.format, FileFormat::Svg | FileFormat::ImageJ)
+    }
+
+    /// Returns the outline of that choice.
+    ///
+    /// # Errors
+    /// Returns [`OutlineError::Several`] for a file of several of which none is chosen, [`OutlineError::Missing`] for
+    /// a choice that the file does not have. Both list the names.
+    pub fn choose(&self, choice: &Choice) -> Result<&Contour, OutlineError> {
+        let count = self.contours.len();
+        let names = || {
+            let named = self.contours.iter().filter_map(|contour| contour.name.as_deref());
+            let mut names: Vec<String> = named.map(|name| format!("{:?}", crate::error::quoted(name))).collect();
+            if names.len() > LISTED {
+                names.truncate(LISTED);
+                names.push("...".to_owned());
+            }
+            names.join(", ")
+        };
+        let missing = |wanted: String| OutlineError::Missing { wanted, count, names: names() };
+        match choice {
+            Choice::Only if count == 1 => Ok(&self.contours[0]),
+            Choice::Only => Err(OutlineError::Several { count, names: names() }),
+            Choice::Index(index) => self.contours.get(*index).ok_or_else(|| missing(format!("of the index {index}"))),
+            Choice::Name(name) => {
+                let mut found = self.contours.iter().filter(|contour| contour.name.as_ref() == Some(name));
+                let first = found.next().ok_or_else(|| missing(format!("named {name:?}")))?;
+                if found.next().is_some() {
+                    let names = format!("two of them named {name:?}");
+                    return Err(OutlineError::Several { count, names });
+                }
+                Ok(first)
+            }
+        }
+    }
+}
+
+/// Returns the bytes of a file of at most 256 MB.
+///
+/// # Errors
+/// Returns [`OutlineError::Unreadable`] for a file that is not there, cannot be opened or is larger, and for a
+/// directory or device.
+#[inline]
+pub fn bytes_of(path: &Path) -> Result<Vec<u8>, OutlineError> {
+    // So that pages in a browser do not carry readers that they cannot use.
+    if cfg!(target_family = "wasm") {
+        let problem = "there are no files in a browser. Give points instead".to_owned();
+        return Err(OutlineError::Unreadable { path: path.to_owned(), problem });
+    }
+    read_bounded(path)
+}
+
+/// Returns the bytes of a file of bounded size.
+fn read_bounded(path: &Path) -> Result<Vec<u8>, OutlineError> {
+    let unreadable = |problem: String| OutlineError::Unreadable { path: path.to_owned(), problem };
+    let about = fs::metadata(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),
+        _ => unreadable(error.to_string()),
+    })?;
+    if !about.is_file() {
+        return Err(unreadable("this is not a file".to_owned()));
+    }
+    if about.len() > MOST_BYTES {
+        return Err(unreadable(format!("it has {:.1e} bytes, more than {MOST_BYTES:.1e}", about.len() as f64)));
+    }
+    fs::read(path).map_err(|error| unreadable(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! Polygons and lines in GeoJSON (RFC 7946).
+
+use motile_base::Vec2;
+use serde_json::Value;
+
+use crate::error::quoted;
+use crate::{Contour, OutlineError};
+
+const REMEDY: &str = "Use GeoJSON with geometries of the type Polygon, MultiPolygon or LineString";
+/// Deepest collection within a collection.
+const DEEPEST: usize = 16;
+
+/// Returns the outlines of a text.
+pub(crate) fn read(text: &str) -> Result<Vec<Contour>, OutlineError> {
+    let value: Value = serde_json::from_str(text).map_err(|error| {
+        OutlineError::format(format!("line {}", error.line()), error.to_string(), "Save the file as GeoJSON")
+    })?;
+    let mut contours = Vec::new();
+    add(&value, None, 0, &mut contours)?;
+    Ok(contours)
+}
+
+/// Adds the outlines of an object.
+fn add(value: &Value, name: Option<&str>, depth: usize, to: &mut Vec<Contour>) -> Result<(), OutlineError> {
+    if depth > DEEPEST {
+        return Err(OutlineError::format("the file", "its collections are nested too deeply", REMEDY));
+    }
+    // Some programs write a list of features without a collection around them.
+    if let Value::Array(list) = value {
+        return list.iter().try_for_each(|entry| add(entry, name, depth + 1, to));
+    }
+    let entry = |key: &str| value.get(key).unwrap_or(&Value::Null);
+    let kind = entry("type").as_str().unwrap_or_default();
+    match kind {
+        "FeatureCollection" => add(entry("features"), name, depth + 1, to),
+        "GeometryCollection" => add(entry("geometries"), name, depth + 1, to),
+        "Feature" => {
+            let own = entry("properties").get("name").and_then(Value::as_str).or_else(|| entry("id").as_str());
+            add(entry("geometry"), own.or(name), depth + 1, to)
+        }
+        "Polygon" => polygon(entry("coordinates"), name, to),
+        "MultiPolygon" => list(entry("coordinates"))?.iter().try_for_each(|one| polygon(one, name, to)),
+        "LineString" => {
+            to.push(Contour { name: name.map(str::to_owned), points: points(entry("coordinates"))?, closed: false });
+            Ok(())
+        }
+        other => {
+            let problem = format!("the type {:?} is not an outline", quoted(other));
+            Err(OutlineError::format("the file", problem, REMEDY))
+        }
+    }
+}
+
+/// Adds the ring of a polygon.
+fn polygon(rings: &Value, name: Option<&str>, to: &mut Vec<Contour>) -> Result<(), OutlineError> {
+    let rings = list(rings)?;
+    if rings.len() > 1 {
+        let problem = format!("a polygon has {} holes", rings.len() - 1);
+        let remedy = "Remove the holes, or save their rings as polygons of their own";
+        return Err(OutlineError::format("the file", problem, remedy));
+    }
+    for ring in rings {
+        to.push(Contour { name: name.map(str::to_owned), points: points(ring)?, closed: true });
+    }
+    Ok(())
+}
+
+fn list(value: &Value) -> Result<&[Value], OutlineError> {
+    let missing = || OutlineError::format("the file", "a geometry has no list of coordinates", REMEDY);
+    value.as_array().map(Vec::as_slice).ok_or_else(missing)
+}
+
+/// Returns the points of a list of positions.
+fn points(value: &Value) -> Result<Vec<Vec2>, OutlineError> {
+    let positions = list(value)?.iter().enumerate();
+    let point = |(number, position): (usize, &Value)| {
+        let at = |axis: usize| position.get(axis).and_then(Value::as_f64);
+        at(0)
+            .zip(at(1))
+            .map(|(x, y)| Vec2::new(x, y))
+            .ok_or_else(|| OutlineError::format(format!("position {number} of a geometry"), "it is not [x, y]", REMEDY))
+    };
+    positions.map(point).collect()
+}
+
+#[cfg(test)]
+mod tests;

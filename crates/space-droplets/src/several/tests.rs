@@ -1,0 +1,159 @@
+use active_interface::{ConstantTension, ContractileTension, ExcludedVolume};
+use motile_scene::integrator::RungeKuttaChebyshev;
+
+use super::*;
+
+/// A sphere whose tension grows along an axis; its flow outside is that of a dipole.
+fn marangoni(degree: usize, axis: [f64; 3], position: [f64; 3]) -> SpaceDroplet {
+    let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+    let droplet = SpaceDroplet::sphere(degree, 1.0, [1.0, 1.0], law).unwrap();
+    droplet.with_particles(0.1, |s| 1.0 + dot(s, axis)).unwrap().with_position(position).unwrap()
+}
+
+/// With equal viscosities, a sphere moves with the mean of the flow over its volume. The dipole of the other is
+/// harmonic, so the mean is the value at the centre, at any gap.
+#[test]
+fn two_marangoni_spheres_move_at_the_closed_form_at_any_gap() {
+    let (first, second) = ([0.6, 0.0, 0.8], [0.0, -0.8, 0.6]);
+    for gap in [3.0, 0.5, 0.1, 0.01, 0.001] {
+        let direction = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
+        let distance = 2.0 + gap;
+        let place = direction.map(|x| distance * x);
+        let droplets = vec![marangoni(14, first, [0.0; 3]), marangoni(14, second, place)];
+        let mut pair = SpaceDroplets::new(droplets).unwrap();
+        let speed = -1.0 / 15.0;
+        for (k, (own, other)) in [(first, second), (second, first)].into_iter().enumerate() {
+            let velocity = pair.observe(k).unwrap().velocity;
+            for i in 0..3 {
+                let dipole = (3.0 * direction[i] * dot(direction, other) - other[i]) / (2.0 * distance.powi(3));
+                let error = velocity[i] - speed * (own[i] + dipole);
+                assert!(error.abs() < 2e-9, "{gap} {k}: {error:e}");
+            }
+        }
+        assert!((pair.gap(0, 1).unwrap() - gap).abs() < 0.05);
+    }
+}
+
+/// Two deformed drops in general position: the power of the forces of each in the flow of the other is the same, up to
+/// the flow in the gap that the degree leaves out.
+#[test]
+fn close_deformed_droplets_obey_the_reciprocal_theorem() {
+    let error = |degree: usize| {
+        let drop = |position: [f64; 3], turn: usize| {
+            let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+            let shape = |s: [f64; 3]| [1.2 * s[turn % 3], s[(turn + 1) % 3], 0.9 * s[(turn + 2) % 3]];
+            let droplet = SpaceDroplet::shaped(degree, shape, [1.0, 1.0], law).unwrap();
+            let droplet = droplet.with_particles(0.1, |s| 1.0 + s[0] * s[1] - 0.3 * s[2]).unwrap();
+            droplet.with_position(position).unwrap()
+        };
+        let mut pair = SpaceDroplets::new(vec![drop([0.0; 3], 0), drop([1.65, 1.55, 0.3], 1)]).unwrap();
+        let gap = pair.gap(0, 1).unwrap();
+        assert!(gap > 0.09 && gap < 0.13, "{gap}");
+        let mut nodes = sphere_harmonics::Grid::gauss(degree).unwrap();
+        let mut field = vec![0.0; nodes.coefficients()];
+        let [a, b] = [0, 1].map(|k: usize| {
+            let flow = &pair.droplets[k].flow;
+            let mut power = 0.0;
+            for (velocity, force) in flow.external.iter().zip(&flow.forces) {
+                nodes.forward(velocity, &mut field).unwrap();
+                power += field.iter().zip(force).map(|(u, f)| u * f).sum::<f64>();
+            }
+            power
+        });
+        (a / b - 1.0).abs()
+    };
+    let errors = [8, 12, 16].map(error);
+    assert!(errors[2] < 0.05 * errors[0] && errors[2] < 1e-5, "{errors:?}");
+}
+
+/// A repulsion opens a gap, and leaves the centre of two equal drops where it is.
+#[test]
+fn repelled_droplets_separate_without_a_net_force() {
+    let drop = |x: f64| {
+        let law = ConstantTension::new(1.0).unwrap();
+        SpaceDroplet::sphere(8, 1.0, [1.0, 1.0], law).unwrap().with_position([x, 0.1 * x, 0.0]).unwrap()
+    };
+    let pair = SpaceDroplets::new(vec![drop(-1.05), drop(1.05)]).unwrap();
+    let mut pair = pair.with_repulsion(Repulsion::new(2.0, 0.4).unwrap());
+    let before = pair.gap(0, 1).unwrap();
+    let net = |pair: &SpaceDroplets, i: usize| pair.droplets.iter().map(|drop| drop.flow.forces[i][0]).sum::<f64>();
+    let first = pair.droplets[0].flow.forces[0][0];
+    assert!(first < -1e-3 && (0..3).all(|i| net(&pair, i).abs() < 1e-12 * first.abs()), "{first}");
+    pair.advance(0.6, StepSize::Adaptive { tolerance: 1e-3 }, &mut RungeKuttaChebyshev::new(), |_| {}).unwrap();
+    assert!(pair.gap(0, 1).unwrap() > before + 0.02);
+    let [left, right] = [0, 1].map(|k| pair.observe(k).unwrap().position);
+    assert!(left.iter().zip(right).all(|(left, right)| (left + right).abs() < 1e-4), "{left:?} {right:?}");
+}
+
+/// Two viscous spheres far apart: each moves with its own speed and the dipole of the other, up to what the second
+/// reflection leaves out, of the order of the distance to the power -6.
+#[test]
+fn distant_viscous_spheres_move_in_the_dipole_of_each_other() {
+    let axis = [0.6, 0.0, 0.8];
+    let error = |distance: f64| {
+        let drop = |ratio: f64, x: f64| {
+            let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None, 1.0).unwrap();
+            let droplet = SpaceDroplet::sphere(8, 1.0, [ratio, 1.0], law).unwrap();
+            droplet.with_particles(0.1, |s| 1.0 + dot(s, axis)).unwrap().with_position([x, 0.0, 0.0]).unwrap()
+        };
+        let ratios = [10.0, 3.0];
+        let mut pair = SpaceDroplets::new(vec![drop(ratios[0], 0.0), drop(ratios[1], distance)]).unwrap();
+        let own = ratios.map(|ratio| -1.0 / (3.0 * (2.0 + 3.0 * ratio)));
+        let velocity = pair.observe(0).unwrap().velocity;
+        let dipole = |i: usize| (3.0 * if i == 0 { axis[0] } else { 0.0 } - axis[i]) / (2.0 * distance.powi(3));
+        let square = |i: usize| (velocity[i] - own[0] * axis[i] - own[1] * dipole(i)).powi(2);
+        (0..3).map(square).sum::<f64>().sqrt() / own[1].abs()
+    };
+    let errors = [4.0, 8.0].map(error);
+    assert!(errors[0] < 1e-3 && errors[1] < errors[0] / 40.0, "{errors:?}");
+}
+
+/// Close viscous droplets: velocities converge exponentially with the degree, and a common rotation is a rotation.
+#[test]
+fn close_viscous_droplets_converge_with_the_degree() {
+    let pair = |degree: usize, tension: f64, turn: f64| {
+        let drop = |ratio: f64, position: [f64; 3]| {
+            let law = ContractileTension::new(tension, -0.5 * tension, ExcludedVolume::None, 1.0).unwrap();
+            let shape = |s: [f64; 3]| [1.1 * s[0], s[1], 0.9 * s[2]];
+            let droplet = SpaceDroplet::shaped(degree, shape, [ratio, 1.0], law).unwrap();
+            let droplet = droplet.with_particles(0.1, |s| 1.0 + s[1] - 0.3 * s[2] * s[0]).unwrap();
+            let rotation = [[0.0, -turn, 0.0], [turn, 0.0, 0.0], [0.0; 3]];
+            droplet.with_position(position).unwrap().with_imposed_flow(rotation).unwrap()
+        };
+        SpaceDroplets::new(vec![drop(5.0, [0.0; 3]), drop(0.2, [2.0, 0.9, 0.0])]).unwrap()
+    };
+    let velocity = |degree: usize| pair(degree, 1.0, 0.0).observe(0).unwrap().velocity;
+    let [coarse, middle, fine] = [8, 12, 16].map(velocity);
+    let difference = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+    let errors = [difference(coarse, fine), difference(middle, fine)];
+    assert!(errors[1] < 0.2 * errors[0] && errors[1] < 1e-5, "{errors:?}");
+
+    let turning = pair(12, 0.0, 0.5);
+    for droplet in turning.droplets() {
+        let (place, velocity, _) = droplet.at([0.6, 0.8, 0.0]).unwrap();
+        let n = count(12);
+        let place: [f64; 3] = std::array::from_fn(|i| place[i] + droplet.state[4 * n + i]);
+        let exact = [-0.5 * place[1], 0.5 * place[0], 0.0];
+        assert!(difference(velocity, exact) < 1e-6, "{velocity:?} {exact:?}");
+    }
+}
+
+#[test]
+fn droplets_that_overlap_or_are_in_different_fluids_are_refused() {
+    let message = |droplets: Vec<SpaceDroplet>| SpaceDroplets::new(droplets).unwrap_err().to_string();
+    let z = [0.0, 0.0, 1.0];
+    assert!(message(Vec::new()).contains("0 droplets are too few"));
+    let overlapping = message(vec![marangoni(4, z, [0.0; 3]), marangoni(4, z, [1.5, 0.0, 0.0])]);
+    assert!(overlapping.contains("droplets 0 and 1 overlap"), "{overlapping}");
+    let inside = message(vec![marangoni(6, z, [0.0; 3]), marangoni(6, z, [0.1, 0.0, 0.0])]);
+    assert!(inside.contains("droplets 0 and 1 overlap"), "{inside}");
+    let drop = |inside: f64, outside: f64, x: f64| {
+        let law = ConstantTension::new(1.0).unwrap();
+        let drop = SpaceDroplet::sphere(4, 1.0, [inside, outside], law).unwrap();
+        drop.with_position([x, 0.0, 0.0]).unwrap()
+    };
+    assert!(message(vec![drop(1.0, 1.0, 0.0), drop(2.0, 2.0, 4.0)]).contains("another fluid"));
+    let mut pair = SpaceDroplets::new(vec![drop(1.0, 1.0, 0.0), drop(1.0, 1.0, 4.0)]).unwrap();
+    assert!(pair.observe(2).unwrap_err().to_string().contains("There are 2"));
+    assert!(pair.gap(1, 1).is_err());
+}
