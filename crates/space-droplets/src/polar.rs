@@ -1,8 +1,8 @@
 //! The values of fields on a polar grid about a point of the surface.
 //!
 //! For a target at the parameter s0, turn the unit sphere so that s0 is its north pole. Gauss-Legendre points in theta
-//! itself, times uniform points in phi, are a spectral rule there: the area element sin(theta) cancels the singularity
-//! 1/r of a Stokeslet, and what is left is smooth in theta for each phi. The grid is symmetric in theta, so the same
+//! itself, times uniform points in phi, are a spectral rule there. The area element sin(theta) cancels the singularity
+//! 1/r of a Stokeslet, and the rest is smooth in theta for each phi. The grid is symmetric in theta, so the same
 //! points serve the antipode of s0, whose pole is the southern one. Four targets of one row are the lanes of a
 //! [`Lanes`], and their coefficients go through the same products together.
 

@@ -76,6 +76,7 @@ fn swings_across_a_channel_begin_at_a_hopf_point() {
 }
 
 #[test]
+#[ignore = "takes two minutes; .ci/release runs it"]
 fn a_narrow_channel_has_a_fold_beyond_which_no_swimmer_is() {
     let region = Region::Channel { length: 12.0, width: 2.05, drive: Drive::ZeroGradient };
     let start = SteadyState::find(&setup(region, -7.1, 64)).unwrap();
@@ -98,6 +99,7 @@ fn a_narrow_channel_has_a_fold_beyond_which_no_swimmer_is() {
 }
 
 #[test]
+#[ignore = "takes a minute; .ci/release runs it"]
 fn a_long_step_does_not_pass_over_a_branch_point() {
     // In width 2 another antisymmetric mode is next to zero growth at both ends of the step; 128 nodes find 74.66.
     let region = Region::Channel { length: 71.6, width: 2.0, drive: Drive::ZeroGradient };
