@@ -219,7 +219,7 @@ fn resumed_runs_are_those_without_a_break() {
     for file in ["trajectory.csv", "bodies.csv"] {
         let [whole, rest] = [&whole, &rest].map(|out| fs::read_to_string(Path::new(out).join(file)).unwrap());
         // The origin in the first row names the command, which is another one.
-        let rows = |text: &str| text.lines().map(|row| row.split(",\"motile ").next().map(str::to_owned)).collect();
+        let rows = |text: &str| text.lines().map(|row| row.split(",motile ").next().map(str::to_owned)).collect();
         let [whole, rest]: [Vec<Option<String>>; 2] = [rows(&whole), rows(&rest)];
         assert!(whole.len() > 100 && whole == rest, "{file}");
     }

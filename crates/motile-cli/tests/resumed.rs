@@ -52,7 +52,7 @@ fn results(out: &Path) -> Vec<String> {
 
 /// Text of a result without the command in its origin, which names the folder.
 fn without_command(text: &str) -> String {
-    let Some((before, rest)) = text.split_once(", command: ") else { panic!("no command in the origin") };
+    let Some((before, rest)) = text.split_once("; command: ") else { panic!("no command in the origin") };
     let end = rest.find(['"', '\n']).expect("the end of the origin");
     format!("{before}{}", &rest[end..])
 }

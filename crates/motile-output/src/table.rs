@@ -53,7 +53,8 @@ impl CsvTable {
     }
 
     /// Creates a table as [`CsvTable::create`] does. The file holds the origin of the results ([`System::origin`]) in the
-    /// first row of a last column `origin`, unless the origin is empty.
+    /// first row of a last column `origin`, unless the origin is empty. Commas of the origin become semicolons, so that
+    /// programs can read the table that do not know quoted fields.
     ///
     /// # Errors
     /// Returns the errors of [`CsvTable::create`].
@@ -160,10 +161,10 @@ impl CsvTable {
     /// Returns [`OutputError::Count`], [`OutputError::Write`].
     pub fn push(&mut self, row: &[f64]) -> Result<(), OutputError> {
         OutputError::check_count("values of a row", row.len(), self.names.len())?;
-        // The text is a quoted field (RFC 4180).
+        // Without what has a meaning in such files: not all programs that read them know quoted fields.
         let origin = match (self.origin.as_str(), self.rows.len()) {
             ("", _) => String::new(),
-            (text, 0) => format!(",\"{}\"", text.replace('"', "\"\"")),
+            (text, 0) => format!(",{}", text.replace(',', ";").replace('"', "'").replace('#', " ")),
             _ => ",".to_owned(),
         };
         writeln!(self.file, "{}{origin}", Self::line(row)).map_err(OutputError::writing(&self.path))?;

@@ -55,7 +55,7 @@ pub(super) fn gradients() -> Result<Vec<Table>> {
     ];
     for swimmer in swimmers {
         let (name, _, activity, inside, cortex) = swimmer;
-        for (slope, count) in [(0.002, 48), (0.02, 48), (0.02, 96)] {
+        for (slope, count) in [(0.002, 96), (0.02, 48), (0.02, 96)] {
             table.measure(format_args!("{name} | {activity} | {inside} | {cortex} | {slope} | {count}"), || {
                 let [before, after] = headings(&swimmer, slope, count)?;
                 let rate = (after - before) / (TIMES[1] - TIMES[0]);

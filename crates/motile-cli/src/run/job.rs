@@ -75,7 +75,7 @@ impl Job {
         // The time step may change on the way.
         let description = format!("{name}: scene {}", setup.fingerprint());
         output.checkpoints.resume(scene, &description, end)?;
-        scene.system_mut().set_origin(format!("{}, command: {}", setup.origin(), command()));
+        scene.system_mut().set_origin(format!("{}; command: {}", setup.origin(), command()));
         let (directory, output) = (output.directory(name)?, output.clone());
         let lock = File::open(&directory)?;
         if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {

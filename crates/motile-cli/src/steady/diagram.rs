@@ -163,7 +163,7 @@ struct Diagram<'a> {
 
 impl<'a> Diagram<'a> {
     fn new(flags: &'a DiagramSettings, setup: &Setup) -> Result<Self> {
-        let origin = format!("{}, command: {}", setup.origin(), command());
+        let origin = format!("{}; command: {}", setup.origin(), command());
         let names: Vec<&str> = COLUMNS.into_iter().chain(flags.observables.iter().map(String::as_str)).collect();
         let open = |name: &str, names: &[&str], resume: bool| {
             let path = flags.out.join(name);

@@ -62,7 +62,7 @@ pub fn solve(setup: &Setup, wanted: Wanted, out: &Path) -> Result<()> {
     summary.put("growth_rates", rates, "of the leading modes (1/T); all are in spectrum.csv");
     summary.put("unstable_modes", spectrum.unstable(), "growing disturbances");
     summary.put("residual", state.residual(), "largest rate of change left (1/T)");
-    let origin = format!("{}, command: {}", setup.origin(), command());
+    let origin = format!("{}; command: {}", setup.origin(), command());
     summary.put(ORIGIN_KEY, origin.as_str(), "of the results");
     summary.put("iterations", state.iterations(), "of Newton's method");
     summary.put("condition", state.condition(), "number of the linear equations");

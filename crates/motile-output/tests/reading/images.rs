@@ -166,8 +166,8 @@ fn files_carry_the_origin_of_their_results() {
     let method = Method::Grid(GridMethod::of_spacing(0.5));
     let setup = Setup { region, method, ..Setup::default() };
     let mut scene = setup.build().expect("a scene").scene;
-    let origin = format!("{}, command: swim --of 'größe'", setup.origin());
-    assert!(origin.starts_with(&format!("motile {}, scene {}", motile::VERSION, setup.fingerprint())));
+    let origin = format!("{}; command: swim --of 'größe'", setup.origin());
+    assert!(origin.starts_with(&format!("motile {}; scene {}", motile::VERSION, setup.fingerprint())));
     scene.system_mut().set_origin(origin.as_str());
     let raster = Raster::of(scene.system(), 0.5).expect("a raster");
     let mut film = Animation::new(Look::default(), raster);

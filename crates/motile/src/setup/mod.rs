@@ -225,7 +225,7 @@ impl Setup {
     /// of results carry it ([`motile_scene::System::origin`]).
     #[must_use]
     pub fn origin(&self) -> String {
-        format!("motile {}, scene {}", motile_scene::VERSION, self.fingerprint())
+        format!("motile {}; scene {}", motile_scene::VERSION, self.fingerprint())
     }
 }
 
