@@ -500,4 +500,4 @@ def test_scenes_pickle_with_state_and_records() -> None:
     with pytest.raises(motile.Error, match="load"):
         pickle.dumps(scene)
     with pytest.raises(motile.Error, match="Send its setup"):
-        pickle.dumps(motile.steady(small(droplets=[motile.droplet(-2)])))
+        pickle.dumps(motile.steady(small(region="plane", droplets=[motile.droplet(-1)])))
