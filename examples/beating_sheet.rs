@@ -3,8 +3,8 @@
 //! `cargo run --release --example beating_sheet` puts a fibre across a periodic box. A wave of curvature travels along
 //! it, as molecular motors make it, and the sheet swims against the wave. Stiff sheets follow the wave; this one lags
 //! behind because of the fluid's resistance. Linear theory gives its amplitude, and Taylor (1951) the speed `w q b^2/2`
-//! for the amplitude b, the wave number q and the frequency w. Here the speed is 17 % below: 5 % is due to the images of
-//! the sheet in the periodic box, and the rest is an error of first order in the grid spacing.
+//! for the amplitude b, the wave number q and the frequency w. Here the speed is 17 % below: 5 % is due to the images
+//! of the sheet in the periodic box, and the rest is an error of first order in the grid spacing.
 
 use std::f64::consts::TAU;
 

@@ -135,8 +135,8 @@ impl SteadyState {
 
     /// Derivatives of speed, stresslet and so on by every number of the setup: a dictionary by observable of
     /// dictionaries by parameter, of which pandas makes a table. With `logarithmic`, relative changes per relative
-    /// change; with `growth`, also the growth rate of the leading mode and, if it oscillates, its frequency. With a list
-    /// of `parameters`, by these alone, in less time.
+    /// change; with `growth`, also the growth rate of the leading mode and, if it oscillates, its frequency. With a
+    /// list of `parameters`, by these alone, in less time.
     #[pyo3(signature = (*, parameters=None, logarithmic=false, growth=false))]
     fn sensitivities<'py>(
         &self,

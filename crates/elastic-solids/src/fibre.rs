@@ -58,7 +58,8 @@ pub enum FibreEnd {
 /// may move ([`Target`]).
 ///
 /// Nodes are points of the flow ([`motile_scene::MarkerKind::Points`]). So a fibre needs a grid or layers with a grid,
-/// and it is as thick as the kernel of the grid. Free fibres in the plane can be regularised Stokeslets. Nodes should be no further apart than the grid spacing, because the fluid leaks between them otherwise.
+/// and it is as thick as the kernel of the grid. Free fibres in the plane can be regularised Stokeslets. Nodes should
+/// be no further apart than the grid spacing, because the fluid leaks between them otherwise.
 ///
 /// A clamped beam under an end force F, against the theory of slender beams, F L^3/(3 B):
 ///

@@ -7,7 +7,8 @@
 //! | results | [`Summary`] (`summary.json` and a table), [`write_results`] of many |
 //! | settings, as flags of a command line | [`OutputFlags`], [`CheckpointFlags`] |
 //!
-//! [`command`] is the command line that results name as their origin; [`explained`] puts an error and its causes in one line.
+//! [`command`] is the command line that results name as their origin; [`explained`] puts an error and its causes in one
+//! line.
 
 mod flags;
 mod job;

@@ -52,9 +52,9 @@ impl CsvTable {
         Self::with_origin(path, names, "")
     }
 
-    /// Creates a table as [`CsvTable::create`] does. The file holds the origin of the results ([`System::origin`]) in the
-    /// first row of a last column `origin`, unless the origin is empty. Commas of the origin become semicolons, so that
-    /// programs can read the table that do not know quoted fields.
+    /// Creates a table as [`CsvTable::create`] does. The file holds the origin of the results ([`System::origin`]) in
+    /// the first row of a last column `origin`, unless the origin is empty. Commas of the origin become semicolons, so
+    /// that programs can read the table that do not know quoted fields.
     ///
     /// # Errors
     /// Returns the errors of [`CsvTable::create`].
@@ -96,8 +96,8 @@ impl CsvTable {
 
     /// Creates a table as by [`CsvTable::create`] for a run of `system`, the first column being the time. The system
     /// keeps the rows as the record `name`, and so do checkpoints. The table of a resumed run begins with the rows so
-    /// far, and the others follow as if the run had not been interrupted. A last column `origin` holds the origin of the
-    /// results ([`System::origin`]) in its first row, unless it is empty.
+    /// far, and the others follow as if the run had not been interrupted. A last column `origin` holds the origin of
+    /// the results ([`System::origin`]) in its first row, unless it is empty.
     ///
     /// # Errors
     /// Returns the errors of [`CsvTable::create`].

@@ -157,8 +157,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     }
 
     /// Returns the slip lengths of the lower and the upper straight wall (length), zero without slip, if the forces on
-    /// these walls follow from the forces on the fluid ([`crate::ChannelForces`]). For this, the walls have to be straight
-    /// and at rest apart from an imposed flow, and nothing else may hold the fluid. By default `None`.
+    /// these walls follow from the forces on the fluid ([`crate::ChannelForces`]). For this, the walls have to be
+    /// straight and at rest apart from an imposed flow, and nothing else may hold the fluid. By default `None`.
     fn wall_slip(&self) -> Option<[f64; 2]> {
         None
     }

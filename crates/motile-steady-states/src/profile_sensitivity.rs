@@ -9,7 +9,7 @@ use crate::{Parameter, SteadyError, SteadyState};
 
 /// Derivatives of the shape and the concentration of a steady state by one parameter of its scene, at its nodes.
 ///
-/// Nodes move along the normals of the curve that the state was found over, so a node is no material point.
+/// Nodes move along the normals of the curve that the state was found over, so a node is not a material point.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ProfileSensitivity {

@@ -14,7 +14,7 @@ const NEAR: f64 = 0.05;
 /// Slowest rate, in units of D/R^2, below which the equations are bordered by their null vectors: at a branch point
 /// of droplets at rest, for example, derivatives along the branch are finite.
 pub(crate) const SINGULAR: f64 = 1e-5;
-/// Part of the size of derivatives by the parameter below which a critical point is no fold.
+/// Part of the size of derivatives by the parameter below which a critical point is not a fold.
 pub(crate) const NO_FOLD: f64 = 1e-5;
 
 /// Derivatives of the observables of a steady state by each parameter of its scene.
@@ -142,7 +142,8 @@ const OBSERVABLES: [&str; 6] = ["speed", "stresslet", "aspect_ratio", "c_max", "
 impl SteadyState {
     /// Returns the derivatives of what is measured by every numeric parameter of the scene, by one solve each with the
     /// factors of Newton's method. Measured are speed, stresslet, aspect ratio, largest and smallest concentration over
-    /// c0 (`c_max` and `c_min`) and perimeter. For states that are not mirror-symmetric, the turning rate is another one.
+    /// c0 (`c_max` and `c_min`) and perimeter. For states that are not mirror-symmetric, the turning rate is another
+    /// one.
     ///
     /// The viscosities inside and outside are parameters each, whether or not the droplet has its own viscosity in the
     /// scene.
@@ -153,8 +154,9 @@ impl SteadyState {
         self.sensitivities_with(&[])
     }
 
-    /// Returns the derivatives of [`SteadyState::sensitivities`], and the derivatives of the growth rates and frequencies
-    /// of some modes of [`SteadyState::spectrum`] (1/time). They are named `growth_rate` and, if the mode oscillates,
+    /// Returns the derivatives of [`SteadyState::sensitivities`], and the derivatives of the growth rates and
+    /// frequencies of some modes of [`SteadyState::spectrum`] (1/time). They are named `growth_rate` and, if the mode
+    /// oscillates,
     /// `frequency` for the first mode, `growth_rate_2` for the second mode, and so on.
     ///
     /// # Errors

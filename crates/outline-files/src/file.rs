@@ -7,7 +7,7 @@ use motile_base::Vec2;
 
 use crate::{OutlineError, csv, geojson, imagej, svg};
 
-/// Most bytes of a file: a device could deliver bytes for ever.
+/// Most bytes of a file: a device delivers bytes without end.
 const MOST_BYTES: u64 = 1 << 28;
 /// Most points of a file, more than any method resolves.
 pub(crate) const MOST_POINTS: usize = 1_000_000;

@@ -1,4 +1,4 @@
-//! What can be measured on a droplet.
+//! Measurements of a droplet.
 
 use nalgebra::Matrix3;
 use sphere_harmonics::{Point, count, evaluate};

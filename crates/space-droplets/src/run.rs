@@ -68,7 +68,7 @@ impl SpaceDroplet {
     }
 }
 
-/// What runs.
+/// State that a run advances: one droplet or several.
 pub(crate) trait Runs: Dynamics {
     /// The time.
     fn time_mut(&mut self) -> &mut f64;

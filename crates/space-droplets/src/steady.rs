@@ -215,8 +215,8 @@ impl SteadyState {
     /// of `cos(order phi)` and functions of theta, fastest first.
     ///
     /// Among them are zeros that say nothing about stability: a translation for the orders 0 and 1, and a turn of the
-    /// swimmer for order 1. How far these are from zero shows how well the degree resolves the swimmer. If the particles
-    /// have a sharp edge, modes lie close together and converge slowly: compare the rates of two degrees.
+    /// swimmer for order 1. How far these are from zero shows how well the degree resolves the swimmer. If the
+    /// particles have a sharp edge, modes lie close together and converge slowly: compare the rates of two degrees.
     ///
     /// # Errors
     /// Returns an error for an order above the degree, or the errors of [`SpaceDroplet::evaluate`].

@@ -24,7 +24,7 @@ pub enum HarmonicsError {
     /// A list of another length than needed.
     #[error("{what} have {found} entries, but the grid or degree needs {expected}")]
     Length {
-        /// What the list holds.
+        /// Contents of the list.
         what: &'static str,
         /// Entries needed.
         expected: usize,

@@ -70,7 +70,7 @@ impl MeshFile {
     ///
     /// # Errors
     /// Returns [`SolidError::Refused`], with the place in the file and the remedy, for contents in no known format and
-    /// for other versions. The same error is for cells that are no triangles, and for points that coincide or do not lie
+    /// for other versions. The same error is for cells other than triangles, and for points that coincide or do not lie
     /// in one plane. Returns the errors of [`TriangleMesh::new`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SolidError> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();

@@ -14,7 +14,7 @@ use crate::run::{ORIGIN_KEY, Summary, command, make_directory, say};
 /// Growth rates in the summary.
 const LEADING: usize = 5;
 
-/// What is computed of a steady state.
+/// Parts of a steady state to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wanted {
     /// The droplet at rest with particles everywhere alike instead of the state that a run settles to.

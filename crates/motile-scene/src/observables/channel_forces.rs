@@ -137,8 +137,8 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Returns the forces along a channel in the present state. It is `None` if there are no straight walls on which
-    /// they are known: outside of channels, behind curved rigid walls, and in a fluid with friction. It is also `None` if
-    /// an interface that is periodic along x separates a sliding or slipping wall from fluid of another viscosity.
+    /// they are known: outside of channels, behind curved rigid walls, and in a fluid with friction. It is also `None`
+    /// if an interface that is periodic along x separates a sliding or slipping wall from fluid of another viscosity.
     ///
     /// # Errors
     /// Returns the errors of [`System::evaluate`].

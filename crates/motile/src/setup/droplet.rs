@@ -49,9 +49,9 @@ pub struct DropletSetup {
     /// Friction xi of the interface with a substrate, of the force `-xi v` per length (force times time per length
     /// squared), v the velocity of the fluid on it.
     pub friction: f64,
-    /// Force on the fluid inside per area (force per length squared), in three dimensions per volume. For example, it is
-    /// the weight: density minus density of the fluid around it, times g. In the plane it is refused, because nothing
-    /// holds a fluid that is pushed.
+    /// Force on the fluid inside per area (force per length squared), in three dimensions per volume. For example, it
+    /// is the weight: density minus density of the fluid around it, times g. In the plane it is refused, because
+    /// nothing holds a fluid that is pushed.
     #[doc(alias("gravity", "buoyancy", "sedimentation"))]
     pub body_force: [f64; 2],
     /// Force on the fluid inside in all (force), uniform over its area. It adds to `body_force`. In the plane, the

@@ -24,10 +24,10 @@ impl Setup {
         if radius.is_some_and(is_unit) { "R_{0}" } else { "" }
     }
 
-    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures. It is the time in
-    /// which particles diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's
-    /// shape, `0.1 eta L/gamma`. Without them, it is the time of the imposed flow, the period of the wave of a fibre, or
-    /// the time in which a fibre straightens; 1 if there is none of these.
+    /// Returns the time that the scene is about, a tenth of which is a fair interval between pictures. It is the time
+    /// in which particles diffuse over the length scale L, `0.1 L^2/D`, or in which the tension restores a droplet's
+    /// shape, `0.1 eta L/gamma`. Without them, it is the time of the imposed flow, the period of the wave of a fibre,
+    /// or the time in which a fibre straightens; 1 if there is none of these.
     #[must_use]
     pub fn time_scale(&self) -> f64 {
         let length = self.length_scale();

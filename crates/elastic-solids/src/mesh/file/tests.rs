@@ -1,4 +1,4 @@
-//! The same mesh in every format, and files gone wrong.
+//! One mesh in every format, and damaged files.
 
 use std::collections::BTreeMap;
 
